@@ -1,0 +1,29 @@
+# What `cmake --install` brings: the headers, the library's four variants, lqgen where it was built, and the
+# package that find_package(tinylqg) finds.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+# Headers alone: all that unrolled controllers need.
+add_library(tinylqg_headers INTERFACE)
+add_library(tinylqg::headers ALIAS tinylqg_headers)
+set_target_properties(tinylqg_headers PROPERTIES EXPORT_NAME headers)
+target_include_directories(tinylqg_headers INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+
+set(targets tinylqg_headers tinylqg tinylqg_double tinylqg_fused tinylqg_double_fused)
+if(LQG_BUILD_CODEGEN)
+  list(APPEND targets lqgen)
+endif()
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tinylqg)
+
+install(DIRECTORY include/lqg DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(TARGETS ${targets} EXPORT tinylqg)
+install(EXPORT tinylqg NAMESPACE tinylqg:: FILE tinylqgTargets.cmake DESTINATION ${package_dir})
+
+configure_package_config_file(codegen/cmake/tinylqgConfig.cmake.in tinylqgConfig.cmake
+                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(tinylqgConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/tinylqgConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/tinylqgConfigVersion.cmake
+              codegen/cmake/LqgAddController.cmake
+        DESTINATION ${package_dir})

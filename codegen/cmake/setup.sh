@@ -1,0 +1,86 @@
+# For bash scripts, to be sourced: the set-up that test/run.sh and the demos have in common. It stops with a
+# reason when it cannot.
+#
+#   lqg_install_packages              what lqgen needs: installed on Debian and Ubuntu, named elsewhere
+#   lqg_install <Debian package>…     the same for more
+#   lqg_configure <folder> <option>…  cmake on the whole project, with CC and CXX
+#   lqg_compile <folder> <option>…    on all processors
+
+lqg_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+# CC alone names the C++ compiler, too.
+if [ -n "${CC:-}" ] && [ -z "${CXX:-}" ]; then
+  case $CC in
+    *clang*) export CXX=${CC/clang/clang++} ;;
+    *gcc*) export CXX=${CC/gcc/g++} ;;
+  esac
+fi
+
+lqg_stop() {
+  echo "$1" >&2
+  exit 1
+}
+
+lqg_has_command() { command -v "$1" >/dev/null 2>&1; }
+
+# Whether the C++ compiler finds a header. Debian keeps Eigen in a folder of its own.
+lqg_has_header() {
+  echo "#include <$1>" | "${CXX:-c++}" -std=c++17 -I/usr/include/eigen3 -fsyntax-only -x c++ - >/dev/null 2>&1
+}
+
+# apt-get as root, by sudo if need be; fails where there is neither.
+lqg_apt_get() {
+  if [ "$(id -u)" = 0 ]; then
+    DEBIAN_FRONTEND=noninteractive apt-get "$@"
+  elif lqg_has_command sudo && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
+    sudo DEBIAN_FRONTEND=noninteractive apt-get "$@"
+  else
+    return 1
+  fi
+}
+
+lqg_install() {
+  [ $# -gt 0 ] || return 0
+  if lqg_has_command apt-get; then
+    echo "Installing $*"
+    { lqg_apt_get -q update && lqg_apt_get -q install -y --no-install-recommends "$@"; } ||
+      lqg_stop "Could not install these packages; please do it as root:  apt-get install $*"
+  else
+    lqg_stop "Please install what Debian calls: $*
+Fedora:  dnf install cmake gcc-c++ make eigen3-devel boost-devel mpfr-devel gmp-devel tomlplusplus-devel \\
+           cli11-devel json-devel
+Arch:    pacman -S cmake gcc make eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json
+macOS:   brew install cmake eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json"
+  fi
+}
+
+lqg_install_packages() {
+  local missing=()
+  lqg_has_command cmake || missing+=(cmake)
+  lqg_has_command make || missing+=(make)
+  lqg_has_command "${CC:-cc}" || missing+=("${CC:-gcc}")
+  lqg_has_command "${CXX:-c++}" || missing+=("${CC:-g++}")
+  lqg_install "${missing[@]}"
+
+  missing=()
+  lqg_has_header Eigen/Core || missing+=(libeigen3-dev)
+  lqg_has_header boost/multiprecision/mpfr.hpp || missing+=(libboost-dev)
+  lqg_has_header mpfr.h || missing+=(libmpfr-dev)
+  lqg_has_header toml++/toml.h || missing+=(libtomlplusplus-dev)
+  lqg_has_header CLI/CLI.hpp || missing+=(libcli11-dev)
+  lqg_has_header nlohmann/json.hpp || missing+=(nlohmann-json3-dev)
+  lqg_install "${missing[@]}"
+}
+
+lqg_configure() {
+  local folder=$1
+  shift
+  cmake -S "$lqg_root" -B "$folder" "$@" || lqg_stop "CMake could not configure $folder"
+}
+
+lqg_compile() {
+  local folder=$1
+  shift
+  cmake --build "$folder" --parallel "$(getconf _NPROCESSORS_ONLN)" "$@" ||
+    lqg_stop "The build in $folder failed"
+}

@@ -1,0 +1,225 @@
+#include "design/checks.hpp"
+
+#include <cstdio>
+
+#include "design/factor.hpp"
+#include "design/modes.hpp"
+#include "design/rounding.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// Parts that are rounding beside the rest are left out, so that the text does not depend on the digits.
+std::string short_complex(const ComplexReal& value, const Real& scale) {
+  const Real size = std::max<Real>(hypot(value.re, value.im), scale) * 1e-14;
+  const double re = abs(value.re) <= size ? 0 : to_double(value.re);
+  const double im = abs(value.im) <= size ? 0 : to_double(value.im);
+  if (im == 0) return short_number(re);
+  return (re == 0 ? "±" : short_number(re) + " ± ") + short_number(im) + "j";
+}
+
+std::string name_states(const Plant& plant, const std::vector<Index>& states) {
+  const std::size_t most = 8;
+  std::string text = states.size() == 1 ? "state " : "states ";
+  for (std::size_t i = 0; i < states.size() && i < most; ++i) {
+    const std::size_t state = static_cast<std::size_t>(states[i]);
+    if (i > 0) text += ", ";
+    text += state < plant.states.size() ? plant.states[state].name : "x" + std::to_string(state);
+  }
+  if (states.size() > most) text += " and " + std::to_string(states.size() - most) + " more";
+  return text;
+}
+
+// z = e^(sT)
+ComplexReal sampled_pole(const ComplexReal& s, double sample_time) {
+  const Real size = exp(s.re * sample_time), angle = s.im * sample_time;
+  return {size * cos(angle), size * sin(angle)};
+}
+
+// s = ln(z)/T
+ComplexReal continuous_pole(const ComplexReal& z, double sample_time) {
+  return {log(hypot(z.re, z.im)) / sample_time, atan2(z.im, z.re) / sample_time};
+}
+
+// "the mode at s = 0.5 (z = 1.05127; states angle, rate)"; `value` is an s or a z.
+std::string name_mode(const Plant& plant, const Mode& mode, bool is_continuous) {
+  const double T = plant.sample_time;
+  const std::string states = name_states(plant, mode.states);
+  if (plant.domain == Domain::discrete) return "the mode at z = " + short_complex(mode.value, 1) + " (" + states + ")";
+  const ComplexReal s = is_continuous ? mode.value : continuous_pole(mode.value, T);
+  const ComplexReal z = is_continuous ? sampled_pole(mode.value, T) : mode.value;
+  return "the mode at s = " + short_complex(s, norm(real(plant.A))) + " (z = " + short_complex(z, 1) + "; " + states
+         + ")";
+}
+
+bool is_unstable(const Plant& plant, const Mode& mode) {
+  if (plant.domain == Domain::discrete) return on_or_outside_circle(mode.value);
+  return on_or_right_of_axis(mode.value, norm(real(plant.A)));
+}
+
+std::vector<Mode> unreached_modes_of(const Plant& plant, const RealMatrix& A, const RealMatrix& B) {
+  return plant.domain == Domain::continuous ? unreached_modes(A, B) : unreached_sampled_modes(A, B);
+}
+
+// Do s and r become one pole by sampling: (s − r)T = 2πjk with k ≠ 0, up to what typing rounded numbers explains?
+bool become_one(const ComplexReal& s, const ComplexReal& r, double sample_time) {
+  const Real near = 1e-9;
+  const Real turns = (s.im - r.im) * sample_time / (8 * atan(Real(1)));
+  return abs(turns) > 0.5 && abs(turns - round(turns)) <= near * abs(turns)
+         && abs(s.re - r.re) * sample_time <= near * abs(turns);
+}
+
+// Unstable modes that B reaches in continuous time and does not in the samples. With the numbers of a file no two poles
+// become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is one more pole at s = 0.
+std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B, bool is_held) {
+  std::vector<ComplexReal> merged, poles = eigenvalues(real(plant.A));
+  const std::size_t count = poles.size();
+  if (is_held) poles.push_back({Real(0), Real(0)});
+  for (std::size_t i = 0; i < count; ++i)
+    for (const ComplexReal& other : poles)
+      if (become_one(poles[i], other, plant.sample_time)) merged.push_back(sampled_pole(poles[i], plant.sample_time));
+  std::vector<Mode> lost;
+  if (merged.empty()) return lost;
+  for (const Mode& mode : unreached_sampled_modes(A, B, Real(1e-6)))
+    for (const ComplexReal& z : merged)
+      if (on_or_outside_circle(z) && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
+        lost.push_back({z, mode.states});
+        break;
+      }
+  return lost;
+}
+
+void add_once(Findings& findings, const std::string& key, const std::string& message) {
+  for (const Finding& finding : findings)
+    if (finding.key == key && finding.message == message) return;
+  add_error(findings, key, message);
+}
+
+// The matrix is not positive semidefinite by more than what typing rounded numbers explains.
+bool is_indefinite(const RealMatrix& weight) {
+  return !positive_definite(weight) && least_scaled_eigenvalue(weight) < -1e-9;
+}
+
+RealMatrix joint(const Eigen::MatrixXd& a, const Eigen::MatrixXd& cross, const Eigen::MatrixXd& b) {
+  return above(beside(real(a), real(cross)), beside(real(cross.transpose()), real(b)));
+}
+
+// Errors at `key_a` or `key_b` for one alone, at `key_cross` when only the two together are indefinite.
+void check_joint(const Eigen::MatrixXd& a, const Eigen::MatrixXd& cross, const Eigen::MatrixXd& b,
+                 const std::string& key_a, const std::string& key_cross, const std::string& key_b,
+                 Findings& findings) {
+  const std::string expected = "expected a positive semidefinite matrix, found the eigenvalue ";
+  const std::size_t before = findings.size();
+  for (const auto& [matrix, key] : {std::make_pair(&a, &key_a), std::make_pair(&b, &key_b)})
+    if (is_indefinite(real(*matrix))) {
+      Real least;
+      for (const ComplexReal& value : eigenvalues(real(*matrix))) least = std::min<Real>(least, value.re);
+      add_error(findings, *key, expected + short_number(to_double(least)));
+    }
+  if (findings.size() == before && is_indefinite(joint(a, cross, b)))
+    add_error(findings, key_cross, "with this cross term the weights together are not positive semidefinite");
+}
+
+}  // namespace
+
+void add_error(Findings& findings, const std::string& key, const std::string& message) {
+  findings.push_back({Severity::error, key, message});
+}
+
+void add_note(Findings& findings, const std::string& key, const std::string& message) {
+  findings.push_back({Severity::note, key, message});
+}
+
+void check_kinds(const Problem& problem, Findings& findings) {
+  if (problem.plant.domain == Domain::continuous) return;
+  if (problem.regulator && problem.regulator->cost != Cost::discrete)
+    add_error(findings, "lqr.cost", "expected \"discrete\": the plant is given at its samples only");
+  if (problem.estimator && problem.estimator->noise != Noise::discrete)
+    add_error(findings, "kalman.noise", "expected \"discrete\": the plant is given at its samples only");
+}
+
+void check_definiteness(const Problem& problem, Findings& findings) {
+  if (problem.regulator) {
+    const Regulator& lqr = *problem.regulator;
+    check_joint(lqr.Q, lqr.N, lqr.R, "lqr.Q", "lqr.N", "lqr.R", findings);
+    if (lqr.cost == Cost::continuous && !positive_definite(real(lqr.R)))
+      add_error(findings, "lqr.R", "expected a positive definite matrix: the continuous gain needs its inverse");
+  }
+  if (!problem.estimator) return;
+  const Estimator& kalman = *problem.estimator;
+  check_joint(kalman.W, kalman.Swv, kalman.V, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise",
+              findings);
+  if (!positive_definite(real(kalman.V)))
+    add_error(findings, "kalman.measurement_noise", "expected a positive definite matrix: every output needs some noise");
+  if (kalman.gain == Gain::online && is_indefinite(real(kalman.P0)))
+    add_error(findings, "kalman.initial_covariance", "expected a positive semidefinite matrix");
+}
+
+void check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
+  const Plant& plant = problem.plant;
+  for (const Mode& mode : unreached_modes_of(plant, real(plant.A), real(plant.B)))
+    if (is_unstable(plant, mode))
+      add_once(findings, "plant.B",
+               name_mode(plant, mode, true) + " is reached by no input: the plant is not stabilisable");
+  if (has_error(findings) || plant.domain == Domain::discrete) return;
+  for (const Mode& mode : modes_lost_by_sampling(plant, sampled.A, sampled.B, true))
+    add_once(findings, "plant.sample_time",
+             name_mode(plant, mode, false) + " can be stabilised, but not with inputs that are held this long: "
+                                             "the sample time matches its oscillation");
+}
+
+void check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
+  const Plant& plant = problem.plant;
+  for (const Mode& mode : unreached_modes_of(plant, real(plant.A.transpose()), real(plant.C.transpose())))
+    if (is_unstable(plant, mode))
+      add_once(findings, "plant.C", name_mode(plant, mode, true) + " is seen in no output: the plant is not detectable");
+  if (has_error(findings) || plant.domain == Domain::discrete) return;
+  for (const Mode& mode : modes_lost_by_sampling(plant, sampled.A.transpose(), sampled.C.transpose(), false))
+    add_once(findings, "plant.sample_time",
+             name_mode(plant, mode, false) + " can be seen, but not at these samples: "
+                                             "the sample time matches its oscillation");
+}
+
+// The modes of (A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ) that are not observable: with R > 0 the only ones that cost nothing.
+void check_weights_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
+  const Plant& plant = problem.plant;
+  const bool is_continuous = problem.regulator->cost == Cost::continuous;
+  const SampledCost& cost = *samples.cost;
+  const RealMatrix A = is_continuous ? real(plant.A) : samples.plant.A;
+  const RealMatrix B = is_continuous ? real(plant.B) : samples.plant.B;
+  if (!positive_definite(cost.R)) return;
+  const RealMatrix weighed = *solve(cost.R, cost.N.transpose());
+  const RealMatrix free = A - multiply(B, weighed);
+  const RealMatrix weight = cost.Q - multiply(cost.N, weighed);
+  for (const Mode& mode : is_continuous ? unreached_modes(free.transpose(), weight)
+                                        : unreached_sampled_modes(free.transpose(), weight)) {
+    const bool on_limit = is_continuous ? abs(mode.value.re) <= negligible(0.25) * norm(free) : on_circle(mode.value);
+    if (on_limit)
+      add_once(findings, "lqr.Q", name_mode(plant, mode, is_continuous)
+                                      + " is on the stability limit and carries no weight: no stabilising gain is optimal");
+  }
+}
+
+// The modes of (A − G Swv V⁻¹C, G(W − Swv V⁻¹Swvᵀ)Gᵀ) that are not reached.
+void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
+  const SampledPlant& plant = samples.plant;
+  const SampledNoise& noise = *samples.noise;
+  const RealMatrix told = *solve(noise.V, beside(plant.C, noise.Swv.transpose()));
+  const Index nx = plant.A.rows(), nw = plant.G.cols();
+  const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
+  const RealMatrix own = congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
+  for (const Mode& mode : unreached_sampled_modes(free, own))
+    if (on_circle(mode.value))
+      add_once(findings, "kalman.process_noise",
+               name_mode(problem.plant, mode, false)
+                   + " is on the stability limit and driven by no process noise: no stable steady filter is optimal");
+}
+
+}  // namespace lqg::design

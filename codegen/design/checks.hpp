@@ -1,0 +1,27 @@
+// Is the problem well posed? Each finding names the key and, for a mode, its eigenvalue and the states that take part.
+#pragma once
+
+#include "design/finding.hpp"
+#include "design/linear_algebra.hpp"
+#include "design/problem.hpp"
+#include "design/samples.hpp"
+
+namespace lqg::design {
+
+void add_error(Findings& findings, const std::string& key, const std::string& message);
+void add_note(Findings& findings, const std::string& key, const std::string& message);
+
+// Is the design one that the plant's domain allows, and are weights and covariances (semi)definite?
+void check_kinds(const Problem& problem, Findings& findings);
+void check_definiteness(const Problem& problem, Findings& findings);
+
+// Stabilisable and detectable? Of a continuous plant that is asked of the continuous plant, whose numbers are exact, and
+// then whether sampling has lost it.
+void check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
+void check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
+
+// A mode on the stability limit that carries no weight, or that no process noise drives, has no stabilising solution.
+void check_weights_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
+void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
+
+}  // namespace lqg::design

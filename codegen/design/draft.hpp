@@ -1,0 +1,20 @@
+// One run of the whole design in the digits in force.
+#pragma once
+
+#include "design/linear_algebra.hpp"
+#include "design/solution.hpp"
+
+namespace lqg::design {
+
+// What the numbers of a Solution are before they are settled. Its poles, costs and margins are still empty.
+struct Draft {
+  Solution solution;
+  std::vector<ComplexReal> regulator_poles, estimator_poles;
+  std::optional<Real> cost_per_sample, cost_per_second;
+  Findings findings;  // with an error: the rest is not complete
+};
+
+// `coarser` is a run with fewer digits and without errors to start from, or null.
+Draft draft(const Problem& problem, const Draft* coarser);
+
+}  // namespace lqg::design

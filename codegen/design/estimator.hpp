@@ -1,0 +1,21 @@
+// The steady Kalman filter, and the same filter prepared for the target to carry its covariance.
+#pragma once
+
+#include "design/riccati.hpp"
+#include "design/samples.hpp"
+
+namespace lqg::design {
+
+// The dual Riccati equation: Aᵀ, Cᵀ, GWGᵀ, V, G Swv in the places of A, B, Q, R, N; its X is P_prior, its K is
+// L_predictorᵀ. `start` is P_prior in fewer digits, or empty.
+RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start);
+
+// All of the filter that follows from P_prior; the poles stay empty.
+EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior);
+
+OnlineSolution online_filter(const Estimator& estimator, const Samples& samples);
+
+// Says under the right key why there is no filter.
+void explain_estimator(RiccatiFailure failure, Findings& findings);
+
+}  // namespace lqg::design

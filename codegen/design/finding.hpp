@@ -1,0 +1,25 @@
+// What is wrong with a design, or worth a note, and under which key of the design file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lqg::design {
+
+enum class Severity { note, error };
+
+struct Finding {
+  Severity severity = Severity::error;
+  std::string key;      // as in the design file: "kalman.measurement_noise"
+  std::string message;  // what was expected, what was found
+};
+
+using Findings = std::vector<Finding>;
+
+inline bool has_error(const Findings& findings) {
+  for (const Finding& finding : findings)
+    if (finding.severity == Severity::error) return true;
+  return false;
+}
+
+}  // namespace lqg::design

@@ -1,0 +1,259 @@
+#include "design/margins.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <functional>
+
+#include "design/response.hpp"
+#include "design/rounding.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+using Evaluate = std::function<ComplexMatrix(const Real&)>;  // T at an angle
+using Value = std::function<Real(const ComplexMatrix&)>;     // of T
+using Function = std::function<Real(const Real&)>;           // of an angle
+
+Real pi() { return atan(Real(1)) * 4; }
+
+// Angles in (0, π): as dense around every pole as it is close to the circle, 8 to an octave from both ends.
+std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
+  std::vector<Real> angles;
+  const Real end = pi();
+  Real slowest = Real(1) / 8, fastest = Real(1) / 8;
+  for (const ComplexReal& pole : poles) {
+    if (pole.im < 0) continue;
+    const Real angle = atan2(pole.im, pole.re), width = 1 - hypot(pole.re, pole.im);
+    for (const double step : {-8., -4., -2., -1., -0.5, -0.25, 0., 0.25, 0.5, 1., 2., 4., 8.})
+      angles.push_back(angle + step * width);
+    slowest = std::min<Real>(slowest, hypot(pole.re - 1, pole.im));
+    fastest = std::min<Real>(fastest, hypot(pole.re + 1, pole.im));
+  }
+  const Real ratio = pow(Real(2), Real(1) / 8);
+  for (Real angle = slowest / 16; angle < end / 2; angle *= ratio) angles.push_back(angle);
+  for (Real angle = fastest / 16; angle < end / 2; angle *= ratio) angles.push_back(end - angle);
+  angles.erase(std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
+               angles.end());
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+// A root of f between low and high, where its signs differ: secant steps, halving where they would leave the bracket.
+// The last step is shorter than `fraction` of the bracket.
+Real root_between(const Function& f, Real low, Real high, const Real& fraction) {
+  Real before = low, x = high, at_before = f(low), at_x = f(high);
+  const bool low_is_negative = at_before < 0;
+  const Real shortest = fraction * (high - low);
+  for (int i = 0; i < 200 && abs(x - before) > shortest && !at_x.is_zero(); ++i) {
+    Real next = x - at_x * (x - before) / (at_x - at_before);
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    before = x;
+    at_before = at_x;
+    x = next;
+    at_x = f(x);
+    ((at_x < 0) == low_is_negative ? low : high) = x;
+  }
+  return x;
+}
+
+// The difference quotient of f without its denominator.
+Function slope_of(const Function& f, const Real& step) {
+  return [f, step](const Real& x) { return Real(f(x + step) - f(x - step)); };
+}
+
+// How a margin is searched: roughly first, then exactly. Steps and ends as fractions of the cell.
+struct Fineness {
+  double step, end_of_root, end_of_extremum;
+};
+const Fineness rough = {1e-4, 1e-6, 1e-3}, exact = {1e-16, 1e-25, 1e-13};
+
+struct Search {
+  Evaluate evaluate;
+  std::vector<Real> angles;
+  std::vector<ComplexMatrix> responses;
+};
+
+Search search_with(const Evaluate& evaluate, const std::vector<Real>& angles) {
+  Search search = {evaluate, angles, {}};
+  for (const Real& angle : angles) search.responses.push_back(evaluate(angle));
+  return search;
+}
+
+// A cell of the grid with one root or one maximum in it, and the margin there, found roughly.
+struct Place {
+  Real low, high, margin;
+};
+
+Function at_angle(const Value& value, const Evaluate& evaluate) {
+  return [value, evaluate](const Real& angle) { return value(evaluate(angle)); };
+}
+
+// Where `value` crosses zero: between neighbours of different sign, and on both sides of a dip that passes zero unseen.
+std::vector<Place> crossings(const Search& search, const Value& value, const Value& margin) {
+  std::vector<Place> places;
+  std::vector<Real> values;
+  for (const ComplexMatrix& T : search.responses) values.push_back(value(T));
+  const Function f = at_angle(value, search.evaluate);
+  const auto add = [&](const Real& low, const Real& high) {
+    const Real root = root_between(f, low, high, rough.end_of_root);
+    places.push_back({low, high, margin(search.evaluate(root))});
+  };
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const Real &low = search.angles[i], &high = search.angles[i + 1];
+    if ((values[i] < 0) != (values[i + 1] < 0)) {
+      add(low, high);
+      continue;
+    }
+    const bool dips = i > 0 && i + 2 < values.size() && abs(values[i]) < abs(values[i - 1])
+                      && abs(values[i + 1]) < abs(values[i + 2]);
+    const Function slope = slope_of(f, rough.step * (high - low));
+    if (!dips || (slope(low) < 0) == (slope(high) < 0)) continue;
+    const Real bottom = root_between(slope, low, high, rough.end_of_extremum);
+    if ((f(bottom) < 0) == (values[i] < 0)) continue;
+    add(low, bottom);
+    add(bottom, high);
+  }
+  return places;
+}
+
+bool by_margin(const Place& a, const Place& b) { return a.margin < b.margin; }
+
+struct Outcome {
+  std::optional<Real> least;
+  bool as_expected = true;  // the rough search saw what the exact evaluation found
+};
+
+// Refines the places that may hold the least margin.
+void refine_roots(const std::vector<Place>& places, const Value& value, const Value& margin, const Evaluate& evaluate,
+                  Outcome& outcome) {
+  if (places.empty()) return;
+  const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.01;
+  const Function f = at_angle(value, evaluate);
+  for (const Place& place : places) {
+    if (place.margin > bound) continue;
+    if ((f(place.low) < 0) == (f(place.high) < 0)) {
+      outcome.as_expected = false;
+      continue;
+    }
+    const Real found = margin(evaluate(root_between(f, place.low, place.high, exact.end_of_root)));
+    outcome.as_expected = outcome.as_expected && abs(found - place.margin) <= 1e-3 * found;
+    if (!outcome.least || found < *outcome.least) outcome.least = found;
+  }
+}
+
+// |20 log10(1 − 1/t)|; infinite when a real t asks for no finite factor.
+Real gain_at(const Real& t) {
+  const Real rounding = 1e-20;
+  if (t < -rounding || t > 1 + rounding) return abs(20 * log10(1 - 1 / t));
+  return Real(std::numeric_limits<double>::infinity());
+}
+
+Outcome least_gain(const Search& search, const Evaluate& evaluate) {
+  Outcome outcome;
+  for (Index input = 0; input < search.responses.front().re.rows(); ++input) {
+    const Value value = [input](const ComplexMatrix& T) { return T.im(input, input); };
+    const Value margin = [input](const ComplexMatrix& T) { return gain_at(T.re(input, input)); };
+    for (const Real& end : {Real(0), pi()}) {
+      const Real found = margin(evaluate(end));
+      if (isfinite(found) && (!outcome.least || found < *outcome.least)) outcome.least = found;
+    }
+    std::vector<Place> places = crossings(search, value, margin);
+    places.erase(std::remove_if(places.begin(), places.end(), [](const Place& p) { return !isfinite(p.margin); }),
+                 places.end());
+    refine_roots(places, value, margin, evaluate, outcome);
+  }
+  return outcome;
+}
+
+Outcome least_phase(const Search& search, const Evaluate& evaluate) {
+  Outcome outcome;
+  for (Index input = 0; input < search.responses.front().re.rows(); ++input) {
+    const Value value = [input](const ComplexMatrix& T) { return Real(T.re(input, input) - 0.5); };
+    const Value margin = [input](const ComplexMatrix& T) {
+      return Real(2 * atan2(Real(1), 2 * abs(T.im(input, input))) * 180 / pi());
+    };
+    refine_roots(crossings(search, value, margin), value, margin, evaluate, outcome);
+  }
+  return outcome;
+}
+
+// [Re H, −Im H; Im H, Re H] with H = I/2 − T: the norm of the complex matrix is that of this real one.
+RealMatrix difference(const ComplexMatrix& T) {
+  const RealMatrix re = Real(0.5) * identity(T.re.rows()) - T.re;
+  return above(beside(re, T.im), beside(-T.im, re));
+}
+
+// 1/‖I/2 − T‖, in double: good enough to search.
+Real rough_disk(const ComplexMatrix& T) {
+  const RealMatrix both = difference(T);
+  Eigen::MatrixXd a(both.rows(), both.cols());
+  for (Index i = 0; i < a.size(); ++i) a.data()[i] = to_double(both.data()[i]);
+  const Eigen::MatrixXd square = a.transpose() * a;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square, Eigen::EigenvaluesOnly);
+  return 1 / sqrt(Real(solver.eigenvalues()(a.rows() - 1)));
+}
+
+Real exact_disk(const ComplexMatrix& T) {
+  const RealMatrix both = difference(T);
+  Real largest;
+  for (const ComplexReal& value : eigenvalues(transpose_multiply(both, both)))
+    largest = std::max<Real>(largest, value.re);
+  return 1 / sqrt(largest);
+}
+
+// The cells around the local minima of the rough disk on the grid, each with the grid's value.
+std::vector<Place> disk_places(const Search& search) {
+  std::vector<Place> places;
+  std::vector<Real> sizes;
+  for (const ComplexMatrix& T : search.responses) sizes.push_back(rough_disk(T));
+  for (std::size_t i = 1; i + 1 < sizes.size(); ++i)
+    if (sizes[i] <= sizes[i - 1] && sizes[i] <= sizes[i + 1])
+      places.push_back({search.angles[i - 1], search.angles[i + 1], sizes[i]});
+  return places;
+}
+
+Outcome least_disk(const Search& search, const Evaluate& evaluate) {
+  Outcome outcome;
+  const Function f = at_angle(exact_disk, evaluate);
+  outcome.least = std::min<Real>(f(Real(0)), f(pi()));
+  const std::vector<Place> places = disk_places(search);
+  if (places.empty()) return outcome;
+  const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.1;
+  for (const Place& place : places) {
+    if (place.margin > bound) continue;
+    const Function slope = slope_of(f, exact.step * (place.high - place.low));
+    const bool has_minimum = slope(place.low) < 0 && slope(place.high) > 0;
+    outcome.as_expected = outcome.as_expected && has_minimum;
+    if (!has_minimum) continue;
+    outcome.least = std::min<Real>(*outcome.least, f(root_between(slope, place.low, place.high, exact.end_of_extremum)));
+  }
+  return outcome;
+}
+
+}  // namespace
+
+Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {
+  const Response response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C);
+  const Digits enough(50);
+  const std::vector<Real> angles = search_angles(closed_loop_poles);
+  const Evaluate exactly = [&](const Real& angle) { return response.at(angle); };
+  const Evaluate roughly = [&](const Real& angle) {
+    const Digits few(20);
+    return response.roughly_at(angle);
+  };
+  Margins result;
+  for (const Evaluate& evaluate : {roughly, exactly}) {
+    const Search search = search_with(evaluate, angles);
+    const Outcome gain = least_gain(search, exactly), phase = least_phase(search, exactly);
+    const Outcome disk = least_disk(search, exactly);
+    result = Margins();
+    if (gain.least) result.gain_dB = to_double(*gain.least);
+    if (phase.least) result.phase_deg = to_double(*phase.least);
+    result.disk = to_double(*disk.least);
+    if (gain.as_expected && phase.as_expected && disk.as_expected) break;
+  }
+  return result;
+}
+
+}  // namespace lqg::design

@@ -1,0 +1,22 @@
+// How far the closed loop is from instability, at the plant's inputs.
+#pragma once
+
+#include <optional>
+
+#include "design/open_loop.hpp"
+
+namespace lqg::design {
+
+struct Margins {
+  std::optional<double> gain_dB, phase_deg, disk;
+};
+
+// With T = L(I + L)⁻¹, which has the closed loop's poles, and t = T_ii (the other inputs' loops closed):
+//   gain   where t is real and < 0 or > 1: the factor 1 − 1/t makes the loop oscillate
+//   phase  where Re t = 1/2, the loop's gain is 1: the angle 2 atan(1/|2 Im t|) makes it oscillate
+//   disk   1/max ‖(S − T)/2‖ = 1/max ‖I/2 − T‖
+// The least of all inputs; searched on a grid that follows the poles, refined to the exact place in many digits. Empty
+// where there is no such place.
+Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles);
+
+}  // namespace lqg::design

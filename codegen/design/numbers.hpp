@@ -1,0 +1,71 @@
+// Every matrix of a solution, one after the other.
+#pragma once
+
+#include "design/solution.hpp"
+
+namespace lqg::design {
+
+// Where a number of the solution ends up.
+enum class Place { report, target };
+
+namespace detail {
+
+template <typename A, typename Visit>
+void visit_plant(A& plant, Visit visit) {
+  visit("plant.A", Place::target, plant.A);
+  visit("plant.B", Place::target, plant.B);
+  visit("plant.C", Place::target, plant.C);
+  visit("plant.D", Place::target, plant.D);
+  visit("plant.G", Place::report, plant.G);
+}
+
+template <typename A, typename Visit>
+void visit_regulator(A& regulator, Visit visit) {
+  visit("lqr.Q", Place::report, regulator.cost.Q);
+  visit("lqr.R", Place::report, regulator.cost.R);
+  visit("lqr.N", Place::report, regulator.cost.N);
+  visit("lqr.K", Place::target, regulator.K);
+  visit("lqr.X", Place::report, regulator.X);
+}
+
+template <typename A, typename Visit>
+void visit_estimator(A& estimator, Visit visit) {
+  visit("kalman.W", Place::report, estimator.noise.W);
+  visit("kalman.V", Place::report, estimator.noise.V);
+  visit("kalman.Swv", Place::report, estimator.noise.Swv);
+  visit("kalman.L", Place::target, estimator.L);
+  visit("kalman.M", Place::target, estimator.M);
+  visit("kalman.L_predictor", Place::report, estimator.L_predictor);
+  visit("kalman.P_prior", Place::report, estimator.P_prior);
+  visit("kalman.P_posterior", Place::report, estimator.P_posterior);
+  visit("kalman.S", Place::report, estimator.S);
+}
+
+template <typename A, typename Visit>
+void visit_online(A& online, Visit visit) {
+  visit("kalman.E", Place::target, online.E);
+  visit("kalman.C", Place::target, online.C);
+  visit("kalman.D", Place::target, online.D);
+  visit("kalman.V", Place::target, online.V);
+  visit("kalman.M", Place::target, online.M);
+  visit("kalman.A_free", Place::target, online.A_free);
+  visit("kalman.W", Place::target, online.W);
+  visit("kalman.G", Place::target, online.G);
+  visit("kalman.w", Place::target, online.w);
+  visit("kalman.P0", Place::target, online.P0);
+  visit("kalman.U0", Place::target, online.U0);
+  visit("kalman.D0", Place::target, online.D0);
+}
+
+}  // namespace detail
+
+// visit(name, place, matrix or vector) for every one; `A` is Solution or const Solution.
+template <typename A, typename Visit>
+void for_each_matrix(A& solution, Visit visit) {
+  detail::visit_plant(solution.plant, visit);
+  if (solution.regulator) detail::visit_regulator(*solution.regulator, visit);
+  if (solution.estimator) detail::visit_estimator(*solution.estimator, visit);
+  if (solution.online) detail::visit_online(*solution.online, visit);
+}
+
+}  // namespace lqg::design

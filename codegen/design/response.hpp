@@ -1,0 +1,26 @@
+// The response of a discrete system on the unit circle.
+#pragma once
+
+#include "design/linear_algebra.hpp"
+
+namespace lqg::design {
+
+struct ComplexMatrix {
+  RealMatrix re, im;
+};
+
+// T(z) = C (zI − A)⁻¹ B through the Hessenberg form of A: nx² complex multiply-adds a point.
+class Response {
+ public:
+  Response(RealMatrix A, RealMatrix B, RealMatrix C);
+
+  // At z = e^(j angle) in the digits in force, and in double: some fifty times faster.
+  ComplexMatrix at(const Real& angle) const;
+  ComplexMatrix roughly_at(const Real& angle) const;
+
+ private:
+  RealMatrix A_, B_, C_;
+  Eigen::MatrixXd rough_A_, rough_B_;
+};
+
+}  // namespace lqg::design

@@ -1,0 +1,138 @@
+#include <algorithm>
+
+#include "design/checks.hpp"
+#include "design/draft.hpp"
+#include "design/margins.hpp"
+#include "design/numbers.hpp"
+#include "design/rounding.hpp"
+#include "design/settle.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+const unsigned first_digits = 50, last_digits = 400;
+
+bool same(const Findings& a, const Findings& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Finding& x, const Finding& y) {
+    return x.severity == y.severity && x.key == y.key && x.message == y.message;
+  });
+}
+
+// The matrices and vectors of a solution in their order, as pointers.
+struct Numbers {
+  std::vector<const RealMatrix*> matrices;
+  std::vector<const RealVector*> vectors;
+  void operator()(const char*, Place, const RealMatrix& a) { matrices.push_back(&a); }
+  void operator()(const char*, Place, const RealVector& a) { vectors.push_back(&a); }
+};
+
+bool settle_matrices(const Solution& coarse, Solution& fine, unsigned coarse_digits) {
+  Numbers before;
+  for_each_matrix(coarse, [&](const char* name, Place place, const auto& a) { before(name, place, a); });
+  std::size_t matrix = 0, vector = 0;
+  bool settled = true;
+  for_each_matrix(fine, [&](const char*, Place, auto& a) {
+    if constexpr (std::is_same_v<decltype(a), RealMatrix&>)
+      settled = settle(*before.matrices[matrix++], a, coarse_digits) && settled;
+    else
+      settled = settle(*before.vectors[vector++], a, coarse_digits) && settled;
+  });
+  return settled;
+}
+
+bool settle_optional(const std::optional<Real>& coarse, std::optional<Real>& fine, unsigned coarse_digits) {
+  return !fine || settle(*coarse, *fine, Real(0), coarse_digits);
+}
+
+bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
+  bool settled = settle_matrices(coarse.solution, fine.solution, coarse_digits);
+  settled = settle(coarse.regulator_poles, fine.regulator_poles) && settled;
+  settled = settle(coarse.estimator_poles, fine.estimator_poles) && settled;
+  settled = settle_optional(coarse.cost_per_sample, fine.cost_per_sample, coarse_digits) && settled;
+  return settle_optional(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
+}
+
+Poles sorted_poles(const std::vector<ComplexReal>& values) {
+  Poles poles;
+  for (const ComplexReal& value : values) poles.emplace_back(to_double(value.re), to_double(value.im));
+  const auto size = [](const std::complex<double>& z) { return z.real() * z.real() + z.imag() * z.imag(); };
+  std::stable_sort(poles.begin(), poles.end(), [&](const std::complex<double>& a, const std::complex<double>& b) {
+    if (size(a) != size(b)) return size(a) > size(b);
+    return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
+  });
+  return poles;
+}
+
+// Overflow is an error, a number that becomes zero a note; a variance that must be positive must not become zero.
+template <typename Scalar, typename Round>
+void check_representable(const Solution& solution, const char* scalar, Round round, Place least, Findings& findings) {
+  for_each_matrix(solution, [&](const std::string& name, Place place, const auto& matrix) {
+    if (least == Place::target && place != Place::target) return;
+    bool overflows = false, vanishes = false;
+    for (Index i = 0; i < matrix.size(); ++i) {
+      const Scalar rounded = round(matrix.data()[i]);
+      overflows = overflows || !std::isfinite(rounded);
+      vanishes = vanishes || (rounded == 0 && !matrix.data()[i].is_zero());
+    }
+    const std::string key = name.substr(0, name.find('.'));
+    if (overflows) add_error(findings, key, name + " has an entry too large for " + scalar);
+    const bool divided_by = name == "kalman.V" && place == Place::target;
+    if (vanishes && divided_by) add_error(findings, "kalman.measurement_noise", "a variance is too small for " + std::string(scalar));
+    if (vanishes && !divided_by) add_note(findings, key, name + " has an entry too small for " + scalar + ": it becomes 0");
+  });
+}
+
+void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& findings) {
+  Solution& solution = draft.solution;
+  solution.numerics.digits = digits;
+  std::vector<ComplexReal> poles = draft.regulator_poles;
+  poles.insert(poles.end(), draft.estimator_poles.begin(), draft.estimator_poles.end());
+  solution.loop.poles = sorted_poles(poles);
+  if (solution.regulator) solution.regulator->poles = sorted_poles(draft.regulator_poles);
+  if (solution.estimator) solution.estimator->poles = sorted_poles(draft.estimator_poles);
+  if (draft.cost_per_sample) solution.loop.cost_per_sample = to_double(*draft.cost_per_sample);
+  if (draft.cost_per_second) solution.loop.cost_per_second = to_double(*draft.cost_per_second);
+  if (solution.regulator) {
+    const Margins found = margins(open_loop(problem, solution), poles);
+    solution.loop.gain_margin_dB = found.gain_dB;
+    solution.loop.phase_margin_deg = found.phase_deg;
+    solution.loop.disk_margin = found.disk;
+  }
+  check_representable<double>(solution, "double", to_double, Place::report, findings);
+  if (problem.code.real == Scalar::float32)
+    check_representable<float>(solution, "float", to_float, Place::target, findings);
+}
+
+}  // namespace
+
+std::optional<Solution> solve(const Problem& problem, Findings& findings) {
+  std::optional<Draft> coarse;
+  {
+    const Digits scope(first_digits);
+    check_kinds(problem, findings);
+    check_definiteness(problem, findings);
+    if (has_error(findings)) return std::nullopt;
+    coarse = draft(problem, nullptr);
+  }
+  for (unsigned digits = 2 * first_digits; digits <= last_digits; digits *= 2) {
+    const Digits scope(digits);
+    const bool failed = has_error(coarse->findings);
+    Draft fine = draft(problem, failed ? nullptr : &*coarse);
+    if (failed && same(coarse->findings, fine.findings)) {
+      findings.insert(findings.end(), fine.findings.begin(), fine.findings.end());
+      return std::nullopt;
+    }
+    if (!failed && !has_error(fine.findings) && settle_draft(*coarse, fine, digits / 2)) {
+      finish(problem, fine, digits, findings);
+      if (has_error(findings)) return std::nullopt;
+      return fine.solution;
+    }
+    coarse = std::move(fine);
+  }
+  add_error(findings, "design", "the problem is so ill conditioned that " + std::to_string(last_digits)
+                                    + " digits do not settle it");
+  return std::nullopt;
+}
+
+}  // namespace lqg::design

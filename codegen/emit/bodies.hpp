@@ -1,0 +1,21 @@
+// What stands between the braces of the emitted functions, in either style.
+#pragma once
+
+#include <string>
+
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+// Everything of the header that depends on the style.
+struct Bodies {
+  std::string includes;   // #include lines and checks of options
+  std::string constants;  // definitions that the functions need
+  std::string options;    // of the compiler, for the functions
+  std::string update, control, predict;
+};
+
+Bodies unrolled_bodies(const Controller& controller);
+Bodies compact_bodies(const Controller& controller);
+
+}  // namespace lqg::emit

@@ -1,0 +1,102 @@
+// From the solution in many digits to the constants of a step, rounded once.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "emit/controller.hpp"
+#include "step/model.hpp"
+
+namespace lqg::emit {
+
+inline bool is_zero(const design::RealMatrix& matrix) {
+  return std::all_of(matrix.data(), matrix.data() + matrix.size(), [](const design::Real& x) { return x == 0; });
+}
+
+template <class S, class Round>
+step::Matrix<S> convert(const design::RealMatrix& from, Round round) {
+  step::Matrix<S> to(from.rows(), from.cols());
+  for (int i = 0; i < from.rows(); ++i)
+    for (int j = 0; j < from.cols(); ++j) to(i, j) = round(from(i, j));
+  return to;
+}
+
+template <class S, class Round>
+void convert_online(const Controller& controller, Round round, step::Model<S>& model) {
+  const design::OnlineSolution& online = *controller.solution.online;
+  model.E = convert<S>(online.E, round);
+  model.C = convert<S>(online.C, round);
+  if (!is_zero(online.D)) model.D = convert<S>(online.D, round);
+  if (!is_zero(online.M)) model.M = convert<S>(online.M, round);
+  model.V = convert<S>(online.V, round);
+  model.A_free = convert<S>(online.A_free, round);
+  model.W = convert<S>(online.W, round);
+  model.G = convert<S>(online.G, round);
+  model.w = convert<S>(online.w, round);
+  for (int i = 0; i < model.nx; ++i) {
+    for (int j = 0; j <= i; ++j)
+      if (model.filter == step::Filter::plain) model.P0.push_back(round(online.P0(i, j)));
+    if (model.filter == step::Filter::ud) model.D0.push_back(round(online.D0(i)));
+  }
+  if (model.filter != step::Filter::ud) return;
+  for (int j = 0; j < model.nx; ++j)
+    for (int k = 0; k < j; ++k) model.U0.push_back(round(online.U0(k, j)));
+}
+
+template <class S, class Round>
+void convert_steady(const Controller& controller, Round round, step::Model<S>& model) {
+  const design::EstimatorSolution& estimator = *controller.solution.estimator;
+  model.C = convert<S>(controller.solution.plant.C, round);
+  if (!is_zero(controller.solution.plant.D)) model.D = convert<S>(controller.solution.plant.D, round);
+  if (!is_zero(estimator.M)) model.M = convert<S>(estimator.M, round);
+  model.L = convert<S>(estimator.L, round);
+}
+
+// The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
+// an infinite limit stays infinite.
+inline double limit_of_target(double limit, int inward, bool is_double) {
+  if (is_double || std::isinf(limit)) return limit;
+  const float near = static_cast<float>(limit);
+  const bool outside = inward < 0 ? static_cast<double>(near) > limit : static_cast<double>(near) < limit;
+  return outside ? std::nextafter(near, inward < 0 ? -INFINITY : INFINITY) : near;
+}
+
+template <class S>
+step::Vector<S> convert_limits(const Eigen::VectorXd& from, int inward, bool is_double) {
+  step::Vector<S> to(from.size());
+  for (int i = 0; i < from.size(); ++i) to(i) = S(limit_of_target(from(i), inward, is_double));
+  return to;
+}
+
+// `round` turns a Real into an S.
+template <class S, class Round>
+step::Model<S> model_of(const Controller& controller, Round round) {
+  const design::Solution& solution = controller.solution;
+  step::Model<S> model;
+  model.filter = controller.filter();
+  model.predictor_form = controller.is_predictor();
+  model.nx = controller.nx();
+  model.nu = controller.nu();
+  model.ny = controller.ny();
+  model.A = convert<S>(solution.plant.A, round);
+  model.B = convert<S>(solution.plant.B, round);
+  model.D.resize(model.ny, 0);
+  model.M.resize(model.nx, 0);
+  if (controller.has_filter()) {
+    const Eigen::VectorXd& x0 = controller.problem.estimator->x0;
+    model.x0.resize(model.nx);
+    for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
+    if (solution.online) convert_online(controller, round, model);
+    else convert_steady(controller, round, model);
+  }
+  if (controller.has_regulator()) {
+    model.K = convert<S>(solution.regulator->K, round);
+    if (const auto& limits = controller.problem.limits) {
+      model.u_min = convert_limits<S>(limits->u_min, +1, controller.is_double());
+      model.u_max = convert_limits<S>(limits->u_max, -1, controller.is_double());
+    }
+  }
+  return model;
+}
+
+}  // namespace lqg::emit

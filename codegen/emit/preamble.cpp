@@ -1,0 +1,165 @@
+// The top of the header: what it is, the design in words and numbers, what it costs.
+#include "emit/preamble.hpp"
+
+#include <cmath>
+
+#include "emit/model_of.hpp"
+#include "emit/summary.hpp"
+#include "emit/text.hpp"
+#include "lqg/version.h"
+
+namespace lqg::emit {
+
+namespace {
+
+std::string signals(const char* what, const std::string& array, const std::vector<design::Signal>& signals) {
+  if (signals.empty()) return "";
+  std::string line;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (i) line += ", ";
+    line += array + "[" + std::to_string(i) + "] " + signals[i].name;
+    if (!signals[i].unit.empty()) line += " [" + signals[i].unit + "]";
+  }
+  return " *   " + trace::wrap(what + line, 0, 96) + "\n";
+}
+
+// A wrapped line must go on as a comment.
+std::string as_comment(const std::string& text) {
+  std::string out;
+  for (const char& c : text) {
+    out += c;
+    if (c == '\n' && &c != &text.back()) out += " *       ";
+  }
+  return out;
+}
+
+std::string poles(const design::Poles& poles) {
+  std::string out;
+  for (const std::complex<double>& pole : poles) {
+    if (pole.imag() < 0) continue;  // stands with its conjugate
+    if (!out.empty()) out += ", ";
+    out += rounded(pole.real());
+    if (pole.imag() > 0) out += " ± " + rounded(pole.imag()) + "i";
+  }
+  return out;
+}
+
+std::string plant(const Controller& controller) {
+  const design::SampledPlant& plant = controller.solution.plant;
+  const bool is_double = controller.is_double();
+  std::string out = " *\n * Plant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +
+                    " s:  x⁺ = A x + B u + G w,  y = C x + D u + v\n *\n";
+  out += as_comment(signals("states   ", "x", controller.problem.plant.states));
+  out += as_comment(signals("inputs   ", "u", controller.problem.plant.inputs));
+  if (controller.has_filter()) out += as_comment(signals("outputs  ", "y", controller.problem.plant.outputs));
+  out += " *\n" + matrix_comment("A", plant.A, is_double);
+  if (controller.nu()) out += matrix_comment("B", plant.B, is_double);
+  if (!controller.has_filter()) return out;
+  out += matrix_comment("C", plant.C, is_double);
+  if (controller.nu()) out += matrix_comment("D", plant.D, is_double);
+  return out;
+}
+
+std::string limit(double value, const std::string& sign, bool before) {
+  if (std::isinf(value)) return "";
+  const std::string number = trace::literal(value, true);
+  return before ? number + sign : sign + number;
+}
+
+std::string regulator(const Controller& controller) {
+  if (!controller.has_regulator()) return "";
+  const design::RegulatorSolution& solution = *controller.solution.regulator;
+  std::string out = " *\n * Regulator  u = −K x̂:\n *\n" + matrix_comment("K", solution.K, controller.is_double());
+  out += " *   poles of A − B K: " + poles(solution.poles) + "\n";
+  if (const auto& limits = controller.problem.limits)
+    for (int i = 0; i < controller.nu(); ++i)
+      out += " *   " + limit(limits->u_min(i), " ≤ ", true) + "u[" + std::to_string(i) + "]" +
+             limit(limits->u_max(i), " ≤ ", false) + "\n";
+  return out;
+}
+
+std::string gains(const Controller& controller) {
+  if (!controller.has_filter()) return "";
+  const design::EstimatorSolution& solution = *controller.solution.estimator;
+  return matrix_comment("L", solution.L, controller.is_double()) + " *   poles of A − L_predictor C: " +
+         poles(solution.poles) + "\n";
+}
+
+std::string estimator(const Controller& controller) {
+  if (!controller.has_filter()) return "";
+  const design::EstimatorSolution& solution = *controller.solution.estimator;
+  const bool is_double = controller.is_double();
+  const bool online = controller.solution.online.has_value();
+  std::string out = " *\n * Kalman filter, ";
+  out += controller.is_predictor() ? "predictor form (u[k] is made of the outputs up to y[k−1])"
+                                   : "filter form (u[k] is made of the outputs up to y[k])";
+  out += online ? ",\n * its covariance carried on line as " +
+                      std::string(controller.filter() == step::Filter::ud ? "U diag(d) Uᵀ" : "a lower triangle") +
+                      "; in the steady state, of samples:\n"
+                : ",\n * with its constant gain; of samples:\n";
+  out += " *\n" + matrix_comment("G", controller.solution.plant.G, is_double);
+  out += matrix_comment("W = E[w wᵀ]", solution.noise.W, is_double);
+  out += matrix_comment("V = E[v vᵀ]", solution.noise.V, is_double);
+  if (!is_zero(solution.noise.Swv)) out += matrix_comment("E[w vᵀ]", solution.noise.Swv, is_double);
+  return out + gains(controller);
+}
+
+std::string loop(const Controller& controller) {
+  const design::LoopSolution& loop = controller.solution.loop;
+  std::string out;
+  const auto add = [&](const char* what, const std::optional<double>& value, const char* unit) {
+    if (value) out += " *   " + std::string(what) + rounded(*value) + unit + "\n";
+  };
+  add("gain margin         ", loop.gain_margin_dB, " dB");
+  add("phase margin        ", loop.phase_margin_deg, "°");
+  add("disk margin         ", loop.disk_margin, "");
+  add("cost per sample     ", loop.cost_per_sample, "");
+  add("cost per second     ", loop.cost_per_second, "");
+  return out.empty() ? "" : " *\n * Closed loop, opened at the plant's input:\n *\n" + out;
+}
+
+std::string figures(const Controller& controller) {
+  const Figures& figures = controller.figures;
+  return " *\n * One sample takes " + std::to_string(figures.multiply_adds) + " multiply-adds and " +
+         std::to_string(figures.ram) + " bytes of RAM; on a Cortex-M4F at -O2 about " + std::to_string(figures.flash) +
+         " bytes of\n * flash and " + std::to_string(figures.stack) + " bytes of stack. Style: " +
+         (controller.style == design::Style::compact ? "compact" : "unrolled") + ". Arithmetic: " +
+         (controller.is_fused() ? "fused" : "plain") + ". Digits of the design: " +
+         std::to_string(controller.solution.numerics.digits) + ".\n";
+}
+
+}  // namespace
+
+std::string version() {
+  return std::to_string(LQG_VERSION_MAJOR) + "." + std::to_string(LQG_VERSION_MINOR) + "." +
+         std::to_string(LQG_VERSION_PATCH);
+}
+
+std::string header_format() { return std::to_string(LQG_HEADER_FORMAT); }
+
+std::string provenance(const Controller& controller) {
+  return " * Made by lqgen " + version() + " from " + controller.source.file + " with the SHA-256\n * " +
+         controller.source.sha256 +
+         ".\n * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.\n";
+}
+
+std::string preamble(const Controller& controller) {
+  const design::Problem& problem = controller.problem;
+  return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" + provenance(controller) +
+         plant(controller) + regulator(controller) + estimator(controller) + loop(controller) + figures(controller) +
+         " */\n";
+}
+
+std::string summary(const Controller& controller) {
+  std::string comment = controller.problem.name + "\n" + regulator(controller) + gains(controller) + loop(controller) +
+                        figures(controller), out;
+  for (std::size_t at = 0; at < comment.size();) {
+    const std::size_t end = comment.find('\n', at) + 1;
+    const std::string line = comment.substr(at, end - at);
+    out += line.rfind(" * ", 0) == 0 ? line.substr(3) : line.rfind(" *", 0) == 0 ? line.substr(2) : line;
+    at = end;
+  }
+  return out;
+}
+
+}  // namespace lqg::emit

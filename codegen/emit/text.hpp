@@ -1,0 +1,37 @@
+// Text that becomes C: placeholders, names, matrices.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "emit/controller.hpp"
+#include "trace/print.hpp"
+
+namespace lqg::emit {
+
+using Words = std::map<std::string, std::string>;
+
+// `text` with every {word} replaced by its meaning.
+std::string fill(const std::string& text, const Words& words);
+
+// {name}, {NAME}, {real}, the dimensions and the rest that most templates need.
+Words common_words(const Controller& controller);
+
+std::string upper(std::string text);
+
+// The library's state of the filter: "steady", "plain", "ud".
+std::string filter_name(step::Filter filter);
+
+// The number as the target has it, without the suffix of a literal.
+std::string number(const design::Real& value, bool is_double);
+
+// Rows under each other, columns aligned, for a comment: " * A = [ 1.0  0.5 ]\n *     [ 0.0  1.0 ]\n".
+std::string matrix_comment(const std::string& name, const design::RealMatrix& matrix, bool is_double);
+
+// The values of a C array, row after row: "    0.5f, 1.0f,\n    0.0f, 1.0f\n".
+std::string array_values(const design::RealMatrix& matrix, bool is_double);
+
+// A decimal with four significant digits, for people.
+std::string rounded(double value);
+
+}  // namespace lqg::emit

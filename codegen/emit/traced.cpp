@@ -1,0 +1,255 @@
+#include "emit/traced.hpp"
+
+#include "emit/model_of.hpp"
+#include "emit/rounding.hpp"
+#include "step/loop.hpp"
+#include "trace/expr.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using trace::Condition;
+using trace::Expr;
+using Model = step::Model<Expr>;
+using State = step::State<Expr>;
+using Symbols = step::Vector<Expr>;
+
+const char* status_name(step::Event event) {
+  switch (event) {
+    case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
+    case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
+    case step::Event::input_limited: return "LQG_INPUT_LIMITED";
+    default: return "LQG_STATE_RESET";
+  }
+}
+
+// Hears the names and equations of a step and keeps them in the graph.
+class Recorder {
+ public:
+  Recorder(const Controller& controller, TracedFunction& function) : controller_(controller), function_(function) {}
+
+  void section(const std::string& equation, int output = -1) {
+    if (output < 0) return function_.graph->section(equation, "");
+    const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
+    const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";
+    function_.graph->section("output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation,
+                             "_" + signal.name);
+  }
+  template <class Value>  // Expr or Condition
+  void name(const Value& value, const char* base, int i = -1, int j = -1) {
+    function_.graph->name(value.node, base + index_suffix(i, j, controller_.nx()));
+  }
+  void raise(step::Event event, const Condition& condition) {
+    if (!function_.graph->is_constant(condition.node, 0))
+      function_.statuses.push_back(choice(condition, flag(event), flag_ok()));
+  }
+  // The fault is decided where it is found and asked for afterwards: one comparison on the way of an honest output.
+  Condition accept(const Condition& usable, step::Event reason) { return accept_or(usable, flag(reason)); }
+  Condition accept(const Condition& usable, const Condition& finite, step::Event if_finite, step::Event if_not) {
+    return accept_or(usable, choice(finite, flag(if_finite), flag(if_not)));
+  }
+
+ private:
+  int flag_ok() { return function_.graph->flag("LQG_OK"); }
+  int flag(step::Event event) { return function_.graph->flag(status_name(event)); }
+  int choice(const Condition& condition, int yes, int no) {
+    return function_.graph->make(trace::Op::select, condition.node, yes, no);
+  }
+  Condition accept_or(const Condition& usable, int fault) {
+    const int status = choice(usable, flag_ok(), fault);
+    function_.graph->name(status, "fault");
+    function_.statuses.push_back(status);
+    const int same = function_.graph->make(trace::Op::same, status, flag_ok());
+    function_.graph->name(same, "usable");
+    return {same};
+  }
+
+  const Controller& controller_;
+  TracedFunction& function_;
+};
+
+std::string element(const std::string& array, int i) { return array + "[" + std::to_string(i) + "]"; }
+
+Symbols load(trace::Graph& graph, const std::string& array, const std::string& name, int size) {
+  Symbols symbols(size);
+  for (int i = 0; i < size; ++i)
+    symbols(i) = Expr::of(graph.input(element(array, i), name + index_suffix(i, -1, size)));
+  return symbols;
+}
+
+// Symbols for the entries of the pattern, zeros elsewhere. `place` tells row and column of an entry.
+template <class Place>
+std::vector<Expr> load_pattern(trace::Graph& graph, const std::string& array, const std::string& name, int size,
+                               const std::vector<Expr>& initial, const std::vector<bool>& pattern, std::size_t from,
+                               Place place) {
+  std::vector<Expr> symbols;
+  for (std::size_t k = 0; k < initial.size(); ++k) {
+    if (!pattern[from + k]) {
+      symbols.push_back(Expr(0));
+      continue;
+    }
+    const auto [i, j] = place(static_cast<int>(k));
+    symbols.push_back(Expr::of(graph.input(element(array, static_cast<int>(k)), name + index_suffix(i, j, size))));
+  }
+  return symbols;
+}
+
+std::pair<int, int> place_in_triangle(int k) {
+  int i = 0;
+  while ((i + 1) * (i + 2) / 2 <= k) ++i;
+  return {i, k - i * (i + 1) / 2};
+}
+
+std::pair<int, int> place_in_strict_triangle(int k) {
+  int j = 1;
+  while ((j + 1) * j / 2 <= k) ++j;
+  return {k - j * (j - 1) / 2, j};
+}
+
+State load_state(const Model& model, const std::vector<bool>& pattern) {
+  trace::Graph& graph = trace::graph();
+  State state;
+  state.x = load(graph, "self->x", "x", model.nx);
+  state.P = load_pattern(graph, "self->P", "P", model.nx, model.P0, pattern, 0, place_in_triangle);
+  state.U = load_pattern(graph, "self->U", "U", model.nx, model.U0, pattern, 0, place_in_strict_triangle);
+  state.D = load_pattern(graph, "self->d", "d", model.nx, model.D0, pattern, model.U0.size(),
+                         [](int k) { return std::pair(k, -1); });
+  if (model.D.cols()) state.u = load(graph, "self->u_applied", "u_applied", model.nu);
+  if (model.M.cols()) state.innovation = load(graph, "self->innovation", "kept", model.ny);
+  return state;
+}
+
+void store(TracedFunction& function, const std::string& target, const Expr& value) {
+  const trace::Node& node = function.graph->nodes()[static_cast<std::size_t>(value.node)];
+  if (node.op == trace::Op::input && node.text == target) return;  // as it was
+  function.stores.push_back({target, value.node});
+}
+
+void store_state(TracedFunction& function, const State& state, const std::vector<bool>& pattern) {
+  for (int i = 0; i < state.x.size(); ++i) store(function, element("self->x", i), state.x(i));
+  const auto store_covariance = [&](const char* array, const std::vector<Expr>& values, std::size_t from) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (pattern[from + k]) store(function, element(array, static_cast<int>(k)), values[k]);
+  };
+  store_covariance("self->P", state.P, 0);
+  store_covariance("self->U", state.U, 0);
+  store_covariance("self->d", state.D, state.U.size());
+  for (int i = 0; i < state.u.size(); ++i) store(function, element("self->u_applied", i), state.u(i));
+  for (int i = 0; i < state.innovation.size(); ++i)
+    store(function, element("self->innovation", i), state.innovation(i));
+}
+
+TracedFunction new_function(const Controller& controller) {
+  TracedFunction function;
+  function.graph = std::make_shared<trace::Graph>(trace::Target{controller.is_double(), controller.is_fused()});
+  return function;
+}
+
+Model symbolic_model(const Controller& controller) {
+  return model_of<Expr>(controller, [&](const design::Real& value) {
+    return Expr(rounded_to_target(value, controller.is_double()));
+  });
+}
+
+// Runs `step(model, state, recorder)` on a fresh graph; what it returns is the condition that the state is finite.
+template <class Step>
+TracedFunction trace_step(const Controller& controller, const std::vector<bool>& pattern, Step step) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  State state = load_state(model, pattern);
+  Recorder recorder(controller, function);
+  function.finite = step(model, state, recorder).node;
+  store_state(function, state, pattern);
+  return function;
+}
+
+TracedFunction trace_update(const Controller& controller, const std::vector<bool>& pattern) {
+  return trace_step(controller, pattern, [](const Model& model, State& state, Recorder& recorder) {
+    return step::update(model, state, load(trace::graph(), "y", "y", model.ny), recorder);
+  });
+}
+
+TracedFunction trace_predict(const Controller& controller, const std::vector<bool>& pattern) {
+  return trace_step(controller, pattern, [](const Model& model, State& state, Recorder& recorder) {
+    return step::predict(model, state, load(trace::graph(), "u", "u", model.nu), recorder);
+  });
+}
+
+TracedFunction trace_control(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  Recorder recorder(controller, function);
+  const std::string x = controller.has_filter() ? "self->x" : "x";
+  const Symbols u = step::control(model, load(*function.graph, x, "x", model.nx), recorder);
+  for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
+  for (int i = 0; i < model.D.cols(); ++i) store(function, element("self->u_applied", i), u(i));
+  return function;
+}
+
+std::vector<bool> initial_pattern(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  std::vector<bool> pattern;
+  for (const Expr& entry : model.P0) pattern.push_back(!trace::is_zero(entry));
+  for (const Expr& entry : model.U0) pattern.push_back(!trace::is_zero(entry));
+  pattern.resize(pattern.size() + model.D0.size(), true);
+  return pattern;
+}
+
+// Adds to `pattern` what a step over its entries makes different from 0.
+void grow(std::vector<bool>& pattern, const Controller& controller, bool predicts) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  State state = load_state(model, pattern);
+  Recorder recorder(controller, function);
+  if (predicts) step::predict(model, state, load(*function.graph, "u", "u", model.nu), recorder);
+  else step::update(model, state, load(*function.graph, "y", "y", model.ny), recorder);
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    const Expr& entry = !state.P.empty() ? state.P[k] : k < state.U.size() ? state.U[k] : state.D[k - state.U.size()];
+    if (!trace::is_zero(entry)) pattern[k] = true;
+  }
+}
+
+}  // namespace
+
+std::string index_suffix(int i, int j, int size) {
+  if (i < 0) return "";
+  if (j < 0) return "_" + std::to_string(i);
+  return "_" + std::to_string(i) + (size > 10 ? "_" : "") + std::to_string(j);
+}
+
+std::vector<int> TracedFunction::results() const {
+  std::vector<int> nodes;
+  for (const trace::Store& store : stores) nodes.push_back(store.node);
+  nodes.insert(nodes.end(), statuses.begin(), statuses.end());
+  if (finite >= 0) nodes.push_back(finite);
+  return nodes;
+}
+
+std::vector<bool> covariance_pattern(const Controller& controller) {
+  std::vector<bool> pattern = initial_pattern(controller), before;
+  while (pattern != before && !pattern.empty()) {  // it can only grow
+    before = pattern;
+    grow(pattern, controller, true);
+    grow(pattern, controller, false);
+  }
+  return pattern;
+}
+
+TracedController trace_controller(const Controller& controller) {
+  TracedController traced;
+  if (controller.has_filter()) {
+    const std::vector<bool> pattern = covariance_pattern(controller);
+    traced.update = trace_update(controller, pattern);
+    traced.predict = trace_predict(controller, pattern);
+  }
+  if (controller.has_regulator()) traced.control = trace_control(controller);
+  return traced;
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,239 @@
+#include "emit/vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "emit/model_of.hpp"
+#include "emit/plant_simulation.hpp"
+#include "emit/rounding.hpp"
+#include "step/loop.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using design::Real;
+using step::Fused;
+using step::Vector;
+
+constexpr int sample_count = 200;
+constexpr std::uint64_t seed = 20260101;
+constexpr unsigned reference_digits = 40;  // of the reference of a controller in double
+
+double as_double(double value) { return value; }
+double as_double(float value) { return static_cast<double>(value); }
+double as_double(const Real& value) { return rounded_to_double(value); }
+template <class T>
+double as_double(Fused<T> value) { return static_cast<double>(value.value); }
+
+double to_target(double value, bool is_double) {
+  return is_double ? value : static_cast<double>(static_cast<float>(value));
+}
+
+template <class S>
+Vector<S> vector_of(const std::vector<double>& values) {
+  Vector<S> out(static_cast<Eigen::Index>(values.size()));
+  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = S(values[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+template <class S>
+std::vector<double> doubles(const Vector<S>& values) {
+  std::vector<double> out;
+  for (Eigen::Index i = 0; i < values.size(); ++i) out.push_back(as_double(values(i)));
+  return out;
+}
+
+// P, lower triangle, of either covariance form; empty with a steady gain.
+template <class S>
+std::vector<double> covariance(const step::Model<S>& model, const step::State<S>& state) {
+  std::vector<double> out;
+  for (const S& entry : state.P) out.push_back(as_double(entry));
+  if (model.filter != step::Filter::ud) return out;
+  for (int i = 0; i < model.nx; ++i)
+    for (int j = 0; j <= i; ++j) {
+      S sum = i == j ? state.D[i] : S(state.U[step::strict_triangle(j, i)] * state.D[i]);
+      for (int k = i + 1; k < model.nx; ++k)
+        sum = sum + state.U[step::strict_triangle(j, k)] * state.D[k] * state.U[step::strict_triangle(i, k)];
+      out.push_back(as_double(sum));
+    }
+  return out;
+}
+
+// Feeds recorded outputs and inputs to the step; what it answers goes to `hear`.
+template <class S, class Hear>
+void replay(const step::Model<S>& model, const std::vector<Sample>& inputs, Hear hear) {
+  step::State<S> state = step::initial_state(model);
+  step::Listener listener;
+  for (const Sample& input : inputs) {
+    Vector<S> u(0);
+    if (model.filter == step::Filter::none) {
+      state.x = vector_of<S>(input.y);
+      hear(state, step::control(model, state.x, listener));
+      continue;
+    }
+    const auto act = [&] {
+      if (!model.K.rows()) return;
+      u = step::control(model, state.x, listener);
+      if (model.D.cols()) state.u = u;
+    };
+    if (model.predictor_form) act();
+    step::update(model, state, vector_of<S>(input.y), listener);
+    if (!model.predictor_form) act();
+    hear(state, u);
+    step::predict(model, state, vector_of<S>(input.u), listener);
+  }
+}
+
+// The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
+template <class S>
+std::vector<Sample> simulate(const Controller& controller, const step::Model<S>& model) {
+  PlantSimulation plant(controller, seed);
+  Noise excitation(seed + 1);
+  step::State<S> state = step::initial_state(model);
+  Vector<double> applied = Vector<double>::Zero(model.nu);
+  std::vector<Sample> samples(sample_count);
+  for (Sample& sample : samples) {
+    const auto act = [&] {
+      for (int i = 0; i < model.nu; ++i) applied(i) = excitation.uniform();
+      if (!model.K.rows()) return;
+      step::Listener listener;
+      const Vector<S> u = step::control(model, state.x, listener);
+      if (model.D.cols()) state.u = u;
+      for (int i = 0; i < model.nu; ++i) applied(i) = as_double(u(i));
+    };
+    if (model.predictor_form) act();
+    for (const double y : doubles(plant.measure(applied))) sample.y.push_back(to_target(y, controller.is_double()));
+    step::Listener listener;
+    step::update(model, state, vector_of<S>(sample.y), listener);
+    if (!model.predictor_form) act();
+    for (int i = 0; i < model.nu; ++i) applied(i) = to_target(applied(i), controller.is_double());
+    sample.u = doubles(applied);
+    step::predict(model, state, vector_of<S>(sample.u), listener);
+    plant.advance(applied);
+  }
+  return samples;
+}
+
+template <class S>
+void record_reference(const step::Model<S>& model, std::vector<Sample>& samples, std::vector<std::vector<double>>& u) {
+  std::size_t k = 0;
+  replay(model, std::vector<Sample>(samples), [&](const step::State<S>& state, const Vector<S>& control) {
+    samples[k].x = doubles(state.x);
+    samples[k].P = covariance(model, state);
+    if (model.filter == step::Filter::none) samples[k].u = doubles(control);
+    u.push_back(doubles(control));
+    ++k;
+  });
+}
+
+class Hash {
+ public:
+  explicit Hash(bool is_double) : is_double_(is_double) {}
+  void add(double value) {
+    value += 0.0;  // the sign of a zero does not count
+    if (is_double_) {
+      std::uint64_t bits;
+      std::memcpy(&bits, &value, sizeof bits);
+      add_bits(bits, 8);
+    } else {
+      const float number = static_cast<float>(value);
+      std::uint32_t bits;
+      std::memcpy(&bits, &number, sizeof bits);
+      add_bits(bits, 4);
+    }
+  }
+  std::uint32_t value() const { return hash_; }
+
+ private:
+  void add_bits(std::uint64_t bits, int bytes) {
+    for (int i = 0; i < bytes; ++i) hash_ = (hash_ ^ static_cast<std::uint32_t>(bits >> (8 * i) & 0xff)) * 16777619u;
+  }
+  bool is_double_;
+  std::uint32_t hash_ = 2166136261u;
+};
+
+void widen(std::vector<double>& errors, const std::vector<double>& found, const std::vector<double>& reference) {
+  errors.resize(found.size(), 0);
+  for (std::size_t i = 0; i < found.size(); ++i) errors[i] = std::max(errors[i], std::abs(found[i] - reference[i]));
+}
+
+// A result that came out exactly by luck may still be a rounding off: at least one ulp of the largest value counts.
+void finish(std::vector<double>& errors, const std::vector<double>& largest, bool is_double) {
+  const double unit = is_double ? std::numeric_limits<double>::epsilon()
+                                : static_cast<double>(std::numeric_limits<float>::epsilon());
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    errors[i] = Tolerances::margin * std::max(errors[i], unit * largest[i]);
+}
+
+// Runs the target's precision S beside the reference; fills in tolerances and the hash.
+template <class S>
+void compare(const Controller& controller, Vectors& vectors, const std::vector<std::vector<double>>& u) {
+  const bool is_double = controller.is_double();
+  const auto model = model_of<S>(
+      controller, [&](const Real& value) { return S(rounded_to_target(value, is_double)); });
+  Hash hash(is_double);
+  std::vector<double> largest_x, largest_u, largest_P;
+  std::size_t k = 0;
+  replay(model, vectors.samples, [&](const step::State<S>& state, const Vector<S>& control) {
+    const Sample& reference = vectors.samples[k];
+    const std::vector<double> P = covariance(model, state);
+    widen(vectors.tolerance.x, doubles(state.x), reference.x);
+    widen(vectors.tolerance.u, doubles(control), u[k]);
+    widen(vectors.tolerance.P, P, reference.P);
+    widen(largest_x, reference.x, std::vector<double>(reference.x.size(), 0));
+    widen(largest_u, u[k], std::vector<double>(u[k].size(), 0));
+    widen(largest_P, reference.P, std::vector<double>(reference.P.size(), 0));
+    for (const double value : doubles(state.x)) hash.add(value);
+    for (const S& value : state.P) hash.add(as_double(value));
+    for (const S& value : state.U) hash.add(as_double(value));
+    for (const S& value : state.D) hash.add(as_double(value));
+    for (const double value : doubles(control)) hash.add(value);
+    ++k;
+  });
+  finish(vectors.tolerance.x, largest_x, is_double);
+  finish(vectors.tolerance.u, largest_u, is_double);
+  finish(vectors.tolerance.P, largest_P, is_double);
+  vectors.hash = hash.value();
+}
+
+// States that a regulator alone may meet.
+std::vector<Sample> random_states(const Controller& controller) {
+  Noise noise(seed);
+  std::vector<Sample> samples(sample_count);
+  for (Sample& sample : samples)
+    for (int i = 0; i < controller.nx(); ++i) sample.y.push_back(to_target(noise.normal(), controller.is_double()));
+  return samples;
+}
+
+template <class Reference, class Round>
+void fill_in(const Controller& controller, Round round, Vectors& vectors) {
+  const auto model = model_of<Reference>(controller, round);
+  vectors.samples = controller.has_filter() ? simulate(controller, model) : random_states(controller);
+  std::vector<std::vector<double>> u;
+  record_reference(model, vectors.samples, u);
+  if (controller.is_double()) {
+    if (controller.is_fused()) compare<Fused<double>>(controller, vectors, u);
+    else compare<double>(controller, vectors, u);
+  } else {
+    if (controller.is_fused()) compare<Fused<float>>(controller, vectors, u);
+    else compare<float>(controller, vectors, u);
+  }
+}
+
+}  // namespace
+
+Vectors make_vectors(const Controller& controller) {
+  Vectors vectors;
+  if (controller.is_double()) {
+    const design::Digits digits(reference_digits);
+    fill_in<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }, vectors);
+  } else {
+    fill_in<double>(controller, rounded_to_double, vectors);
+  }
+  return vectors;
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,35 @@
+// Reference vectors: the host's own run of a noisy closed loop, and how far the target may be from it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+// What goes in and what comes out in one sample.
+struct Sample {
+  std::vector<double> y;  // in: the outputs; of a regulator alone the states
+  std::vector<double> u;  // in for predict (what was applied), and what control must return
+  std::vector<double> x;  // the estimate after update
+  std::vector<double> P;  // after update, lower triangle; of an online filter
+};
+
+// The largest |C − reference| that is accepted, of each kind of result: `margin` times the error that the same run has
+// on the host in the target's precision. That error is the precision times the conditioning of this filter, found
+// by doing it; the reference has at least twice the target's digits and unrounded constants.
+struct Tolerances {
+  static constexpr double margin = 4;
+  std::vector<double> x, u, P;
+};
+
+struct Vectors {
+  std::vector<Sample> samples;
+  Tolerances tolerance;
+  std::uint32_t hash = 0;  // FNV-1a over every bit of x, u and the covariance of the run in the target's precision
+};
+
+Vectors make_vectors(const Controller& controller);
+
+}  // namespace lqg::emit

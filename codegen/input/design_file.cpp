@@ -1,0 +1,107 @@
+#include "input/design_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "input/assemble.hpp"
+#include "input/consistency.hpp"
+#include "input/document.hpp"
+#include "input/report.hpp"
+#include "input/text.hpp"
+#include "input/values.hpp"
+
+namespace lqg::input {
+namespace {
+
+constexpr std::size_t largest_file = 4u << 20;  // bytes
+
+DesignFile unreadable(const std::string& reason) {
+  DesignFile file;
+  file.readable = false;
+  Report(file).error("@", Location{0, 0}, "cannot be read: " + reason);
+  return file;
+}
+
+// Stands for a place where no key is known.
+std::string place_key(Location where) {
+  return "@" + std::to_string(where.line) + ":" + std::to_string(where.column);
+}
+
+DesignFile refused(const std::string& text, const std::vector<Fault>& faults) {
+  DesignFile file;
+  file.text = text;
+  Report report(file);
+  for (const Fault& fault : faults) report.error(place_key(fault.where), fault.where, fault.message);
+  return file;
+}
+
+// The key above: of "plant.A[2][0]" "plant.A[2]", of "plant.A" "plant", of "plant" "".
+std::string above(const std::string& key) {
+  const std::size_t cut = key.find_last_of(".[");
+  return cut == key.npos ? "" : key.substr(0, cut);
+}
+
+}  // namespace
+
+DesignFile read_design_file(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return unreadable(error ? error.message() : "there is no such file");
+  if (std::filesystem::is_directory(status)) return unreadable("it is a folder");
+  if (!std::filesystem::is_regular_file(status)) return unreadable("it is not a regular file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return unreadable(std::generic_category().message(errno));
+  std::string text(largest_file + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) return unreadable("reading it failed");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse_design(text);
+}
+
+DesignFile parse_design(const std::string& text) {
+  if (text.size() > largest_file) return refused(text, {{{0, 0}, "expected at most 4 MiB"}});
+  if (const auto faults = check_text(text); !faults.empty()) return refused(text, faults);
+  const auto document = parse_toml(text);
+  if (const Fault* fault = std::get_if<Fault>(&document)) return refused(text, {*fault});
+  DesignFile file;
+  file.text = text;
+  Report report(file);
+  Values values = read_values(std::get<Node>(document), report);
+  check_consistency(values, report);
+  if (!design::has_error(file.findings)) file.problem = assemble(values);
+  sort_by_place(file, file.findings);
+  return file;
+}
+
+Location locate(const DesignFile& file, const std::string& key) {
+  for (std::string at = key; !at.empty(); at = above(at)) {
+    const auto found = file.locations.find(at);
+    if (found != file.locations.end()) return found->second;
+  }
+  return {1, 1};
+}
+
+void sort_by_place(const DesignFile& file, design::Findings& findings) {
+  const auto place = [&](const design::Finding& finding) {
+    const Location where = locate(file, finding.key);
+    return std::pair(where.line, where.column);
+  };
+  std::stable_sort(findings.begin(), findings.end(),
+                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+std::string format(const std::string& path, Location where, const design::Finding& finding) {
+  std::string line = path;
+  if (where.line > 0) line += ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+  line += finding.severity == design::Severity::note ? ": note: " : ": ";
+  if (!finding.key.empty() && finding.key[0] != '@') line += finding.key + ": ";
+  return printable(line + finding.message);
+}
+
+}  // namespace lqg::input

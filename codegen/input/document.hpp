@@ -1,0 +1,35 @@
+// A TOML text as a tree of values with their places. The one file that sees toml++ is document.cpp.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "input/location.hpp"
+
+namespace lqg::input {
+
+enum class Kind { text, number, boolean, date, array, table };
+
+struct Key {
+  std::string name;
+  Location where;
+};
+
+// `items` are an array's values, or a table's with their `keys` beside them, in the order of the file.
+struct Node {
+  Kind kind = Kind::table;
+  Location where;
+  double number = 0;
+  std::string text;
+  std::vector<Key> keys;
+  std::vector<Node> items;
+};
+
+// "a string", "an array": what a message says was found.
+std::string describe(const Node& node);
+
+// The tree, or what keeps `text` from being TOML. `text` has passed check_text.
+std::variant<Node, Fault> parse_toml(const std::string& text);
+
+}  // namespace lqg::input

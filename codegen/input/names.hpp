@@ -1,0 +1,24 @@
+// Names and texts that end up in generated C: what they may be.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "design/problem.hpp"
+
+namespace lqg::input {
+
+// Each of these says what is wrong, "expected …, found …"; nothing when all is well.
+using Complaint = std::optional<std::string>;
+
+// The design's name: prefix of every emitted symbol and the name of the files.
+Complaint check_design_name(const std::string& name);
+
+// Text that stands in a comment of the generated code: one line that cannot end the comment, continue it, or
+// open one.
+Complaint check_comment_text(const std::string& text);
+
+// "dy1 [m]" into a name, a C identifier, and a unit.
+Complaint parse_signal(const std::string& text, design::Signal& signal);
+
+}  // namespace lqg::input

@@ -1,0 +1,260 @@
+#include "input/values.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "input/matrices.hpp"
+#include "input/names.hpp"
+#include "input/text.hpp"
+
+namespace lqg::input {
+namespace {
+
+using Nodes = std::map<std::string, const Node*>;
+
+bool is_bare_key(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::string joined(const std::string& parent, const std::string& name) {
+  const std::string segment = is_bare_key(name) && name.size() <= 60 ? name : quoted(name);
+  return parent.empty() ? segment : parent + "." + segment;
+}
+
+// The key itself, or the bracket before it in a table's header.
+Location start_of(const Key& key, const Node& node) {
+  const auto order = [](const Location& where) { return std::pair(where.line, where.column); };
+  return order(node.where) < order(key.where) ? node.where : key.where;
+}
+
+// Walks the tables: known keys into `nodes`, the rest is reported.
+class Collector {
+ public:
+  Collector(Nodes& nodes, Values& values, Report& report) : nodes_(nodes), values_(values), report_(report) {}
+
+  // `later`: inside of a table that is not supported yet, of which only unknown keys are worth a word.
+  void walk(const Node& table, const std::string& parent, bool later) {
+    values_.tables.insert(parent);
+    for (std::size_t i = 0; i < table.keys.size(); ++i) {
+      const std::string path = joined(parent, table.keys[i].name);
+      const KeyRule* rule = find_rule(path);
+      report_.place(path, table.items[i].where);
+      values_.present.insert(path);
+      if (rule == nullptr)
+        report_unknown(table.keys[i], table.items[i], parent, path);
+      else if (rule->type == Type::later)
+        report_later(table.keys[i], table.items[i], path, later);
+      else if (rule->type == Type::table)
+        enter(table.items[i], path);
+      else
+        nodes_[path] = &table.items[i];
+    }
+  }
+
+ private:
+  void report_unknown(const Key& key, const Node& node, const std::string& parent, const std::string& path) {
+    const Suggestion suggestion = suggest(parent, key.name);
+    values_.present.insert(suggestion.path);
+    report_.error(path, start_of(key, node), suggestion.message);
+  }
+
+  void report_later(const Key& key, const Node& node, const std::string& path, bool later) {
+    if (!later) report_.error(path, start_of(key, node), "not supported yet");
+    if (node.kind == Kind::table) walk(node, path, true);
+    for (const Node& item : node.items)
+      if (node.kind == Kind::array && item.kind == Kind::table) walk(item, path, true);
+  }
+
+  void enter(const Node& node, const std::string& path) {
+    if (node.kind == Kind::table)
+      walk(node, path, false);
+    else
+      report_.error(path, "expected a table, found " + describe(node));
+  }
+
+  Nodes& nodes_;
+  Values& values_;
+  Report& report_;
+};
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + quoted(words[i]);
+  return list;
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Reads one key after the other into `values`.
+class ValueReader {
+ public:
+  ValueReader(Values& values, Report& report) : values_(values), report_(report) {}
+
+  void read(const KeyRule& rule, const Node& node) {
+    if (!has_its_matrix(rule)) return;
+    switch (rule.type) {
+      case Type::identifier: read_text(rule, node, check_design_name); break;
+      case Type::line: read_text(rule, node, check_comment_text); break;
+      case Type::word: read_word(rule, node); break;
+      case Type::positive: read_positive(rule, node); break;
+      case Type::whole: read_whole(rule, node); break;
+      case Type::signals: read_signals(rule, node); break;
+      case Type::matrix:
+      case Type::weight:
+      case Type::vector:
+      case Type::bounds:
+        if (auto matrix = read_matrix(rule, node, values_.sizes, report_))
+          values_.matrices[rule.path] = *matrix;
+        break;
+      case Type::table:
+      case Type::later: break;
+    }
+  }
+
+ private:
+  // False where the key speaks of inputs or outputs and there are none. For the tables [lqr], [limits],
+  // [kalman] that is said once for all of their keys.
+  bool has_its_matrix(const KeyRule& rule) {
+    for (const auto& [size, matrix] : {std::pair(Size::nu, "plant.B"), std::pair(Size::ny, "plant.C")}) {
+      if ((rule.rows != size && rule.columns != size) || values_.has(matrix)) continue;
+      if (parent_of(rule.path) == "plant") report_.error(rule.path, "needs " + std::string(matrix));
+      return false;
+    }
+    return true;
+  }
+
+  void read_text(const KeyRule& rule, const Node& node, Complaint (*check)(const std::string&)) {
+    if (node.kind != Kind::text) return expected(rule, "a string", describe(node));
+    if (const Complaint complaint = check(node.text))
+      report_.error(rule.path, *complaint);
+    else
+      values_.texts[rule.path] = node.text;
+  }
+
+  void read_word(const KeyRule& rule, const Node& node) {
+    if (node.kind != Kind::text) return expected(rule, listed(rule.words), describe(node));
+    if (contains(rule.later_words, node.text))
+      report_.error(rule.path, quoted(node.text) + " is not supported yet, expected " + listed(rule.words));
+    else if (!contains(rule.words, node.text))
+      expected(rule, listed(rule.words), quoted(node.text));
+    else
+      values_.texts[rule.path] = node.text;
+  }
+
+  void read_positive(const KeyRule& rule, const Node& node) {
+    if (node.kind != Kind::number) return expected(rule, "a number > 0", describe(node));
+    if (!(node.number > 0) || std::isinf(node.number))
+      return expected(rule, "a number > 0", shown(node.number));
+    values_.numbers[rule.path] = node.number;
+  }
+
+  void read_whole(const KeyRule& rule, const Node& node) {
+    const char* wanted = "a whole number from 1 to 2147483647";
+    if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
+    const bool good = node.number >= 1 && node.number <= 2147483647 && node.number == std::floor(node.number);
+    if (!good) return expected(rule, wanted, shown(node.number));
+    values_.numbers[rule.path] = node.number;
+  }
+
+  void read_signals(const KeyRule& rule, const Node& node) {
+    const std::string size = " (" + name_of(rule.rows) + ")";
+    if (node.kind != Kind::array) return expected(rule, "an array of names" + size, describe(node));
+    const int count = values_.sizes.at(rule.rows);
+    if (count > 0 && static_cast<std::size_t>(count) != node.items.size())
+      expected(rule, counted(count, "name") + size, std::to_string(node.items.size()));
+    std::vector<design::Signal> signals;
+    std::map<std::string, std::size_t> seen;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      design::Signal signal;
+      const Complaint complaint = read_signal(i, node.items[i], seen, signal);
+      if (complaint)
+        report_.error(rule.path + "[" + std::to_string(i) + "]", node.items[i].where, *complaint);
+      else
+        signals.push_back(signal);
+    }
+    if (signals.size() == node.items.size()) values_.signals[rule.path] = signals;
+  }
+
+  // `seen`: names before this one, in capitals as the generated constants have them.
+  static Complaint read_signal(std::size_t index, const Node& node, std::map<std::string, std::size_t>& seen,
+                               design::Signal& signal) {
+    if (node.kind != Kind::text) return "expected a name in quotes, found " + describe(node);
+    if (const Complaint complaint = parse_signal(node.text, signal)) return complaint;
+    std::string capitals = signal.name;
+    for (char& c : capitals)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    const auto [first, is_new] = seen.emplace(capitals, index);
+    if (is_new) return {};
+    return "expected a name of its own, capitals aside, found that of [" + std::to_string(first->second) +
+           "], " + quoted(signal.name);
+  }
+
+  void expected(const KeyRule& rule, const std::string& wanted, const std::string& found) {
+    report_.error(rule.path, "expected " + wanted + ", found " + found);
+  }
+
+  Values& values_;
+  Report& report_;
+};
+
+void report_missing(const Values& values, Report& report) {
+  const bool other_Q = values.has("lqr.Q_output") || values.has("lqr.bryson");
+  for (const KeyRule& rule : key_rules()) {
+    if (rule.need == Need::optional || values.has(rule.path) || (rule.path == "lqr.Q" && other_Q)) continue;
+    if (values.tables.count(parent_of(rule.path)) != 0) report.error(rule.path, "missing");
+  }
+}
+
+std::string decimal(std::to_chars_result (*print)(char*, char*, double, int), double number, int digits) {
+  char buffer[32];
+  return std::string(buffer, print(buffer, buffer + sizeof buffer, number, digits).ptr);
+}
+
+}  // namespace
+
+const Eigen::MatrixXd* Values::matrix(const std::string& key) const {
+  const auto found = matrices.find(key);
+  return found == matrices.end() ? nullptr : &found->second;
+}
+
+std::string Values::text(const std::string& key) const {
+  const auto found = texts.find(key);
+  return found == texts.end() ? "" : found->second;
+}
+
+Values read_values(const Node& document, Report& report) {
+  Values values;
+  Nodes nodes;
+  Collector(nodes, values, report).walk(document, "", false);
+  values.sizes = measure(nodes);
+  ValueReader reader(values, report);
+  for (const KeyRule& rule : key_rules())
+    if (const auto node = nodes.find(rule.path); node != nodes.end()) reader.read(rule, *node->second);
+  report_missing(values, report);
+  return values;
+}
+
+std::string counted(long count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string shown(double number) {
+  return decimal([](char* first, char* last, double x, int) { return std::to_chars(first, last, x); }, number,
+                 0);
+}
+
+std::string shown(double number, int digits) {
+  return decimal([](char* first, char* last, double x,
+                    int n) { return std::to_chars(first, last, x, std::chars_format::general, n); },
+                 number, digits);
+}
+
+}  // namespace lqg::input

@@ -1,0 +1,44 @@
+// From the tree of a TOML text to the values of the known keys, each of the right type and shape.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "design/problem.hpp"
+#include "input/document.hpp"
+#include "input/keys.hpp"
+#include "input/report.hpp"
+
+namespace lqg::input {
+
+// Each map holds what could be read, by its key. Vectors are n × 1, weights given as a diagonal are full
+// matrices.
+struct Values {
+  std::map<std::string, Eigen::MatrixXd> matrices;
+  std::map<std::string, std::string> texts;
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::vector<design::Signal>> signals;
+  std::map<Size, int> sizes;  // 0: there are none; −1: not known, because what tells them is wrong
+  std::set<std::string>
+      present;  // keys in the file, right or wrong, and those that an unknown key seems to mean
+  std::set<std::string> tables;  // those of them that are tables, and "", the file's top
+
+  bool has(const std::string& key) const { return present.count(key) != 0; }
+  const Eigen::MatrixXd* matrix(const std::string& key) const;  // nullptr: absent or wrong
+  std::string text(const std::string& key) const;               // "": absent or wrong
+};
+
+// Reads all that can be read and reports all that is wrong with single keys.
+Values read_values(const Node& document, Report& report);
+
+// "3 rows", "1 row".
+std::string counted(long count, const std::string& noun);
+
+// The shortest decimal that reads back as `number`; with `digits`, that many significant ones.
+std::string shown(double number);
+std::string shown(double number, int digits);
+
+}  // namespace lqg::input

@@ -1,0 +1,113 @@
+// lqgen: the command line. One design file in; header, test and JSON out, or a clear refusal and nothing.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "emit/controller.hpp"
+#include "emit/files.hpp"
+#include "emit/header.hpp"
+#include "emit/json.hpp"
+#include "emit/preamble.hpp"
+#include "emit/sha256.hpp"
+#include "emit/summary.hpp"
+#include "emit/unit_test.hpp"
+#include "input/design_file.hpp"
+
+namespace {
+
+using namespace lqg;
+
+enum Exit { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
+
+struct Arguments {
+  std::string design_file;
+  std::string folder = ".";
+  std::vector<std::string> only = {"h", "test", "json"};
+  std::string style, real;
+  bool quiet = false;
+};
+
+bool wants(const Arguments& arguments, const char* what) {
+  return std::find(arguments.only.begin(), arguments.only.end(), what) != arguments.only.end();
+}
+
+void report(const Arguments& arguments, const input::DesignFile& file, const design::Findings& findings) {
+  for (const design::Finding& finding : findings)
+    if (finding.severity == design::Severity::error || !arguments.quiet)
+      std::cerr << input::format(arguments.design_file, input::locate(file, finding.key), finding) << "\n";
+}
+
+void override_code(const Arguments& arguments, design::Code& code) {
+  if (arguments.style == "unrolled") code.style = design::Style::unrolled;
+  if (arguments.style == "compact") code.style = design::Style::compact;
+  if (arguments.style == "auto") code.style = design::Style::automatic;
+  if (arguments.real == "float") code.real = design::Scalar::float32;
+  if (arguments.real == "double") code.real = design::Scalar::float64;
+}
+
+std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller) {
+  const std::string& name = controller.problem.name;
+  std::vector<emit::File> out;
+  if (wants(arguments, "h")) out.push_back({name + ".h", emit::header(controller)});
+  if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
+  if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
+  return out;
+}
+
+int generate(const Arguments& arguments) {
+  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  report(arguments, file, file.findings);
+  if (!file.readable) return unreadable;
+  if (!file.problem || design::has_error(file.findings)) return wrong;
+
+  design::Problem problem = *file.problem;
+  override_code(arguments, problem.code);
+  design::Findings findings;
+  std::optional<design::Solution> solution = design::solve(problem, findings);
+  std::optional<emit::Controller> controller;
+  if (solution && !design::has_error(findings)) {
+    const std::string file_name = std::filesystem::path(arguments.design_file).filename().string();
+    controller = emit::make_controller(std::move(problem), std::move(*solution),
+                                       {file_name, emit::sha256(file.text)}, findings);
+  }
+  input::sort_by_place(file, findings);
+  report(arguments, file, findings);
+  if (!controller) return impossible;
+
+  if (const auto failure = emit::write_all(arguments.folder, files(arguments, *controller))) {
+    std::cerr << *failure << "\n";
+    return unreadable;
+  }
+  if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(*controller);
+  return written;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json.", "lqgen"};
+  app.set_version_flag("--version", emit::version());
+  app.add_option("DESIGN", arguments.design_file, "design file (TOML)")->required()->option_text("DESIGN.toml");
+  app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
+  app.add_option("--only", arguments.only, "write only these")
+      ->delimiter(',')->check(CLI::IsMember({"h", "test", "json"}))->option_text("h,test,json");
+  app.add_option("--style", arguments.style, "instead of code.style of the design")
+      ->check(CLI::IsMember({"unrolled", "compact", "auto"}))->option_text("unrolled|compact|auto");
+  app.add_option("--real", arguments.real, "instead of code.real of the design")
+      ->check(CLI::IsMember({"float", "double"}))->option_text("float|double");
+  app.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? written : wrong;
+  }
+  try {
+    return generate(arguments);
+  } catch (const std::exception& error) {
+    std::cerr << arguments.design_file << ": lqgen failed: " << error.what() << "\n";
+    return impossible;
+  }
+}

@@ -1,0 +1,98 @@
+// The Kalman filter with its covariance P carried as a lower triangle; outputs one after the other.
+#pragma once
+
+#include "step/online.hpp"
+
+namespace lqg::step {
+
+// S = C P Cᵀ + V, L = P Cᵀ / S, x̂ ← x̂ + L(y − C x̂ − D u), P ← P − L C P for output i; true if it was used.
+template <class S, class Listener>
+auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Total<S>& total,
+                         Listener& listener) {
+  const int nx = model.nx;
+  listener.section("S = C P Cᵀ + V, P Cᵀ first", i);
+  Vector<S> f(nx);
+  for (int j = 0; j < nx; ++j) {
+    S sum = state.P[triangle(j, 0)] * model.C(i, 0);
+    for (int k = 1; k < nx; ++k) sum = multiply_add(S(state.P[triangle(j, k)]), S(model.C(i, k)), sum);
+    listener.name(sum, "PC", j);
+    f(j) = sum;
+  }
+  S variance = model.V(i);
+  for (int k = 0; k < nx; ++k) variance = multiply_add(S(model.C(i, k)), S(f(k)), variance);
+  listener.name(variance, "S");
+
+  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u; a gain of 0 leaves the output out"
+                                  : "innovation = y − C x̂; a gain of 0 leaves the output out", i);
+  S nu = residual(model, state, y, i);
+  listener.name(nu, "measured");
+  auto usable = listener.accept(is_usable(nu, variance), is_finite(nu), Event::innovation_not_positive,
+                                Event::output_not_finite);
+  S reciprocal = select(usable, S(1) / variance, S(0));
+  listener.name(reciprocal, "reciprocal");
+  nu = select(usable, nu, S(0));
+  listener.name(nu, "innovation");
+
+  listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ", i);
+  for (int j = nx - 1; j >= 0; --j) {  // from the last row up: few P Cᵀ outlive the entry of P that they may be
+    S gain = f(j) * reciprocal;
+    listener.name(gain, "gain", j);
+    state.x(j) = multiply_add(gain, nu, S(state.x(j)));
+    listener.name(state.x(j), "x", j);
+    total.add(state.x(j));
+    for (int l = j; l >= 0; --l) {
+      S& entry = state.P[triangle(j, l)];
+      entry = multiply_subtract(gain, S(f(l)), entry);
+      listener.name(entry, "P", j, l);
+    }
+  }
+  return usable;
+}
+
+template <class S, class Listener>
+auto update_plain(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
+  const Vector<S> y = decorrelate(model, measured, listener);
+  std::vector<decltype(is_finite(y(0)))> usable;
+  Total<S> total;
+  for (int i = 0; i < model.ny; ++i) {
+    total = {};  // that of the last output counts
+    usable.push_back(update_plain_output(model, state, S(y(i)), i, total, listener));
+  }
+  keep_residual(model, state, y, usable, listener);
+  return is_finite(total.sum);
+}
+
+// P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.
+template <class S, class Listener>
+void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& total, Listener& listener) {
+  const int nx = model.nx;
+  listener.section("P ← A P Aᵀ + G W Gᵀ, lower triangle");
+  std::vector<S> next(state.P.size());
+  for (int i = 0; i < nx; ++i) {
+    Vector<S> AP(nx);
+    for (int j = 0; j < nx; ++j) {
+      S sum = model.A_free(i, 0) * state.P[triangle(0, j)];
+      for (int k = 1; k < nx; ++k) sum = multiply_add(S(model.A_free(i, k)), S(state.P[triangle(k, j)]), sum);
+      listener.name(sum, "AP", i, j);
+      AP(j) = sum;
+    }
+    for (int j = 0; j <= i; ++j) {
+      S sum = model.W(i, j);
+      for (int k = 0; k < nx; ++k) sum = multiply_add(S(AP(k)), S(model.A_free(j, k)), sum);
+      listener.name(sum, "prior", i, j);
+      next[triangle(i, j)] = sum;
+      if (i == j) total.add(sum);  // what is not finite elsewhere is on the diagonal one sample later
+    }
+  }
+  state.P = next;
+}
+
+template <class S, class Listener>
+auto predict_plain(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
+  Total<S> total;
+  predict_state(model, state, u, total, listener);
+  predict_plain_covariance(model, state, total, listener);
+  return is_finite(total.sum);
+}
+
+}  // namespace lqg::step

@@ -1,0 +1,152 @@
+// The Kalman filter with P = U diag(D) Uᵀ, U unit upper triangular: Bierman's update, Thornton's prediction.
+//
+// D stays positive because it is only ever multiplied and divided by positive numbers or a sum of squares.
+#pragma once
+
+#include "step/online.hpp"
+
+namespace lqg::step {
+
+// Bierman: column by column α_j = α_{j−1} + f_j g_j, f = Uᵀ Cᵀ, g = D f, α_{−1} = V; S = α at the end.
+// The reciprocal of α is carried along, so that one division a column is enough; f = 0 changes nothing, to the bit.
+template <class S, class Listener>
+auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i, Total<S>& total,
+                      Listener& listener) {
+  const int nx = model.nx;
+  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not finite"
+                                  : "innovation = y − C x̂, 0 if it is not finite", i);
+  S nu = residual(model, state, y, i);
+  listener.name(nu, "measured");
+  auto usable = listener.accept(is_finite(nu), Event::output_not_finite);
+  nu = select(usable, nu, S(0));
+  listener.name(nu, "innovation");
+
+  listener.section("f = Uᵀ Cᵀ, 0 leaves the output out;  g = D f", i);
+  Vector<S> f(nx), g(nx), b(nx);
+  for (int j = 0; j < nx; ++j) {
+    S sum = model.C(i, j);
+    for (int k = 0; k < j; ++k) sum = multiply_add(S(state.U[strict_triangle(k, j)]), S(model.C(i, k)), sum);
+    sum = select(usable, sum, S(0));
+    listener.name(sum, "f", j);
+    f(j) = sum;
+    g(j) = state.D[j] * sum;
+    listener.name(g(j), "g", j);
+  }
+
+  listener.section("α ← α + f g from α = V to S;  D ← D α₋₁/α,  U ← U − (f/α₋₁) bᵀ,  b = U g", i);
+  S alpha = model.V(i);
+  S reciprocal = S(1) / alpha;
+  for (int j = 0; j < nx; ++j) {
+    S next = multiply_add(f(j), g(j), alpha);
+    listener.name(next, "alpha", j);
+    S ratio = alpha / next;
+    listener.name(ratio, "ratio", j);
+    state.D[j] = state.D[j] * ratio;
+    listener.name(state.D[j], "D", j);
+    S lambda = f(j) * reciprocal;
+    listener.name(lambda, "lambda", j);
+    for (int k = 0; k < j; ++k) {
+      S& entry = state.U[strict_triangle(k, j)];
+      const S before = entry;
+      entry = multiply_subtract(lambda, S(b(k)), before);
+      listener.name(entry, "U", k, j);
+      b(k) = multiply_add(g(j), before, S(b(k)));
+      listener.name(b(k), "b", k, j);
+    }
+    b(j) = g(j);
+    reciprocal = reciprocal * ratio;
+    listener.name(reciprocal, "reciprocal", j);
+    alpha = next;
+  }
+
+  listener.section("L = b / S,  x̂ ← x̂ + L innovation", i);
+  for (int j = 0; j < nx; ++j) {
+    S gain = b(j) * reciprocal;
+    listener.name(gain, "gain", j);
+    state.x(j) = multiply_add(gain, nu, S(state.x(j)));
+    listener.name(state.x(j), "x", j);
+    total.add(state.x(j));
+  }
+  return usable;
+}
+
+template <class S, class Listener>
+auto update_ud(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
+  const Vector<S> y = decorrelate(model, measured, listener);
+  std::vector<decltype(is_finite(y(0)))> usable;
+  Total<S> total;
+  for (int i = 0; i < model.ny; ++i) {
+    total = {};  // that of the last output counts
+    usable.push_back(update_ud_output(model, state, S(y(i)), i, total, listener));
+  }
+  keep_residual(model, state, y, usable, listener);
+  return is_finite(total.sum);
+}
+
+// [A U | G], the rows that Thornton makes orthogonal under the weights diag(D, w).
+template <class S, class Listener>
+Matrix<S> rows_of_the_prior(const Model<S>& model, const State<S>& state, Listener& listener) {
+  const int nx = model.nx, nq = static_cast<int>(model.G.cols());
+  listener.section("rows T = [A U | G] with the weights [D | w]");
+  Matrix<S> T(nx, nx + nq);
+  for (int i = 0; i < nx; ++i) {
+    for (int j = 0; j < nx; ++j) {
+      S sum = model.A_free(i, j);
+      for (int k = 0; k < j; ++k)
+        sum = multiply_add(S(model.A_free(i, k)), S(state.U[strict_triangle(k, j)]), sum);
+      listener.name(sum, "T", i, j);
+      T(i, j) = sum;
+    }
+    for (int q = 0; q < nq; ++q) T(i, nx + q) = model.G(i, q);
+  }
+  return T;
+}
+
+// Thornton: modified weighted Gram–Schmidt from the last row up; P ← A P Aᵀ + G diag(w) Gᵀ.
+template <class S, class Listener>
+void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& total, Listener& listener) {
+  const int nx = model.nx, nt = nx + static_cast<int>(model.G.cols());
+  Matrix<S> T = rows_of_the_prior(model, state, listener);
+  std::vector<S> weight = state.D;
+  for (int q = nx; q < nt; ++q) weight.push_back(model.w(q - nx));
+  Vector<S> v(nt);
+  for (int i = nx - 1; i >= 0; --i) {
+    listener.section("row " + std::to_string(i) +
+                     ": D = Σ weight T²;  U of the rows above = Σ weight T T / D, which is taken out of them");
+    for (int k = 0; k < nt; ++k) {
+      v(k) = weight[k] * T(i, k);
+      listener.name(v(k), "v", i, k);
+    }
+    S diagonal = T(i, 0) * v(0);
+    for (int k = 1; k < nt; ++k) diagonal = multiply_add(S(T(i, k)), S(v(k)), diagonal);
+    listener.name(diagonal, "prior_D", i);
+    state.D[i] = diagonal;
+    total.add(diagonal);
+    S reciprocal = S(1) / diagonal;  // not finite when the variance of a state has died out: nothing depends on it then
+    listener.name(reciprocal, "inverse", i);
+    reciprocal = select(is_finite(reciprocal), reciprocal, S(0));
+    listener.name(reciprocal, "reciprocal", i);
+    for (int j = 0; j < i; ++j) {
+      S sum = T(j, 0) * v(0);
+      for (int k = 1; k < nt; ++k) sum = multiply_add(S(T(j, k)), S(v(k)), sum);
+      S entry = sum * reciprocal;
+      listener.name(entry, "prior_U", j, i);
+      state.U[strict_triangle(j, i)] = entry;
+      total.add(entry);
+      for (int k = 0; k < nt; ++k) {
+        T(j, k) = multiply_subtract(entry, S(T(i, k)), S(T(j, k)));
+        listener.name(T(j, k), "T", j, k);
+      }
+    }
+  }
+}
+
+template <class S, class Listener>
+auto predict_ud(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
+  Total<S> total;
+  predict_state(model, state, u, total, listener);
+  predict_ud_covariance(model, state, total, listener);
+  return is_finite(total.sum);
+}
+
+}  // namespace lqg::step

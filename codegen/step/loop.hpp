@@ -1,0 +1,53 @@
+// One sample of the whole controller, whatever its filter.
+#pragma once
+
+#include "step/kalman_plain.hpp"
+#include "step/kalman_steady.hpp"
+#include "step/kalman_ud.hpp"
+#include "step/lqr.hpp"
+
+namespace lqg::step {
+
+// x̂ ← x̂ + L(y − C x̂ − D u); the condition says that the state is finite.
+template <class S, class Listener>
+auto update(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
+  switch (model.filter) {
+    case Filter::plain: return update_plain(model, state, y, listener);
+    case Filter::ud: return update_ud(model, state, y, listener);
+    default: return update_steady(model, state, y, listener);
+  }
+}
+
+// x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is finite.
+template <class S, class Listener>
+auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
+  switch (model.filter) {
+    case Filter::plain: return predict_plain(model, state, u, listener);
+    case Filter::ud: return predict_ud(model, state, u, listener);
+    default: return predict_steady(model, state, u, listener);
+  }
+}
+
+// The three calls of a sample in the order of the form, as `NAME_step` makes them; numbers only. With a regulator `u` is
+// the result, without one it is what was applied. Returns the events.
+template <class S>
+unsigned run_sample(const Model<S>& model, State<S>& state, const Vector<S>& y, Vector<S>& u) {
+  Listener listener;
+  const auto reset_unless = [&](bool finite) {
+    if (finite) return;
+    state = initial_state(model);
+    listener.raise(Event::state_reset, true);
+  };
+  const auto act = [&] {
+    if (!model.K.rows()) return;
+    u = control(model, state.x, listener);
+    if (model.D.cols()) state.u = u;
+  };
+  if (model.predictor_form) act();
+  reset_unless(update(model, state, y, listener));
+  if (!model.predictor_form) act();
+  reset_unless(predict(model, state, u, listener));
+  return listener.events;
+}
+
+}  // namespace lqg::step

@@ -1,0 +1,93 @@
+// The constants and the state of one controller, for any scalar.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "step/scalar.hpp"
+
+namespace lqg::step {
+
+template <class S>
+using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+template <class S>
+using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+enum class Filter { none, steady, plain, ud };
+
+// Absent parts have no rows or no columns: C without a filter, K without a regulator, D and M when they are zero.
+template <class S>
+struct Model {
+  Filter filter = Filter::none;
+  bool predictor_form = false;  // control before update
+  int nx = 0, nu = 0, ny = 0;
+  Matrix<S> A, B;              // x⁺ = A x + B u
+  Matrix<S> C, D;              // y = C x + D u; of the decorrelated outputs E y when P is carried
+  Matrix<S> L;                 // nx × ny, steady
+  Matrix<S> M;                 // nx × ny: what the innovation (steady) or the residual (online) tells of w
+  Matrix<S> E;                 // ny × ny unit lower triangular, online
+  Vector<S> V;                 // ny, online
+  Matrix<S> A_free, W;         // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
+  Matrix<S> G;                 // nx × nq, ud: W = G diag(w) Gᵀ
+  Vector<S> w;                 // nq, ud
+  Vector<S> x0;                // nx
+  std::vector<S> P0;           // plain: lower triangle, row by row
+  std::vector<S> U0, D0;       // ud: strict upper triangle, column by column; diagonal
+  Matrix<S> K;                 // nu × nx
+  Vector<S> u_min, u_max;      // nu, or empty: no limits
+};
+
+template <class S>
+struct State {
+  Vector<S> x;               // nx
+  std::vector<S> P;          // plain
+  std::vector<S> U, D;       // ud
+  Vector<S> u;               // nu: the input that acts; kept when D ≠ 0
+  Vector<S> innovation;      // ny: what predict still needs of the last outputs; kept when M ≠ 0
+};
+
+// Lower triangle row by row: P(i, j) = P(j, i).
+inline int triangle(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
+
+// Strict upper triangle column by column: U(i, j), i < j.
+inline int strict_triangle(int i, int j) { return j * (j - 1) / 2 + i; }
+
+template <class S>
+State<S> initial_state(const Model<S>& model) {
+  State<S> state;
+  state.x = model.x0;
+  state.P = model.P0;
+  state.U = model.U0;
+  state.D = model.D0;
+  state.u = Vector<S>::Constant(model.D.cols(), S(0));
+  state.innovation = Vector<S>::Constant(model.M.cols(), S(0));
+  return state;
+}
+
+enum class Event { output_not_finite, innovation_not_positive, input_limited, state_reset };
+
+// Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
+struct Listener {
+  unsigned events = 0;
+
+  // A new block of the algorithm: its equation, and the output it belongs to (−1: none).
+  void section(const std::string&, int = -1) {}
+  // `value` is called `base`, with indices where they are not −1.
+  template <class Value>
+  void name(const Value&, const char*, int = -1, int = -1) {}
+  void raise(Event event, bool happened) {
+    if (happened) events |= 1u << static_cast<unsigned>(event);
+  }
+  // Says that an output was left out, and why, unless it is usable; returns whether it is.
+  bool accept(bool usable, Event reason) {
+    raise(reason, !usable);
+    return usable;
+  }
+  // Likewise, with one reason if the innovation is finite and another if it is not.
+  bool accept(bool usable, bool finite, Event if_finite, Event if_not) {
+    return accept(usable, finite ? if_finite : if_not);
+  }
+};
+
+}  // namespace lqg::step

@@ -1,0 +1,36 @@
+// What the filters that carry P have in common: decorrelated outputs, and the residual that cross noise keeps.
+#pragma once
+
+#include "step/state.hpp"
+
+namespace lqg::step {
+
+// y' = E y. A zero of E keeps the NaN of one output out of the others.
+template <class S, class Listener>
+Vector<S> decorrelate(const Model<S>& model, const Vector<S>& y, Listener& listener) {
+  listener.section("outputs with uncorrelated noise, y ← E y");
+  Vector<S> out = y;
+  for (int i = 0; i < model.ny; ++i) {
+    S sum = y(i);
+    for (int j = 0; j < i; ++j)
+      if (!is_zero(model.E(i, j))) sum = multiply_add(S(model.E(i, j)), S(y(j)), sum);
+    if (i > 0) listener.name(sum, "uncorrelated", i);
+    out(i) = sum;
+  }
+  return out;
+}
+
+// What is left of the outputs after the update: it tells predict about the noise that w and v share.
+template <class S, class Listener, class Condition>
+void keep_residual(const Model<S>& model, State<S>& state, const Vector<S>& y,
+                   const std::vector<Condition>& usable, Listener& listener) {
+  if (!model.M.cols()) return;
+  for (int i = 0; i < model.ny; ++i) {
+    listener.section("what the output tells of w: y − C x̂ − D u after all updates", i);
+    S left = select(usable[static_cast<std::size_t>(i)], residual(model, state, S(y(i)), i), S(0));
+    listener.name(left, "residual");
+    state.innovation(i) = left;
+  }
+}
+
+}  // namespace lqg::step

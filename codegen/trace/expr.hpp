@@ -1,0 +1,61 @@
+// The symbolic scalar: a run over it records its operations in the graph in force, and the graph is the program.
+#pragma once
+
+#include "trace/graph.hpp"
+
+namespace lqg::trace {
+
+// The graph in which expressions are recorded while this lives.
+class Recording {
+ public:
+  explicit Recording(Graph& graph);
+  ~Recording();
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+ private:
+  Graph* before_;
+};
+
+Graph& graph();
+
+struct Expr {
+  int node;
+  Expr(double value = 0) : node(graph().constant(value)) {}
+  static Expr of(int node) {
+    Expr made(Existing{});
+    made.node = node;
+    return made;
+  }
+
+ private:
+  struct Existing {};
+  explicit Expr(Existing) : node(-1) {}
+};
+
+struct Condition {
+  int node = -1;
+};
+
+inline Expr operator+(const Expr& a, const Expr& b) { return Expr::of(graph().make(Op::add, a.node, b.node)); }
+inline Expr operator-(const Expr& a, const Expr& b) { return Expr::of(graph().make(Op::subtract, a.node, b.node)); }
+inline Expr operator*(const Expr& a, const Expr& b) { return Expr::of(graph().make(Op::multiply, a.node, b.node)); }
+inline Expr operator/(const Expr& a, const Expr& b) { return Expr::of(graph().make(Op::divide, a.node, b.node)); }
+
+inline Expr multiply_add(const Expr& a, const Expr& b, const Expr& c) {
+  return Expr::of(graph().make(Op::multiply_add, a.node, b.node, c.node));
+}
+inline Expr multiply_subtract(const Expr& a, const Expr& b, const Expr& c) {
+  return Expr::of(graph().make(Op::multiply_subtract, a.node, b.node, c.node));
+}
+inline Expr select(const Condition& condition, const Expr& yes, const Expr& no) {
+  return Expr::of(graph().make(Op::select, condition.node, yes.node, no.node));
+}
+inline bool is_zero(const Expr& a) { return graph().is_constant(a.node, 0); }
+inline Condition is_finite(const Expr& a) { return {graph().make(Op::finite, a.node)}; }
+inline Condition is_less(const Expr& a, const Expr& b) { return {graph().make(Op::less, a.node, b.node)}; }
+inline Condition is_usable(const Expr& a, const Expr& b) { return {graph().make(Op::usable, a.node, b.node)}; }
+inline Condition either(const Condition& a, const Condition& b) { return {graph().make(Op::either, a.node, b.node)}; }
+inline Condition negation(const Condition& a) { return {graph().make(Op::negation, a.node)}; }
+
+}  // namespace lqg::trace

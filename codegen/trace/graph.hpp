@@ -1,0 +1,88 @@
+// The record of a traced run: every operation once, constants folded as the target would compute them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace lqg::trace {
+
+enum class Op {
+  constant, input, add, subtract, multiply, divide, negate,
+  multiply_add,       // a b + c
+  multiply_subtract,  // c − a b
+  select,             // a ? b : c
+  finite, less, either, negation,  // conditions
+  usable,             // a finite and b positive
+  flag,               // a status, by its name in C; select chooses between statuses too
+  same,               // a == b, of statuses
+};
+
+bool is_condition(Op op);
+
+struct Node {
+  Op op = Op::constant;
+  int a = -1, b = -1, c = -1;
+  double value = 0;  // of a constant, representable in the target's real
+  std::string text;  // of an input or a flag: its C expression
+  std::string name;  // empty: printed inside the expression that uses it
+  int section = 0;
+};
+
+// What the target's numbers are: decides how constants fold.
+struct Target {
+  bool is_double = false;
+  bool is_fused = false;
+};
+
+// Nodes are numbered in the order in which the run made them, so a node stands after all that it uses.
+//
+// The folds keep every bit of a finite result, up to the sign of a zero: x·0, x·±1, x+0, x−0, x/x, operations on
+// constants alone. Nothing is reassociated.
+class Graph {
+ public:
+  explicit Graph(Target target) : target_(target) { sections_.push_back({}); }
+
+  int constant(double value);
+  int input(const std::string& text, const std::string& name);
+  int flag(const std::string& text);
+  int make(Op op, int a, int b = -1, int c = -1);
+
+  bool is_constant(int node) const { return nodes_[node].op == Op::constant; }
+  bool is_constant(int node, double value) const { return is_constant(node) && nodes_[node].value == value; }
+
+  // Nodes made from now on stand under `equation`; names get `suffix`.
+  void section(const std::string& equation, const std::string& suffix);
+  // The first name a node gets is kept; one that is taken gets a letter behind it.
+  void name(int node, const std::string& base);
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::string& equation(int section) const { return sections_[section].equation; }
+  Target target() const { return target_; }
+
+ private:
+  struct Section {
+    std::string equation, suffix;
+  };
+  using Key = std::tuple<Op, int, int, int>;
+
+  int insert(Node node);
+  int fold(Op op, int a, int b, int c);
+  int fold_constants(Op op, int a, int b, int c);
+  int fold_condition(Op op, int a, int b, int c);
+  int fold_multiply(int a, int b);
+  int fold_multiply_add(int a, int b, int c);
+  int fold_multiply_subtract(int a, int b, int c);
+
+  Target target_;
+  std::vector<Node> nodes_;
+  std::vector<Section> sections_;
+  std::map<Key, int> known_;
+  std::map<double, int> constants_;
+  std::map<std::string, int> flags_;
+  std::map<std::string, int> taken_;
+};
+
+}  // namespace lqg::trace

@@ -1,0 +1,195 @@
+#include "trace/print.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+
+namespace lqg::trace {
+
+namespace {
+
+// How tightly an operator binds; an operand that binds less gets brackets.
+enum Level { any = 0, logical = 1, comparison = 2, sum = 3, product = 4, unary = 5 };
+
+std::string bracketed(const std::string& text, int binds, int level) {
+  return binds < level ? "(" + text + ")" : text;
+}
+
+// x - x
+bool prints_twice(const Node& node, int operand) {
+  return node.op == Op::finite || (node.op == Op::usable && operand == node.a);
+}
+
+// Columns, not bytes: a continuation byte of UTF-8 takes none.
+int columns(const std::string& text, std::size_t from, std::size_t to) {
+  int count = 0;
+  for (std::size_t i = from; i < to; ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) ++count;
+  return count;
+}
+
+// The last place before `width` where the line may break: after a comma, before an operator.
+std::size_t break_before(const std::string& line, std::size_t start, int width) {
+  std::size_t best = std::string::npos;
+  for (std::size_t i = start + 1; i < line.size() && columns(line, start, i) < width; ++i)
+    if (line[i] == ' ' && i + 2 < line.size() && line[i - 1] != ' ' &&
+        (line[i - 1] == ',' || (line[i + 2] == ' ' && (line[i + 1] == '+' || line[i + 1] == '-'))))
+      best = i;
+  return best;
+}
+
+}  // namespace
+
+std::string literal(double value, bool is_double) {
+  char text[40];
+  const std::to_chars_result end = is_double ? std::to_chars(text, text + sizeof text, value)
+                                             : std::to_chars(text, text + sizeof text, static_cast<float>(value));
+  std::string out(text, end.ptr);
+  if (out.find_first_of(".e") == std::string::npos) out += ".0";
+  return is_double ? out : out + "f";
+}
+
+std::string wrap(const std::string& line, int indent, int width) {
+  std::string out;
+  std::size_t start = 0;
+  int room = width;
+  while (columns(line, start, line.size()) > room) {
+    const std::size_t at = break_before(line, start, room);
+    if (at == std::string::npos) break;
+    out += line.substr(start, at - start) + "\n" + std::string(static_cast<std::size_t>(indent), ' ');
+    start = at + 1;
+    room = width - indent;
+  }
+  return out + line.substr(start);
+}
+
+Printer::Printer(const Graph& graph, const std::vector<int>& results)
+    : graph_(graph), uses_(graph.nodes().size(), 0) {
+  for (const int result : results) ++uses_[static_cast<std::size_t>(result)];
+  for (std::size_t i = uses_.size(); i-- > 0;) {
+    if (uses_[i] == 0) continue;
+    const Node& node = graph.nodes()[i];
+    for (const int operand : {node.a, node.b, node.c})
+      if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : 1;
+  }
+}
+
+std::string Printer::operand(int node) const { return print(node, unary + 1); }
+
+bool Printer::is_declared(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::constant || at.op == Op::flag) return false;
+  return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1;
+}
+
+std::string Printer::name_of(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  return at.name.empty() ? "shared_" + std::to_string(node) : at.name;
+}
+
+std::string Printer::print(int node, int level) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::constant) {
+    const std::string text = literal(at.value, graph_.target().is_double);
+    return at.value < 0 ? bracketed(text, unary, level + 1) : text;
+  }
+  return is_declared(node) ? name_of(node) : print_operation(node, level);
+}
+
+std::string Printer::print_multiply_add(const Node& node, int level) const {
+  const bool subtracts = node.op == Op::multiply_subtract;
+  if (!graph_.target().is_fused)
+    return bracketed(print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " +
+                         print(node.b, unary), sum, level);
+  const std::string function = graph_.target().is_double ? "fma(" : "fmaf(";
+  return function + (subtracts ? "-" + print(node.a, unary) : print(node.a, any)) + ", " + print(node.b, any) +
+         ", " + print(node.c, any) + ")";
+}
+
+std::string Printer::print_operation(int node, int level) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  const std::string zero = graph_.target().is_double ? "0.0" : "0.0f";
+  const auto binary = [&](const char* sign, int binds) {
+    return bracketed(print(at.a, binds) + sign + print(at.b, binds + 1), binds, level);
+  };
+  switch (at.op) {
+    case Op::add: return binary(" + ", sum);
+    case Op::subtract: return binary(" - ", sum);
+    case Op::multiply: return binary(" * ", product);
+    case Op::divide: return binary(" / ", product);
+    case Op::negate: return bracketed("-" + print(at.a, unary + 1), unary, level);
+    case Op::multiply_add:
+    case Op::multiply_subtract: return print_multiply_add(at, level);
+    case Op::select:
+      return bracketed(print(at.a, logical) + " ? " + print(at.b, logical) + " : " + print(at.c, any), any, level);
+    case Op::finite:
+      return bracketed(print(at.a, sum) + " - " + print(at.a, product) + " == " + zero, comparison, level);
+    case Op::less: return binary(" < ", comparison);
+    case Op::usable:
+      return bracketed(print(at.a, sum) + " - " + print(at.a, product) + " < " + print(at.b, sum), comparison, level);
+    case Op::same: return binary(" == ", comparison);
+    case Op::either: return bracketed(print(at.a, comparison) + " || " + print(at.b, comparison), logical, level);
+    case Op::negation: return "!" + print(at.a, unary + 1);
+    default: return at.text;
+  }
+}
+
+bool Printer::is_status(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  return at.op == Op::flag || (at.op == Op::select && is_status(at.b));
+}
+
+std::string Printer::declaration(int node) const {
+  const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "int"
+                           : is_status(node)                                               ? "lqg_status"
+                           : graph_.target().is_double                                     ? "double"
+                                                                                           : "float";
+  return wrap("    const " + type + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";
+}
+
+std::string Printer::assignment(const Store& store) const {
+  return wrap("    " + store.target + " = " + expression(store.node) + ";", 8) + "\n";
+}
+
+std::string Printer::statements(const std::vector<Store>& stores) const {
+  std::multimap<int, const Store*> ready;
+  for (const Store& store : stores) ready.emplace(is_declared(store.node) ? store.node : -1, &store);
+  std::string loads, blocks;
+  int section = 0;
+  for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
+    if (!needs(node) || !is_declared(node)) continue;
+    const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+    if (at.op == Op::input) {
+      loads += declaration(node);
+      continue;
+    }
+    if (at.section != section && !graph_.equation(at.section).empty())
+      blocks += "\n    /* " + graph_.equation(at.section) + " */\n";
+    section = at.section;
+    blocks += declaration(node);
+    for (auto [store, end] = ready.equal_range(node); store != end; ++store) blocks += assignment(*store->second);
+  }
+  std::string rest;  // a number, an input, or an expression that needs no name
+  for (const auto& [node, store] : ready)
+    if (node < 0 || graph_.nodes()[static_cast<std::size_t>(node)].op == Op::input) rest += assignment(*store);
+  return loads + blocks + (rest.empty() ? "" : "\n" + rest);
+}
+
+Operations Printer::operations() const {
+  Operations count;
+  for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
+    if (!needs(node)) continue;
+    switch (graph_.nodes()[static_cast<std::size_t>(node)].op) {
+      case Op::add: case Op::subtract: case Op::negate: case Op::finite: ++count.additions; break;
+      case Op::multiply: ++count.multiplications; break;
+      case Op::multiply_add: case Op::multiply_subtract: ++count.multiply_adds; break;
+      case Op::divide: ++count.divisions; break;
+      case Op::constant: ++count.constants; break;
+      case Op::input: case Op::flag: break;
+      default: ++count.selections;
+    }
+  }
+  return count;
+}
+
+}  // namespace lqg::trace

@@ -1,0 +1,58 @@
+// From the graph to C99: declarations under their equations, in the order of the run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trace/graph.hpp"
+
+namespace lqg::trace {
+
+// The shortest decimal that reads back as the same number: "0.01f", "1e-06f", "0.5", "-3.0f".
+std::string literal(double value, bool is_double);
+
+// Breaks a line of C over `width` columns; what follows is indented by `indent` columns.
+std::string wrap(const std::string& line, int indent, int width = 100);
+
+// An assignment of a result, "self->x[0] = …".
+struct Store {
+  std::string target;
+  int node;
+};
+
+struct Operations {
+  int additions = 0, multiplications = 0, multiply_adds = 0, divisions = 0, selections = 0;
+  int constants = 0;  // distinct ones that the code must load
+  int total() const { return additions + multiplications + multiply_adds + divisions; }
+};
+
+// Prints what `results` need, and nothing else.
+class Printer {
+ public:
+  Printer(const Graph& graph, const std::vector<int>& results);
+
+  // One statement a line, indented by four columns: the inputs first, then block after block. A result is stored as soon
+  // as it is there, since a register that waits is one that something else lacks; all inputs have been read by then.
+  std::string statements(const std::vector<Store>& stores) const;
+  // A result as an expression: a name or a literal where it has one.
+  std::string expression(int node) const { return print(node, 0); }
+  // The same, in brackets where it is more than a name.
+  std::string operand(int node) const;
+  bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
+  Operations operations() const;
+
+ private:
+  bool is_declared(int node) const;
+  bool is_status(int node) const;
+  std::string name_of(int node) const;
+  std::string print(int node, int level) const;
+  std::string print_operation(int node, int level) const;
+  std::string print_multiply_add(const Node& node, int level) const;
+  std::string declaration(int node) const;
+  std::string assignment(const Store& store) const;
+
+  const Graph& graph_;
+  std::vector<int> uses_;
+};
+
+}  // namespace lqg::trace

@@ -1,0 +1,71 @@
+/* TinyLQG: the scalar of the target, and what a compiler may do with it.
+ *
+ * Every product, sum and quotient of TinyLQG is rounded once, in the order in which it is written. That is
+ * why the PC, the emulator and every microcontroller find the same bits, and why a NaN is noticed. This
+ * header keeps it so.
+ *
+ * Options, to be defined for the whole program (-D…), library and firmware alike:
+ *
+ *   LQG_REAL_DOUBLE   lqg_real is double; otherwise it is float.
+ *   LQG_FUSED         the library's multiply-adds are fmaf() or fma(), rounded once: faster and closer where
+ *                     the hardware has the instruction, very slow where it does not. Otherwise both
+ *                     operations round.
+ */
+#ifndef LQG_ARITHMETIC_H
+#define LQG_ARITHMETIC_H
+
+#if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ == 1) || defined _M_FP_FAST
+#error "TinyLQG cannot be compiled with -ffast-math: it would no longer notice a NaN. Leave out -ffast-math, -Ofast and -ffinite-math-only for this file."
+#endif
+
+#if defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__
+#error "TinyLQG needs its operations in the order in which they are written. Leave out -funsafe-math-optimizations, -fassociative-math and -freciprocal-math for this file."
+#endif
+
+#ifdef LQG_REAL_DOUBLE
+typedef double lqg_real;
+#else
+typedef float lqg_real;
+#endif
+
+/* Contraction (turning a*b + c into one fused multiply-add behind our back) is what GCC and clang do unless
+ * told otherwise. It is switched off from the inside, and the code around keeps its own options. Only clang's
+ * explicit -ffp-contract=fast cannot be overruled from here: use fast-honor-pragmas in its place.
+ *
+ *     LQG_STRICT_BEGIN                     before the first function (GCC)
+ *     lqg_real f(lqg_real a, lqg_real b)
+ *     {
+ *         LQG_STRICT_BODY                  first in each function with arithmetic (clang)
+ *         return a * a + b;
+ *     }
+ *     LQG_STRICT_END                       after the last function
+ *
+ * Such functions must not be always_inline: they would take over the options of their caller.
+ */
+#if defined __clang__
+#define LQG_STRICT_BEGIN
+#define LQG_STRICT_BODY _Pragma("clang fp contract(off)")
+#define LQG_STRICT_END
+#elif defined __GNUC__
+#define LQG_STRICT_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize (\"fp-contract=off\")")
+#define LQG_STRICT_BODY
+#define LQG_STRICT_END _Pragma("GCC pop_options")
+#else
+#define LQG_STRICT_BEGIN _Pragma("STDC FP_CONTRACT OFF")
+#define LQG_STRICT_BODY
+#define LQG_STRICT_END _Pragma("STDC FP_CONTRACT DEFAULT")
+#endif
+
+/* The name by which the linker knows a library function of this scalar and arithmetic. Firmware compiled with
+ * other options than its library does not link; it never computes with misread numbers. */
+#if defined LQG_REAL_DOUBLE && defined LQG_FUSED
+#define LQG_VARIANT(name) name##_f64_fused
+#elif defined LQG_REAL_DOUBLE
+#define LQG_VARIANT(name) name##_f64
+#elif defined LQG_FUSED
+#define LQG_VARIANT(name) name##_f32_fused
+#else
+#define LQG_VARIANT(name) name##_f32
+#endif
+
+#endif

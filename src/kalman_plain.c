@@ -1,0 +1,114 @@
+/* The Kalman filter that carries the covariance P of its error, as a lower triangle. */
+#include "kernel.h"
+#include "plant.h"
+
+LQG_STRICT_BEGIN
+
+void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[], lqg_real u_applied[],
+                           lqg_real innovation[])
+{
+    lqg_plant_begin(&kalman->plant, kalman->x0, x, u_applied, innovation);
+    copy(P, kalman->P0, LQG_TRIANGLE(kalman->plant.nx));
+}
+
+static lqg_status reset_unless_finite(const lqg_kalman_plain_t *kalman, lqg_real sum, lqg_real x[],
+                                      lqg_real P[], lqg_real u_applied[], lqg_real innovation[])
+{
+    if (is_finite(sum))
+        return LQG_OK;
+
+    lqg_kalman_plain_init(kalman, x, P, u_applied, innovation);
+    return LQG_STATE_RESET;
+}
+
+/* Σ_k P_jk v_k: along row j of the triangle as far as the diagonal, then down column j. */
+static lqg_real symmetric_row_product(const lqg_real P[], unsigned j, unsigned nx, const lqg_real v[])
+{
+    LQG_STRICT_BODY
+    lqg_real sum = 0;
+    unsigned at = LQG_TRIANGLE(j);
+
+    for (unsigned k = 0; k < nx; k++) {
+        sum = multiply_add(P[at], v[k], sum);
+        at += k < j ? 1 : k + 1;
+    }
+    return sum;
+}
+
+/* Takes output i, y_i, into x̂ and P, or leaves it out and says why. f[nx] is scratch. */
+static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lqg_real x[], lqg_real P[],
+                                const lqg_real u_applied[], lqg_real y_i, lqg_real f[])
+{
+    LQG_STRICT_BODY
+    const unsigned nx = kalman->plant.nx;
+    const lqg_real *c = kalman->plant.C + i * nx;
+
+    /* f = P cᵀ,  s = c P cᵀ + v */
+    for (unsigned j = 0; j < nx; j++)
+        f[j] = symmetric_row_product(P, j, nx, c);
+    const lqg_real s = add_row_product(kalman->V[i], c, 0, nx, f);
+
+    const lqg_real innovation = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
+    const int finite = is_finite(innovation), positive = s > 0, usable = finite && positive;
+    const lqg_real nu = usable ? innovation : 0;
+    const lqg_real inverse = usable ? 1 / s : 0;
+
+    /* gain = f / s,  x̂ ← x̂ + gain ν,  P ← P − gain fᵀ */
+    for (unsigned j = 0; j < nx; j++) {
+        const lqg_real gain = f[j] * inverse;
+        x[j] = multiply_add(gain, nu, x[j]);
+        for (unsigned l = 0; l <= j; l++)
+            P[LQG_TRIANGLE(j) + l] = multiply_subtract(gain, f[l], P[LQG_TRIANGLE(j) + l]);
+    }
+    return !finite ? LQG_OUTPUT_NOT_FINITE : !positive ? LQG_INNOVATION_NOT_POSITIVE : LQG_OK;
+}
+
+lqg_status lqg_kalman_plain_update(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
+                                   lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
+                                   lqg_real work[])
+{
+    const lqg_plant_t *plant = &kalman->plant;
+    const lqg_real *outputs = lqg_plant_decorrelate(plant, kalman->E, y, work + plant->nx);
+    lqg_status status = LQG_OK;
+
+    for (unsigned i = 0; i < plant->ny; i++) {
+        const lqg_status left_out = update_output(kalman, i, x, P, u_applied, outputs[i], work);
+        status |= left_out;
+        if (kalman->M)
+            innovation[i] = left_out ? 0 : 1;
+    }
+    if (kalman->M)
+        lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);
+
+    return status | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, P, u_applied, innovation);
+}
+
+/* P ← A P Aᵀ + W. AP[nx × nx] is scratch. */
+static void predict_covariance(const lqg_kalman_plain_t *kalman, lqg_real P[], lqg_real AP[])
+{
+    const unsigned nx = kalman->plant.nx;
+    const lqg_real *A = kalman->M ? kalman->A_free : kalman->plant.A;
+
+    for (unsigned i = 0; i < nx; i++)
+        for (unsigned j = 0; j < nx; j++)
+            AP[i * nx + j] = symmetric_row_product(P, j, nx, A + i * nx);
+
+    for (unsigned i = 0; i < nx; i++)
+        for (unsigned j = 0; j <= i; j++)
+            P[LQG_TRIANGLE(i) + j] = add_row_product(kalman->W[LQG_TRIANGLE(i) + j], AP, i, nx, A + j * nx);
+}
+
+lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
+                                    lqg_real u_applied[], lqg_real innovation[], const lqg_real u[],
+                                    lqg_real work[])
+{
+    const unsigned nx = kalman->plant.nx;
+
+    lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
+    predict_covariance(kalman, P, work);
+
+    const lqg_real sum = add_all(add_all(0, x, nx), P, LQG_TRIANGLE(nx));
+    return reset_unless_finite(kalman, sum, x, P, u_applied, innovation);
+}
+
+LQG_STRICT_END

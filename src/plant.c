@@ -1,0 +1,63 @@
+#include "plant.h"
+
+#include "kernel.h"
+
+LQG_STRICT_BEGIN
+
+void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
+                     lqg_real innovation[])
+{
+    begin(x, x0, plant->nx);
+    begin(u_applied, NULL, plant->nu);
+    begin(innovation, NULL, plant->ny);
+}
+
+lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[],
+                              const lqg_real u_applied[], lqg_real y_i)
+{
+    const lqg_real without_x = subtract_row_product(y_i, plant->C, i, plant->nx, x);
+    return plant->D ? subtract_row_product(without_x, plant->D, i, plant->nu, u_applied) : without_x;
+}
+
+const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], const lqg_real y[],
+                                      lqg_real work[])
+{
+    const unsigned ny = plant->ny;
+    if (!E)
+        return y;
+
+    for (unsigned i = 0; i < ny; i++) {
+        work[i] = y[i];
+        for (unsigned j = 0; j < i; j++)
+            if (E[i * ny + j] != 0)
+                work[i] = multiply_add(E[i * ny + j], y[j], work[i]);
+    }
+    return work;
+}
+
+void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[],
+                              const lqg_real y[], lqg_real innovation[])
+{
+    for (unsigned i = 0; i < plant->ny; i++) {
+        const lqg_real residual = lqg_plant_innovation(plant, i, x, u_applied, y[i]);
+        innovation[i] = innovation[i] != 0 ? residual : 0;
+    }
+}
+
+void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[], lqg_real u_applied[],
+                       lqg_real innovation[], const lqg_real u[], lqg_real work[])
+{
+    const unsigned nx = plant->nx, nu = plant->nu, ny = plant->ny;
+
+    for (unsigned i = 0; i < nx; i++) {
+        lqg_real next = add_row_product(0, plant->A, i, nx, x);
+        next = add_row_product(next, plant->B, i, nu, u);
+        work[i] = M ? add_row_product(next, M, i, ny, innovation) : next;
+    }
+    copy(x, work, nx);
+    if (u_applied)
+        copy(u_applied, u, nu);
+    begin(innovation, NULL, ny);
+}
+
+LQG_STRICT_END

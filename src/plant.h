@@ -1,0 +1,34 @@
+/* What all filters do with the plant. Not for firmware. */
+#ifndef LQG_PLANT_H
+#define LQG_PLANT_H
+
+#include "lqg/kalman.h"
+
+#define lqg_plant_begin LQG_VARIANT(lqg_plant_begin)
+#define lqg_plant_innovation LQG_VARIANT(lqg_plant_innovation)
+#define lqg_plant_decorrelate LQG_VARIANT(lqg_plant_decorrelate)
+#define lqg_plant_keep_residuals LQG_VARIANT(lqg_plant_keep_residuals)
+#define lqg_plant_predict LQG_VARIANT(lqg_plant_predict)
+
+/* x = x0 (NULL: 0), u_applied = 0, innovation = 0; the latter two where there are any. */
+void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
+                     lqg_real innovation[]);
+
+/* y_i − C_i x − D_i u */
+lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[],
+                              const lqg_real u_applied[], lqg_real y_i);
+
+/* y' = E y, written to work[ny], or y itself when E is NULL. Zeros of E keep the NaN of one output out of the
+ * others. */
+const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], const lqg_real y[],
+                                      lqg_real work[]);
+
+/* innovation_i ← y'_i − C_i x − D_i u where innovation_i is 1 (output i was used); it stays 0 elsewhere. */
+void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[],
+                              const lqg_real y[], lqg_real innovation[]);
+
+/* x ← A x + B u + M innovation (M may be NULL),  u_applied ← u,  innovation ← 0. work[nx] is scratch. */
+void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[], lqg_real u_applied[],
+                       lqg_real innovation[], const lqg_real u[], lqg_real work[]);
+
+#endif

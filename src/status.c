@@ -1,0 +1,17 @@
+/* A status in words. */
+#include "lqg/status.h"
+
+const char *lqg_status_text(lqg_status status)
+{
+    if (status & LQG_STATE_RESET)
+        return "the state was not finite and begins anew";
+    if (status & LQG_INNOVATION_NOT_POSITIVE)
+        return "the variance of an innovation was not positive: the output was left out";
+    if (status & LQG_OUTPUT_NOT_FINITE)
+        return "an output was not finite and was left out";
+    if (status & LQG_OUTPUT_GATED)
+        return "an output was too unlikely and was left out";
+    if (status & LQG_INPUT_LIMITED)
+        return "an input was limited";
+    return "all is well";
+}

@@ -1,0 +1,34 @@
+#include "bad_designs.hpp"
+
+namespace {
+
+// Five lines of plant with its `A`, `B`, `C` in lines 5, 6, 7, and both tables below.
+std::string design(const std::string& domain, const std::string& A, const std::string& B,
+                   const std::string& C) {
+  return "name = \"base\"\n[plant]\ndomain = \"" + domain + "\"\nsample_time = 0.1\nA = " + A + "\nB = " + B +
+         "\nC = " + C +
+         "\nstates = [\"angle [rad]\", \"rate [rad/s]\"]\n[lqr]\nQ = [1, 1]\nR = [1]\n[kalman]\n"
+         "process_noise = [1, 1]\nmeasurement_noise = [1]\n";
+}
+
+}  // namespace
+
+std::vector<BadDesign> impossible() {
+  return {
+      {"unstable mode that no input reaches",
+       {{0, design("discrete", "[[1.5, 0], [0, 0.5]]", "[[0], [1]]", "[[1, 1]]")}},
+       {"6:5: plant.B: …z = 1.5…angle…not stabilisable"}},
+      {"unstable mode that no output shows",
+       {{0, design("discrete", "[[1.5, 0], [0, 0.5]]", "[[1], [1]]", "[[0, 1]]")}},
+       {"7:5: plant.C: …z = 1.5…angle…not detectable"}},
+      {"unstable mode that stands alone",
+       {{0, design("continuous", "[[2, 0], [0, -3]]", "[[0], [1]]", "[[0, 1]]")}},
+       {"6:5: plant.B: …s = 2…angle…not stabilisable", "7:5: plant.C: …s = 2…angle…not detectable"}},
+      {"oscillation that no input damps",
+       {{0, design("continuous", "[[0, 1], [-1, 0]]", "[[0], [0]]", "[[1, 0]]")}},
+       {"6:5: plant.B: …not stabilisable"}},
+      {"integrator that no output shows",
+       {{0, design("continuous", "[[0, 1], [0, 0]]", "[[0], [1]]", "[[0, 1]]")}},
+       {"7:5: plant.C: …angle…not detectable"}},
+  };
+}

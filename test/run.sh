@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Builds TinyLQG and passes all its tests; sets up what it needs.
+#
+#   test/run.sh [--sanitize] [option of ctest]…        CC and CXX choose the compilers
+#
+# --sanitize builds with AddressSanitizer and UndefinedBehaviorSanitizer. The build is in build/, or
+# build-<compiler>-sanitize/ and so on.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../codegen/cmake/setup.sh"
+
+# This source distribution on PyPI holds all of Unity 2.7.0 under vendor/unity.
+unity_sdist=pytest-unity==0.1.0
+unity_sdist_sha256=cd3ceb4aeb4f7866f935957f91874999d8ae13ff014684464ade0b7071e28298
+
+# CMake gets Unity itself where its home can be reached.
+upstream_is_reachable() {
+  local script reachable=0
+  script=$(mktemp)
+  echo 'file(DOWNLOAD https://github.com STATUS status TIMEOUT 30)
+    if(NOT status MATCHES "^0;")
+      message(FATAL_ERROR "${status}")
+    endif()' >"$script"
+  cmake -P "$script" >/dev/null 2>&1 || reachable=1
+  rm "$script"
+  return $reachable
+}
+
+fetch_unity_from_pypi() {
+  local folder=$1 download
+  echo "Fetching Unity from PyPI"
+  python3 -m pip --version >/dev/null 2>&1 || lqg_install python3-pip
+  download=$(mktemp -d)
+  python3 -m pip download --quiet --no-deps --no-binary pytest-unity --dest "$download" "$unity_sdist" ||
+    lqg_stop "Unity can be had neither from github.com nor from PyPI ($unity_sdist)"
+  echo "$unity_sdist_sha256  $download/pytest_unity-0.1.0.tar.gz" | sha256sum --check --quiet
+  mkdir -p "$folder"
+  tar -xzf "$download/pytest_unity-0.1.0.tar.gz" -C "$folder" --strip-components=3 \
+    pytest_unity-0.1.0/vendor/unity
+  rm -r "$download"
+}
+
+folder=$lqg_root/build${CC:+-$(basename "$CC")}
+options=(-DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=ON)
+if [ "${1:-}" = --sanitize ]; then
+  shift
+  folder+=-sanitize
+  flags="-O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
+  options+=(-DCMAKE_BUILD_TYPE=Debug "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags")
+fi
+
+lqg_install_packages
+
+unity=$lqg_root/build/unity
+if [ ! -e "$unity/src/unity.c" ] && ! upstream_is_reachable; then
+  fetch_unity_from_pypi "$unity"
+fi
+if [ -e "$unity/src/unity.c" ]; then
+  options+=("-DFETCHCONTENT_SOURCE_DIR_UNITY=$unity")
+fi
+
+lqg_configure "$folder" "${options[@]}"
+lqg_compile "$folder"
+exec ctest --test-dir "$folder" --output-on-failure --parallel "$(getconf _NPROCESSORS_ONLN)" "$@"
