@@ -21,7 +21,7 @@ RealMatrix estimate_covariance(const SampledPlant& plant, const RealMatrix& K, c
 // u = −Kx̂ and x − x̂ is not correlated with x̂:  tr((Q − NK − KᵀNᵀ + KᵀRK) E[x̂x̂ᵀ]) + tr(Q P).
 Real cost_of(const SampledCost& cost, const RealMatrix& K, const RealMatrix& estimate, const RealMatrix& error) {
   const RealMatrix NK = multiply(cost.N, K);
-  const RealMatrix weight = cost.Q - NK - NK.transpose() + transpose_congruence(K, cost.R);
+  const RealMatrix weight = cost.Q - (NK + NK.transpose()) + transpose_congruence(K, cost.R);
   return trace_of_product(weight, estimate) + trace_of_product(cost.Q, error);
 }
 

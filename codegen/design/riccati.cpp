@@ -23,7 +23,7 @@ int most_doublings() { return 4 * static_cast<int>(Real::default_precision()); }
 // The cost of one step under u = −Kx:  [I −Kᵀ] [Q N; Nᵀ R] [I; −K] = Q − NK − KᵀNᵀ + KᵀRK.
 RealMatrix step_cost(const RiccatiEquation& e, const RealMatrix& K) {
   const RealMatrix NK = multiply(e.N, K);
-  return e.Q - NK - NK.transpose() + transpose_congruence(K, e.R);
+  return e.Q - (NK + NK.transpose()) + transpose_congruence(K, e.R);
 }
 
 // X by structure-preserving doubling (E. K. Chu, H. Y. Fan, W. W. Lin, C. S. Wang, International Journal of Control 77

@@ -1,0 +1,19 @@
+/* A program that is nothing but the controller in HEADER: what the linker has to bring for its four functions,
+ * constants and library functions included, is its flash. The table of the functions itself, from which the
+ * linker starts, lies in a section of its own. */
+#include HEADER
+
+#define PASTE(a, b) a##_##b
+#define JOIN(a, b) PASTE(a, b)
+#define OF(part) JOIN(NAME, part)
+
+typedef void function(void);
+
+extern function *const roots[];
+
+__attribute__((section(".roots"))) function *const roots[] = {
+    (function *)OF(init),
+    (function *)OF(update),
+    (function *)OF(control),
+    (function *)OF(predict),
+};
