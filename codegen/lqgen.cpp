@@ -56,6 +56,15 @@ std::vector<emit::File> files(const Arguments& arguments, const emit::Controller
   return out;
 }
 
+// A design that is called NAME.json would otherwise be lost.
+bool overwrites_design(const Arguments& arguments, const std::vector<emit::File>& files) {
+  std::error_code ignored;
+  for (const emit::File& file : files)
+    if (std::filesystem::equivalent(arguments.design_file, std::filesystem::path(arguments.folder) / file.name, ignored))
+      return true;
+  return false;
+}
+
 int generate(const Arguments& arguments) {
   const input::DesignFile file = input::read_design_file(arguments.design_file);
   report(arguments, file, file.findings);
@@ -76,7 +85,13 @@ int generate(const Arguments& arguments) {
   report(arguments, file, findings);
   if (!controller) return impossible;
 
-  if (const auto failure = emit::write_all(arguments.folder, files(arguments, *controller))) {
+  const std::vector<emit::File> outputs = files(arguments, *controller);
+  if (overwrites_design(arguments, outputs)) {
+    std::cerr << arguments.design_file << ": expected a design file that is not one of the outputs; rename it, or choose "
+              << "another folder with -o\n";
+    return wrong;
+  }
+  if (const auto failure = emit::write_all(arguments.folder, outputs)) {
     std::cerr << *failure << "\n";
     return unreadable;
   }

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"
 #include "design/rounding.hpp"
@@ -64,8 +65,9 @@ bool is_unstable(const Plant& plant, const Mode& mode) {
   return on_or_right_of_axis(mode.value, norm(real(plant.A)));
 }
 
-std::vector<Mode> unreached_modes_of(const Plant& plant, const RealMatrix& A, const RealMatrix& B) {
-  return plant.domain == Domain::continuous ? unreached_modes(A, B) : unreached_sampled_modes(A, B);
+Unreached unreached_modes_of(const Plant& plant, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  return plant.domain == Domain::continuous ? unreached_modes(real(A), real(B))
+                                            : unreached_sampled_modes(real(A), real(B));
 }
 
 // Do s and r become one pole by sampling: (s − r)T = 2πjk with k ≠ 0, up to what typing rounded numbers explains?
@@ -79,6 +81,7 @@ bool become_one(const ComplexReal& s, const ComplexReal& r, double sample_time) 
 // Unstable modes that B reaches in continuous time and does not in the samples. With the numbers of a file no two poles
 // become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is one more pole at s = 0.
 std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B, bool is_held) {
+  const Real weak = 1e-6;
   std::vector<ComplexReal> merged, poles = eigenvalues(real(plant.A));
   const std::size_t count = poles.size();
   if (is_held) poles.push_back({Real(0), Real(0)});
@@ -87,7 +90,9 @@ std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A
       if (become_one(poles[i], other, plant.sample_time)) merged.push_back(sampled_pole(poles[i], plant.sample_time));
   std::vector<Mode> lost;
   if (merged.empty()) return lost;
-  for (const Mode& mode : unreached_sampled_modes(A, B, Real(1e-6)))
+  const Real usual = is_held ? Real(plant.sample_time * largest_entry(real(plant.B))) : largest_entry(B);
+  const RealMatrix reach = B.unaryExpr([&](const Real& b) { return abs(b) > weak * usual ? b : Real(0); });
+  for (const Mode& mode : unreached_sampled_modes(A, reach, weak).modes)
     for (const ComplexReal& z : merged)
       if (on_or_outside_circle(z) && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
         lost.push_back({z, mode.states});
@@ -109,6 +114,10 @@ bool is_indefinite(const RealMatrix& weight) {
 
 RealMatrix joint(const Eigen::MatrixXd& a, const Eigen::MatrixXd& cross, const Eigen::MatrixXd& b) {
   return above(beside(real(a), real(cross)), beside(real(cross.transpose()), real(b)));
+}
+
+void check_symmetric(const Eigen::MatrixXd& a, const std::string& key, Findings& findings) {
+  if (a != a.transpose()) add_error(findings, key, "expected a symmetric matrix");
 }
 
 // Errors at `key_a` or `key_b` for one alone, at `key_cross` when only the two together are indefinite.
@@ -145,6 +154,17 @@ void check_kinds(const Problem& problem, Findings& findings) {
     add_error(findings, "kalman.noise", "expected \"discrete\": the plant is given at its samples only");
 }
 
+void check_symmetry(const Problem& problem, Findings& findings) {
+  if (problem.regulator) {
+    check_symmetric(problem.regulator->Q, "lqr.Q", findings);
+    check_symmetric(problem.regulator->R, "lqr.R", findings);
+  }
+  if (!problem.estimator) return;
+  check_symmetric(problem.estimator->W, "kalman.process_noise", findings);
+  check_symmetric(problem.estimator->V, "kalman.measurement_noise", findings);
+  check_symmetric(problem.estimator->P0, "kalman.initial_covariance", findings);
+}
+
 void check_definiteness(const Problem& problem, Findings& findings) {
   if (problem.regulator) {
     const Regulator& lqr = *problem.regulator;
@@ -156,35 +176,45 @@ void check_definiteness(const Problem& problem, Findings& findings) {
   const Estimator& kalman = *problem.estimator;
   check_joint(kalman.W, kalman.Swv, kalman.V, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise",
               findings);
-  if (!positive_definite(real(kalman.V)))
+  if (!has_error(findings) && !positive_definite(real(kalman.V)))
     add_error(findings, "kalman.measurement_noise", "expected a positive definite matrix: every output needs some noise");
   if (kalman.gain == Gain::online && is_indefinite(real(kalman.P0)))
     add_error(findings, "kalman.initial_covariance", "expected a positive semidefinite matrix");
 }
 
-void check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
+bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
-  for (const Mode& mode : unreached_modes_of(plant, real(plant.A), real(plant.B)))
-    if (is_unstable(plant, mode))
-      add_once(findings, "plant.B",
-               name_mode(plant, mode, true) + " is reached by no input: the plant is not stabilisable");
-  if (has_error(findings) || plant.domain == Domain::discrete) return;
+  const Unreached unreached = unreached_modes_of(plant, plant.A, plant.B);
+  const bool certain = unreached.dimension == plant.A.rows() - reached_dimension(plant.A, plant.B);
+  const std::string reason = certain ? " is reached by no input: the plant is not stabilisable"
+                                     : " is reached too weakly by the inputs: the plant is hardly stabilisable";
+  for (const Mode& mode : unreached.modes)
+    if (is_unstable(plant, mode)) add_once(findings, "plant.B", name_mode(plant, mode, true) + reason);
+  if (!certain) return false;
+  if (has_error(findings) || plant.domain == Domain::discrete) return true;
   for (const Mode& mode : modes_lost_by_sampling(plant, sampled.A, sampled.B, true))
     add_once(findings, "plant.sample_time",
              name_mode(plant, mode, false) + " can be stabilised, but not with inputs that are held this long: "
                                              "the sample time matches its oscillation");
+  return true;
 }
 
-void check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
+bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
-  for (const Mode& mode : unreached_modes_of(plant, real(plant.A.transpose()), real(plant.C.transpose())))
-    if (is_unstable(plant, mode))
-      add_once(findings, "plant.C", name_mode(plant, mode, true) + " is seen in no output: the plant is not detectable");
-  if (has_error(findings) || plant.domain == Domain::discrete) return;
+  const Eigen::MatrixXd A = plant.A.transpose(), C = plant.C.transpose();
+  const Unreached unseen = unreached_modes_of(plant, A, C);
+  const bool certain = unseen.dimension == A.rows() - reached_dimension(A, C);
+  const std::string reason = certain ? " is seen in no output: the plant is not detectable"
+                                     : " is seen too weakly in the outputs: the plant is hardly detectable";
+  for (const Mode& mode : unseen.modes)
+    if (is_unstable(plant, mode)) add_once(findings, "plant.C", name_mode(plant, mode, true) + reason);
+  if (!certain) return false;
+  if (has_error(findings) || plant.domain == Domain::discrete) return true;
   for (const Mode& mode : modes_lost_by_sampling(plant, sampled.A.transpose(), sampled.C.transpose(), false))
     add_once(findings, "plant.sample_time",
              name_mode(plant, mode, false) + " can be seen, but not at these samples: "
                                              "the sample time matches its oscillation");
+  return true;
 }
 
 // The modes of (A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ) that are not observable: with R > 0 the only ones that cost nothing.
@@ -198,8 +228,9 @@ void check_weights_on_limit(const Problem& problem, const Samples& samples, Find
   const RealMatrix weighed = *solve(cost.R, cost.N.transpose());
   const RealMatrix free = A - multiply(B, weighed);
   const RealMatrix weight = cost.Q - multiply(cost.N, weighed);
-  for (const Mode& mode : is_continuous ? unreached_modes(free.transpose(), weight)
-                                        : unreached_sampled_modes(free.transpose(), weight)) {
+  const Unreached unweighed = is_continuous ? unreached_modes(free.transpose(), weight)
+                                            : unreached_sampled_modes(free.transpose(), weight);
+  for (const Mode& mode : unweighed.modes) {
     const bool on_limit = is_continuous ? abs(mode.value.re) <= negligible(0.25) * norm(free) : on_circle(mode.value);
     if (on_limit)
       add_once(findings, "lqr.Q", name_mode(plant, mode, is_continuous)
@@ -215,7 +246,7 @@ void check_noise_on_limit(const Problem& problem, const Samples& samples, Findin
   const Index nx = plant.A.rows(), nw = plant.G.cols();
   const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
   const RealMatrix own = congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
-  for (const Mode& mode : unreached_sampled_modes(free, own))
+  for (const Mode& mode : unreached_sampled_modes(free, own).modes)
     if (on_circle(mode.value))
       add_once(findings, "kalman.process_noise",
                name_mode(problem.plant, mode, false)

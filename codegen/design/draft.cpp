@@ -1,9 +1,13 @@
 #include "design/draft.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "design/checks.hpp"
 #include "design/cost.hpp"
 #include "design/estimator.hpp"
 #include "design/regulator.hpp"
+#include "design/representable.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -11,16 +15,18 @@ namespace lqg::design {
 namespace {
 
 void take_condition(Solution& solution, const RiccatiResult& result) {
-  solution.numerics.condition = std::max(solution.numerics.condition, to_double(result.condition));
+  const double condition = std::min(to_double(result.condition), std::numeric_limits<double>::max());
+  solution.numerics.condition = std::max(solution.numerics.condition, condition);
 }
 
 void draft_regulator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
-  check_stabilisable(problem, samples.plant, result.findings);
+  result.may_want_digits = !check_stabilisable(problem, samples.plant, result.findings);
   check_weights_on_limit(problem, samples, result.findings);
   if (has_error(result.findings)) return;
   const RiccatiResult found =
       solve_regulator(problem, samples, coarser ? coarser->solution.regulator->X : RealMatrix());
   explain_regulator(found.failure, result.findings);
+  if (found.failure != RiccatiFailure::none) result.may_want_digits = true;
   if (found.failure != RiccatiFailure::none) return;
   take_condition(result.solution, found);
   result.solution.regulator = RegulatorSolution{*samples.cost, found.K, found.X, {}};
@@ -32,12 +38,13 @@ void draft_regulator(const Problem& problem, const Samples& samples, const Draft
 }
 
 void draft_estimator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
-  check_detectable(problem, samples.plant, result.findings);
+  if (!check_detectable(problem, samples.plant, result.findings)) result.may_want_digits = true;
   check_noise_on_limit(problem, samples, result.findings);
   if (has_error(result.findings)) return;
   const RiccatiResult found =
       solve_estimator(samples, coarser ? coarser->solution.estimator->P_prior : RealMatrix());
   explain_estimator(found.failure, result.findings);
+  if (found.failure != RiccatiFailure::none) result.may_want_digits = true;
   if (found.failure != RiccatiFailure::none) return;
   take_condition(result.solution, found);
   result.solution.estimator = filter_of(samples, found.X);
@@ -51,6 +58,9 @@ Draft draft(const Problem& problem, const Draft* coarser) {
   Draft result;
   const Samples samples = sample(problem);
   result.solution.plant = samples.plant;
+  check_representable(result.solution, problem.code.real, result.findings);
+  if (has_error(result.findings)) return result;
+  result.findings.clear();  // the notes come at the end, with the others
   if (problem.regulator) draft_regulator(problem, samples, coarser, result);
   if (problem.estimator) draft_estimator(problem, samples, coarser, result);
   if (has_error(result.findings) || !problem.regulator || !problem.estimator) return result;

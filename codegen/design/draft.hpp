@@ -11,7 +11,8 @@ struct Draft {
   Solution solution;
   std::vector<ComplexReal> regulator_poles, estimator_poles;
   std::optional<Real> cost_per_sample, cost_per_second;
-  Findings findings;  // with an error: the rest is not complete
+  Findings findings;             // with an error: the rest is not complete
+  bool may_want_digits = false;  // the error may be one of too few digits
 };
 
 // `coarser` is a run with fewer digits and without errors to start from, or null.

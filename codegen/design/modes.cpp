@@ -100,21 +100,22 @@ Real limit() { return negligible(0.25); }
 
 Real no_coupling() { return negligible(0.6); }
 
-std::vector<Mode> unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling) {
-  std::vector<Mode> modes;
+Unreached unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling) {
+  Unreached result;
   const Basis basis = reached(A, B, coupling);
-  if (basis.columns().cols() == A.rows()) return modes;
+  result.dimension = A.rows() - basis.columns().cols();
+  if (result.dimension == 0) return result;
   const RealMatrix unreached = completion(basis);
   const RealMatrix rest = transpose_multiply(unreached, multiply(A, unreached));
   for (const ComplexReal& value : eigenvalues(rest))
-    if (!(value.im < 0)) modes.push_back({value, states_of(unreached, rest, value)});
-  return modes;
+    if (!(value.im < 0)) result.modes.push_back({value, states_of(unreached, rest, value)});
+  return result;
 }
 
-std::vector<Mode> unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling) {
-  std::vector<Mode> modes = unreached_modes(A - identity(A.rows()), B, coupling);
-  for (Mode& mode : modes) mode.value.re += 1;
-  return modes;
+Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling) {
+  Unreached result = unreached_modes(A - identity(A.rows()), B, coupling);
+  for (Mode& mode : result.modes) mode.value.re += 1;
+  return result;
 }
 
 bool on_or_outside_circle(const ComplexReal& z) { return hypot(z.re, z.im) >= 1 - limit(); }

@@ -14,12 +14,17 @@ struct Mode {
 // rounding. What a pair with couplings near that bound is found to be changes with the digits, which Ziv's test sees.
 Real no_coupling();
 
+struct Unreached {
+  std::vector<Mode> modes;  // conjugates once
+  Index dimension = 0;      // of the space they live in
+};
+
 // The modes of a pair whose A is nearer to 0 than to I: a continuous plant's.
-std::vector<Mode> unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling = no_coupling());
+Unreached unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling = no_coupling());
 
 // The same of a sampled plant, by way of A − I: with a short period A is the identity and little else.
-std::vector<Mode> unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B,
-                                          const Real& coupling = no_coupling());
+Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B,
+                                  const Real& coupling = no_coupling());
 
 // Is the mode on the limit of stability or beyond? 10^(−digits/4) inside of it still counts as on it.
 bool on_or_outside_circle(const ComplexReal& z);

@@ -1,5 +1,7 @@
 #include "design/riccati.hpp"
 
+#include <limits>
+
 #include "design/factor.hpp"
 
 namespace lqg::design {
@@ -130,13 +132,16 @@ RiccatiResult first_that_stabilises(const RiccatiEquation& e) {
   return result;
 }
 
-// ‖Ω⁻¹‖ ‖Ω‖ of Ω: Z ↦ Z − AᵀZA. Ω⁻¹ keeps definiteness, so that the identity is its worst right-hand side.
+// ‖Ω⁻¹‖ ‖Ω‖ of Ω: Z ↦ Z − AᵀZA. Ω⁻¹ keeps definiteness, so that the identity is its worst right-hand side. Few digits
+// are enough, but where A is too far from normal for them.
 Real stein_condition(const RealMatrix& A) {
-  const Digits few(20);
-  const RealMatrix coarse = in_present_digits(A);
-  const std::optional<RealMatrix> worst = solve_stein(coarse, identity(A.rows()));
-  if (!worst) return Real(std::numeric_limits<double>::infinity());
-  return norm(*worst) * (1 + norm(coarse) * norm(coarse.transpose()));
+  for (const unsigned digits : {20u, Real::default_precision()}) {
+    const Digits scope(digits);
+    const RealMatrix rounded = in_present_digits(A);
+    const std::optional<RealMatrix> worst = solve_stein(rounded, identity(A.rows()));
+    if (worst) return norm(*worst) * (1 + norm(rounded) * norm(rounded.transpose()));
+  }
+  return Real(std::numeric_limits<double>::infinity());
 }
 
 // The residual beside the size of its terms.

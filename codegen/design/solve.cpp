@@ -4,6 +4,7 @@
 #include "design/draft.hpp"
 #include "design/margins.hpp"
 #include "design/numbers.hpp"
+#include "design/representable.hpp"
 #include "design/rounding.hpp"
 #include "design/settle.hpp"
 
@@ -64,25 +65,6 @@ Poles sorted_poles(const std::vector<ComplexReal>& values) {
   return poles;
 }
 
-// Overflow is an error, a number that becomes zero a note; a variance that must be positive must not become zero.
-template <typename Scalar, typename Round>
-void check_representable(const Solution& solution, const char* scalar, Round round, Place least, Findings& findings) {
-  for_each_matrix(solution, [&](const std::string& name, Place place, const auto& matrix) {
-    if (least == Place::target && place != Place::target) return;
-    bool overflows = false, vanishes = false;
-    for (Index i = 0; i < matrix.size(); ++i) {
-      const Scalar rounded = round(matrix.data()[i]);
-      overflows = overflows || !std::isfinite(rounded);
-      vanishes = vanishes || (rounded == 0 && !matrix.data()[i].is_zero());
-    }
-    const std::string key = name.substr(0, name.find('.'));
-    if (overflows) add_error(findings, key, name + " has an entry too large for " + scalar);
-    const bool divided_by = name == "kalman.V" && place == Place::target;
-    if (vanishes && divided_by) add_error(findings, "kalman.measurement_noise", "a variance is too small for " + std::string(scalar));
-    if (vanishes && !divided_by) add_note(findings, key, name + " has an entry too small for " + scalar + ": it becomes 0");
-  });
-}
-
 void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& findings) {
   Solution& solution = draft.solution;
   solution.numerics.digits = digits;
@@ -99,9 +81,7 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
     solution.loop.phase_margin_deg = found.phase_deg;
     solution.loop.disk_margin = found.disk;
   }
-  check_representable<double>(solution, "double", to_double, Place::report, findings);
-  if (problem.code.real == Scalar::float32)
-    check_representable<float>(solution, "float", to_float, Place::target, findings);
+  check_representable(solution, problem.code.real, findings);
 }
 
 }  // namespace
@@ -111,7 +91,8 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings) {
   {
     const Digits scope(first_digits);
     check_kinds(problem, findings);
-    check_definiteness(problem, findings);
+    check_symmetry(problem, findings);
+    if (!has_error(findings)) check_definiteness(problem, findings);
     if (has_error(findings)) return std::nullopt;
     coarse = draft(problem, nullptr);
   }
@@ -119,7 +100,8 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings) {
     const Digits scope(digits);
     const bool failed = has_error(coarse->findings);
     Draft fine = draft(problem, failed ? nullptr : &*coarse);
-    if (failed && same(coarse->findings, fine.findings)) {
+    const bool refused = failed && !fine.may_want_digits && same(coarse->findings, fine.findings);
+    if (refused || (has_error(fine.findings) && digits == last_digits)) {
       findings.insert(findings.end(), fine.findings.begin(), fine.findings.end());
       return std::nullopt;
     }

@@ -16,7 +16,7 @@ Json rows(const design::RealMatrix& matrix) {
   Json out = Json::array();
   for (int i = 0; i < matrix.rows(); ++i) {
     Json row = Json::array();
-    for (int j = 0; j < matrix.cols(); ++j) row.push_back(rounded_to_double(matrix(i, j)));
+    for (int j = 0; j < matrix.cols(); ++j) row.push_back(design::to_double(matrix(i, j)));
     out.push_back(std::move(row));
   }
   return out;

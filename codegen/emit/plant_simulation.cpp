@@ -45,7 +45,7 @@ Matrix<double> joint_covariance(const design::Solution& solution) {
   const auto nx = G.rows(), ny = noise.V.rows();
   design::RealMatrix joint(nx + ny, nx + ny);
   joint << GWG, GS, GS.transpose(), noise.V;
-  return convert<double>(joint, rounded_to_double);
+  return convert<double>(joint, design::to_double);
 }
 
 }  // namespace
@@ -67,10 +67,10 @@ double Noise::normal() {
 
 PlantSimulation::PlantSimulation(const Controller& controller, std::uint64_t seed)
     : noise_(seed),
-      A_(convert<double>(controller.solution.plant.A, rounded_to_double)),
-      B_(convert<double>(controller.solution.plant.B, rounded_to_double)),
-      C_(convert<double>(controller.solution.plant.C, rounded_to_double)),
-      D_(convert<double>(controller.solution.plant.D, rounded_to_double)),
+      A_(convert<double>(controller.solution.plant.A, design::to_double)),
+      B_(convert<double>(controller.solution.plant.B, design::to_double)),
+      C_(convert<double>(controller.solution.plant.C, design::to_double)),
+      D_(convert<double>(controller.solution.plant.D, design::to_double)),
       factor_(square_root(joint_covariance(controller.solution))),
       x_(controller.problem.estimator->x0) {}
 

@@ -24,7 +24,7 @@ constexpr unsigned reference_digits = 40;  // of the reference of a controller i
 
 double as_double(double value) { return value; }
 double as_double(float value) { return static_cast<double>(value); }
-double as_double(const Real& value) { return rounded_to_double(value); }
+double as_double(const Real& value) { return design::to_double(value); }
 template <class T>
 double as_double(Fused<T> value) { return static_cast<double>(value.value); }
 
@@ -231,7 +231,7 @@ Vectors make_vectors(const Controller& controller) {
     const design::Digits digits(reference_digits);
     fill_in<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }, vectors);
   } else {
-    fill_in<double>(controller, rounded_to_double, vectors);
+    fill_in<double>(controller, design::to_double, vectors);
   }
   return vectors;
 }

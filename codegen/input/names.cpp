@@ -46,7 +46,7 @@ bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 bool is_letter(char c) { return is_lower(c) || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-std::string found(const std::string& text) { return ", found " + quoted(text); }
+std::string found(const std::string& text) { return ", found " + in_quotes(text); }
 
 Complaint check_identifier(const std::string& name) {
   const bool good = !name.empty() && is_letter(name[0]) && std::all_of(name.begin(), name.end(), [](char c) {
@@ -72,7 +72,7 @@ Complaint check_design_name(const std::string& name) {
   if (contains(keywords, name)) return "expected a name that is no keyword of C or C++" + found(name);
   if (contains(headers, name)) return "expected a name that no standard header has" + found(name);
   if (contains(types, name))
-    return "expected a name that leaves " + quoted(name + "_t") + " to C and POSIX" + found(name);
+    return "expected a name that leaves " + in_quotes(name + "_t") + " to C and POSIX" + found(name);
   if (name == "lqg" || name.rfind("lqg_", 0) == 0)
     return "expected a name that does not begin with the library's prefix lqg_" + found(name);
   return {};

@@ -184,7 +184,7 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::size_t at = 0;
   for (std::size_t count = 0; at < text.size() && count < shown_characters; ++count) {
     const std::size_t length = decode(text, at).length;

@@ -27,7 +27,7 @@ bool is_control(char32_t code);
 std::string printable(std::string_view text);
 
 // The same, quoted and cut after 60 characters.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 // Everything that must not reach the TOML parser: bytes that are not UTF-8, control characters, characters
 // beyond ASCII outside comments and strings of one line (toml++ 3.3.0 has undefined behaviour there), keys of

@@ -22,7 +22,7 @@ bool is_bare_key(const std::string& name) {
 }
 
 std::string joined(const std::string& parent, const std::string& name) {
-  const std::string segment = is_bare_key(name) && name.size() <= 60 ? name : quoted(name);
+  const std::string segment = is_bare_key(name) && name.size() <= 60 ? name : in_quotes(name);
   return parent.empty() ? segment : parent + "." + segment;
 }
 
@@ -85,7 +85,7 @@ class Collector {
 std::string listed(const std::vector<std::string>& words) {
   std::string list;
   for (std::size_t i = 0; i < words.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + quoted(words[i]);
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + in_quotes(words[i]);
   return list;
 }
 
@@ -142,9 +142,9 @@ class ValueReader {
   void read_word(const KeyRule& rule, const Node& node) {
     if (node.kind != Kind::text) return expected(rule, listed(rule.words), describe(node));
     if (contains(rule.later_words, node.text))
-      report_.error(rule.path, quoted(node.text) + " is not supported yet, expected " + listed(rule.words));
+      report_.error(rule.path, in_quotes(node.text) + " is not supported yet, expected " + listed(rule.words));
     else if (!contains(rule.words, node.text))
-      expected(rule, listed(rule.words), quoted(node.text));
+      expected(rule, listed(rule.words), in_quotes(node.text));
     else
       values_.texts[rule.path] = node.text;
   }
@@ -194,7 +194,7 @@ class ValueReader {
     const auto [first, is_new] = seen.emplace(capitals, index);
     if (is_new) return {};
     return "expected a name of its own, capitals aside, found that of [" + std::to_string(first->second) +
-           "], " + quoted(signal.name);
+           "], " + in_quotes(signal.name);
   }
 
   void expected(const KeyRule& rule, const std::string& wanted, const std::string& found) {

@@ -134,6 +134,15 @@ void test_output_folder_that_cannot_be_written() {
 }
 
 // Found out only when other files have taken their places already.
+void test_design_that_an_output_would_overwrite() {
+  write_file(folder / "out" / "base.json", base);
+  before = snapshot(folder / "out");
+  expect_line(wrong,
+              "out/base.json: expected a design file that is not one of the outputs; rename it, or choose "
+              "another folder with -o",
+              run_lqgen({"out/base.json", "-o", "out"}));
+}
+
 void test_output_whose_place_a_folder_has() {
   for (const char* name : {"base.h", "base_test.c", "base.json"}) {
     make_folder();
@@ -192,6 +201,7 @@ int main(int count, char** arguments) {
   RUN_TEST(test_design_that_may_not_be_read);
   RUN_TEST(test_output_folder_that_is_a_file);
   RUN_TEST(test_output_folder_that_cannot_be_written);
+  RUN_TEST(test_design_that_an_output_would_overwrite);
   RUN_TEST(test_output_whose_place_a_folder_has);
   RUN_TEST(test_write_that_fails_at_the_last_byte_of_a_file);
   RUN_TEST(test_full_disk);

@@ -3,12 +3,14 @@
 
 #include <unity.h>
 
+#include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;
 using namespace design_test;
+using Eigen::MatrixXd;
 
 extern "C" {
 void setUp(void) {}
@@ -33,7 +35,7 @@ void test_products_of_a_transpose_agree_with_transposed_products() {
 
 void test_solve_exchanges_rows_when_the_first_pivot_is_zero() {
   const Digits scope(50);
-  const RealMatrix a = real((Eigen::MatrixXd(2, 2) << 0, 2, 4, 1).finished());
+  const RealMatrix a = real((MatrixXd(2, 2) << 0, 2, 4, 1).finished());
   const std::optional<RealMatrix> x = solve(a, real(Eigen::Vector2d(6, 11)));
   TEST_ASSERT_TRUE(x.has_value());
   TEST_ASSERT_TRUE((*x)(0, 0) == 2 && (*x)(1, 0) == 3);
@@ -41,7 +43,7 @@ void test_solve_exchanges_rows_when_the_first_pivot_is_zero() {
 
 void test_solve_refuses_a_singular_matrix() {
   const Digits scope(50);
-  TEST_ASSERT_FALSE(solve(real(Eigen::MatrixXd::Constant(2, 2, 3)), identity(2)).has_value());
+  TEST_ASSERT_FALSE(solve(real(MatrixXd::Constant(2, 2, 3)), identity(2)).has_value());
 }
 
 void test_solve_of_a_hilbert_matrix_loses_no_more_than_its_condition() {
@@ -106,7 +108,7 @@ void test_eigenvalues_of_a_cyclic_permutation() {
 
 void test_eigenvalues_of_a_graded_matrix_keep_the_small_ones() {
   const Digits scope(50);
-  const Eigen::MatrixXd A = (Eigen::MatrixXd(3, 3) << 1e15, 1, 0, 1, 1, 1e-15, 0, 1e-15, 1e-15).finished();
+  const MatrixXd A = (MatrixXd(3, 3) << 1e15, 1, 0, 1, 1, 1e-15, 0, 1e-15, 1e-15).finished();
   const std::vector<ComplexReal> found = eigenvalues(real(A));
   Real least = 1;
   for (const ComplexReal& value : found) least = std::min<Real>(least, abs(value.re));
@@ -149,31 +151,69 @@ void test_upper_factors_keep_a_pivot_that_is_small_and_no_rounding() {
 
 void test_definiteness_is_judged_whatever_the_units() {
   const Digits scope(50);
-  const Eigen::MatrixXd good = (Eigen::MatrixXd(2, 2) << 1e-20, 0.99e-10, 0.99e-10, 1).finished();
-  const Eigen::MatrixXd bad = (Eigen::MatrixXd(2, 2) << 1e-20, 1.01e-10, 1.01e-10, 1).finished();
+  const MatrixXd good = (MatrixXd(2, 2) << 1e-20, 0.99e-10, 0.99e-10, 1).finished();
+  const MatrixXd bad = (MatrixXd(2, 2) << 1e-20, 1.01e-10, 1.01e-10, 1).finished();
   TEST_ASSERT_TRUE(least_scaled_eigenvalue(real(good)) > 0.009);
   TEST_ASSERT_TRUE(least_scaled_eigenvalue(real(bad)) < -0.009);
 }
 
 void test_mode_behind_a_tiny_coupling_is_reached() {
   const Digits scope(50);
-  const Eigen::MatrixXd A = (Eigen::MatrixXd(2, 2) << 2, 1e-12, 0, 3).finished();
-  TEST_ASSERT_EQUAL(0, unreached_modes(real(A), real(Eigen::Vector2d(0, 1e-9))).size());
+  const MatrixXd A = (MatrixXd(2, 2) << 2, 1e-12, 0, 3).finished();
+  TEST_ASSERT_EQUAL(0, unreached_modes(real(A), real(Eigen::Vector2d(0, 1e-9))).dimension);
 }
 
 void test_unreached_pair_is_found_with_its_states() {
   const Digits scope(50);
   // States 1 and 3 turn by themselves; 0 and 2 are driven.
-  const Eigen::MatrixXd A = (Eigen::MatrixXd(4, 4) << 1, 5, 1, 0,  //
+  const MatrixXd A = (MatrixXd(4, 4) << 1, 5, 1, 0,  //
                              0, 0.6, 0, 0.8,                       //
                              0, 1, 2, 2,                           //
                              0, -0.8, 0, 0.6).finished();
-  const std::vector<Mode> modes = unreached_modes(real(A), real(Eigen::Vector4d(0, 0, 1, 0)));
+  const std::vector<Mode> modes = unreached_modes(real(A), real(Eigen::Vector4d(0, 0, 1, 0))).modes;
   TEST_ASSERT_EQUAL(1, modes.size());
   TEST_ASSERT_TRUE(abs(modes[0].value.re - Real(0.6)) < rounding && abs(modes[0].value.im - Real(0.8)) < rounding);
   TEST_ASSERT_EQUAL(2, modes[0].states.size());
   TEST_ASSERT_EQUAL(1, modes[0].states[0]);
   TEST_ASSERT_EQUAL(3, modes[0].states[1]);
+}
+
+// The rank of [B, AB, …] with the same entries in many digits, by elimination with the largest pivot.
+Index rank_in_many_digits(const MatrixXd& A, const MatrixXd& B) {
+  const Digits scope(400);
+  RealMatrix krylov = real(B), power = real(B);
+  for (Index k = 1; k < A.rows(); ++k) krylov = beside(krylov, power = multiply(real(A), power));
+  Index rank = 0;
+  for (Index j = 0; j < krylov.cols() && rank < krylov.rows(); ++j) {
+    Index pivot = rank;
+    for (Index i = rank; i < krylov.rows(); ++i)
+      if (abs(krylov(i, j)) > abs(krylov(pivot, j))) pivot = i;
+    if (abs(krylov(pivot, j)) < power_of_ten(-300)) continue;
+    krylov.row(rank).swap(krylov.row(pivot));
+    for (Index i = rank + 1; i < krylov.rows(); ++i)
+      krylov.row(i) -= (krylov(i, j) / krylov(rank, j)) * krylov.row(rank).eval();
+    ++rank;
+  }
+  return rank;
+}
+
+void test_reached_dimension_is_exact() {
+  TEST_ASSERT_EQUAL(2, reached_dimension(Eigen::Vector2d(1.5, 0.5).asDiagonal(), Eigen::Vector2d(1e-300, 1)));
+  TEST_ASSERT_EQUAL(1, reached_dimension(Eigen::Vector2d(1.5, 1.5).asDiagonal(), Eigen::Vector2d(0.1, 0.3)));
+  TEST_ASSERT_EQUAL(0, reached_dimension(MatrixXd::Identity(3, 3), MatrixXd::Zero(3, 2)));
+  // 0.1 + 0.2 and 0.3 differ in the last bit.
+  TEST_ASSERT_EQUAL(2, reached_dimension(Eigen::Vector2d(0.1 + 0.2, 0.3).asDiagonal(), Eigen::Vector2d(1, 1)));
+}
+
+void test_reached_dimension_of_random_pairs() {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    const Index n = 2 + static_cast<Index>(seed % 5);
+    MatrixXd A = random.matrix(n, n), B = random.matrix(n, 1 + static_cast<Index>(seed % 2));
+    if (seed % 3 != 0) A.bottomLeftCorner(1, n - 1).setZero();  // the last state feeds, and is fed by, nothing …
+    if (seed % 3 == 1) B.row(n - 1).setZero();                  // … and no input
+    TEST_ASSERT_EQUAL(rank_in_many_digits(A, B), reached_dimension(A, B));
+  }
 }
 
 }  // namespace
@@ -193,5 +233,7 @@ int main() {
   RUN_TEST(test_definiteness_is_judged_whatever_the_units);
   RUN_TEST(test_mode_behind_a_tiny_coupling_is_reached);
   RUN_TEST(test_unreached_pair_is_found_with_its_states);
+  RUN_TEST(test_reached_dimension_is_exact);
+  RUN_TEST(test_reached_dimension_of_random_pairs);
   return UNITY_END();
 }

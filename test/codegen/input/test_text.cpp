@@ -118,8 +118,8 @@ void test_quoted_is_cut_between_characters() {
   std::string greek, expected;
   for (int i = 0; i < 60; ++i) expected += "µ";
   greek = expected + "µ";
-  TEST_ASSERT_EQUAL_STRING(("\"" + expected + "\"").c_str(), quoted(expected).c_str());
-  TEST_ASSERT_EQUAL_STRING(("\"" + expected + "…\"").c_str(), quoted(greek).c_str());
+  TEST_ASSERT_EQUAL_STRING(("\"" + expected + "\"").c_str(), in_quotes(expected).c_str());
+  TEST_ASSERT_EQUAL_STRING(("\"" + expected + "…\"").c_str(), in_quotes(greek).c_str());
 }
 
 }  // namespace

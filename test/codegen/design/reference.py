@@ -1,0 +1,76 @@
+# Makes the numbers of test_solve.cpp: python3 reference.py, with mpmath (https://mpmath.org).
+# Nothing here is shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the stable
+# eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits.
+from mpmath import matrix, mp, mpf, eye, expm, zeros
+
+mp.dps = 120
+
+
+def block(rows):
+    result = zeros(sum(row[0].rows for row in rows), sum(part.cols for part in rows[0]))
+    top = 0
+    for row in rows:
+        left = 0
+        for part in row:
+            for i in range(part.rows):
+                for j in range(part.cols):
+                    result[top + i, left + j] = part[i, j]
+            left += part.cols
+        top += row[0].rows
+    return result
+
+
+def part(a, top, bottom, left, right):
+    result = zeros(bottom - top, right - left)
+    for i in range(top, bottom):
+        for j in range(left, right):
+            result[i - top, j - left] = a[i, j]
+    return result
+
+
+def sample(A, B, Q, R, T):
+    nx, nz = A.rows, A.rows + B.cols
+    F = block([[block([[A, B]])], [zeros(B.cols, nz)]])
+    weight = block([[Q, zeros(nx, B.cols)], [zeros(B.cols, nx), R]])
+    whole = expm(block([[-F.T, weight], [zeros(nz, nz), F]]) * T, method="taylor")
+    phi = part(whole, nz, 2 * nz, nz, 2 * nz)
+    cost = phi.T * part(whole, 0, nz, nz, 2 * nz)
+    return (part(phi, 0, nx, 0, nx), part(phi, 0, nx, nx, nz), part(cost, 0, nx, 0, nx), part(cost, nx, nz, nx, nz),
+            part(cost, 0, nx, nx, nz))
+
+
+def riccati(A, B, Q, R, N):
+    nx = A.rows
+    A0, G, H = A - B * R**-1 * N.T, B * R**-1 * B.T, Q - N * R**-1 * N.T
+    back = (A0.T) ** -1
+    values, vectors = mp.eig(block([[A0 + G * back * H, -G * back], [-back * H, back]]))
+    stable = [k for k in range(2 * nx) if abs(values[k]) < 1]
+    upper, lower = zeros(nx, nx), zeros(nx, nx)
+    for column, k in enumerate(stable):
+        for i in range(nx):
+            upper[i, column], lower[i, column] = vectors[i, k], vectors[nx + i, k]
+    X = (lower * upper**-1).apply(lambda z: z.real)
+    return (X + X.T) / 2
+
+
+def show(name, a):
+    for i in range(a.rows):
+        print(name, " ".join("%.17g" % float(a[i, j]) for j in range(a.cols)))
+
+
+def double(rows):
+    return matrix([[mpf(x) for x in row] for row in rows])
+
+
+def two_mass():
+    A = double([[0, 1, 0, 0], [-0.1, -0.004, 0.1, 0.004], [0, 0, 0, 1], [0.5, 0.02, -0.5, -0.02]])
+    B, C = double([[0], [1], [0], [0]]), double([[1, 0, 0, 0], [0, 0, 1, 0]])
+    W, V = mpf(0.01), mpf(0.001) * eye(2)
+    A, B, Q, R, N = sample(A, B, mp.diag([1, 0, 1, 0]), double([[0.1]]), mpf(0.5))
+    X = riccati(A, B, Q, R, N)
+    show("K", (R + B.T * X * B) ** -1 * (B.T * X * A + N.T))
+    P = riccati(A.T, C.T, B * B.T * W, V, zeros(4, 2))
+    show("L", P * C.T * (C * P * C.T + V) ** -1)
+
+
+two_mass()

@@ -1,0 +1,189 @@
+// The margins do what they promise: at them the loop oscillates, inside of them it is stable.
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include <unity.h>
+
+#include "design/margins.hpp"
+#include "design/rounding.hpp"
+#include "problems.hpp"
+
+using namespace lqg::design;
+using namespace design_test;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+extern "C" {
+void setUp(void) {}
+void tearDown(void) {}
+}
+
+namespace {
+
+using Complex = std::complex<double>;
+
+MatrixXcd in_double(const RealMatrix& a) {
+  MatrixXcd result(a.rows(), a.cols());
+  for (Index i = 0; i < a.size(); ++i) result.data()[i] = to_double(a.data()[i]);
+  return result;
+}
+
+struct Loop {
+  MatrixXcd A, B, C;
+};
+
+Loop loop_of(const Problem& problem, const Solution& solution) {
+  const Digits scope(60);
+  const OpenLoop loop = open_loop(problem, solution);
+  return {in_double(loop.A), in_double(loop.B), in_double(loop.C)};
+}
+
+// The largest |z| when `factor` stands before input `input`.
+double radius(const Loop& loop, Index input, Complex factor) {
+  MatrixXcd gains = MatrixXcd::Identity(loop.B.cols(), loop.B.cols());
+  gains(input, input) = factor;
+  const Eigen::ComplexEigenSolver<MatrixXcd> solver(loop.A - loop.B * gains * loop.C, false);
+  return solver.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+// Eigenvalues in double of a loop that is not normal; the loops here leave this much.
+const double rounding = 1e-8;
+
+void expect_gain_margin(const Loop& loop, double dB) {
+  double worst = 0;
+  for (Index i = 0; i < loop.B.cols(); ++i) {
+    for (const double sign : {-1.0, 1.0}) worst = std::max(worst, radius(loop, i, std::pow(10, sign * dB / 20)));
+    for (int k = -9; k <= 9; ++k)
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + rounding, "unstable inside");
+  }
+  TEST_ASSERT_DOUBLE_WITHIN(rounding, 1, worst);
+}
+
+void expect_phase_margin(const Loop& loop, double degrees) {
+  const double angle = degrees * std::acos(-1.0) / 180;
+  double worst = 0;
+  for (Index i = 0; i < loop.B.cols(); ++i) {
+    worst = std::max(worst, radius(loop, i, std::polar(1.0, angle)));
+    for (int k = 0; k <= 9; ++k)
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + rounding, "unstable inside");
+  }
+  TEST_ASSERT_DOUBLE_WITHIN(rounding, 1, worst);
+}
+
+double difference_norm(const Loop& loop, double angle) {
+  const Index n = loop.A.rows(), nu = loop.B.cols();
+  const MatrixXcd closed = loop.A - loop.B * loop.C;
+  const MatrixXcd T = loop.C * (std::polar(1.0, angle) * MatrixXcd::Identity(n, n) - closed).partialPivLu().solve(loop.B);
+  const MatrixXcd H = 0.5 * MatrixXcd::Identity(nu, nu) - T;
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<MatrixXcd>(H.adjoint() * H).eigenvalues().maxCoeff());
+}
+
+void expect_disk_margin(const Loop& loop, double disk) {
+  double largest = 0;
+  const int points = 4000;
+  for (int k = 0; k <= points; ++k) {  // as many points to every decade of the angle
+    const double angle = std::acos(-1.0) * std::pow(10, -6.0 * k / points);
+    largest = std::max(largest, difference_norm(loop, angle));
+  }
+  const double own_error = 1e-9 + 1e-14 * largest;  // a resonance that high stands on poles that near to the circle
+  TEST_ASSERT_TRUE_MESSAGE(1 / largest > disk * (1 - own_error), "a point on the grid is worse");
+  TEST_ASSERT_DOUBLE_WITHIN(0.01 * disk, disk, 1 / largest);
+}
+
+void check(const Problem& problem) {
+  const Solution found = solved(problem);
+  const Loop loop = loop_of(problem, found);
+  TEST_ASSERT_TRUE(radius(loop, 0, 1) < 1);
+  if (found.loop.gain_margin_dB) expect_gain_margin(loop, *found.loop.gain_margin_dB);
+  if (found.loop.phase_margin_deg) expect_phase_margin(loop, *found.loop.phase_margin_deg);
+  expect_disk_margin(loop, *found.loop.disk_margin);
+}
+
+void test_filter_form_with_one_input() { check(two_mass()); }
+
+void test_predictor_form_with_one_input() {
+  Problem problem = two_mass();
+  problem.estimator->form = Form::predictor;
+  check(problem);
+}
+
+void test_regulator_alone() {
+  Problem problem = two_mass();
+  problem.estimator.reset();
+  check(problem);
+}
+
+void test_random_loops_with_several_inputs_and_direct_terms() {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) check(random_problem(seed));
+}
+
+void test_lightly_damped_chain() { check(chain_of_masses(5)); }
+
+// The loop's own poles must be those of the design, with D too: the controller knows what D u adds.
+void test_closed_loop_has_the_poles_of_regulator_and_filter() {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const Problem problem = random_problem(seed);
+    const Solution found = solved(problem);
+    const Digits scope(60);
+    const OpenLoop loop = open_loop(problem, found);
+    std::vector<ComplexReal> left = eigenvalues(loop.A - multiply(loop.B, loop.C));
+    for (const Complex& pole : found.loop.poles) {
+      auto nearest = left.begin();
+      const auto away = [&](const ComplexReal& z) { return hypot(z.re - pole.real(), z.im - pole.imag()); };
+      for (auto other = left.begin(); other != left.end(); ++other)
+        if (away(*other) < away(*nearest)) nearest = other;
+      expect_small(away(*nearest), 1e-10, "the distance to a pole");
+      left.erase(nearest);
+    }
+    for (const ComplexReal& kept : left) expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
+  }
+}
+
+// L = k/(z − 1), k = K: T = k/(z − 1 + k). At z = −1: 1 − 1/t = 1 + (2 − k)/k = 2/k is the gain margin, and
+// Re t = 1/2 where |L| = 1, |z − 1| = k: 2 sin(θ/2) = k, margin 90° − θ/2. (S − T)/2 is largest at z = −1: (2/k + 1)/(2/k − 1)/2.
+void test_integrator_has_its_closed_form() {
+  const MatrixXd one = MatrixXd::Constant(1, 1, 1);
+  Problem problem = problem_of(Domain::discrete, 1, one, one, one);
+  problem.estimator.reset();
+  const Solution found = solved(problem);
+  const Digits scope(60);
+  const Real k = (sqrt(Real(5)) - 1) / 2, degree = atan(Real(1)) / 45;
+  TEST_ASSERT_TRUE(*found.loop.gain_margin_dB == to_double(20 * log10(2 / k)));
+  TEST_ASSERT_TRUE(*found.loop.phase_margin_deg == to_double(90 - asin(k / 2) / degree));
+  TEST_ASSERT_TRUE(*found.loop.disk_margin == to_double(2 * (2 / k - 1) / (2 / k + 1)));
+}
+
+// A plant that no feedback needs: nothing can make it oscillate, and there is no crossing to report.
+void test_loop_without_crossings_has_no_gain_and_phase_margin() {
+  const MatrixXd one = MatrixXd::Constant(1, 1, 1);
+  Problem problem = problem_of(Domain::discrete, 1, 0 * one, one, one);
+  problem.estimator.reset();
+  const Solution found = solved(problem);
+  TEST_ASSERT_FALSE(found.loop.gain_margin_dB.has_value());
+  TEST_ASSERT_FALSE(found.loop.phase_margin_deg.has_value());
+  TEST_ASSERT_TRUE(*found.loop.disk_margin == 2);
+}
+
+void test_estimator_alone_has_no_margins() {
+  Problem problem = two_mass();
+  problem.regulator.reset();
+  const LoopSolution loop = solved(problem).loop;
+  TEST_ASSERT_FALSE(loop.gain_margin_dB || loop.phase_margin_deg || loop.disk_margin || loop.cost_per_sample);
+  TEST_ASSERT_EQUAL(4, loop.poles.size());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(test_filter_form_with_one_input);
+  RUN_TEST(test_predictor_form_with_one_input);
+  RUN_TEST(test_regulator_alone);
+  RUN_TEST(test_random_loops_with_several_inputs_and_direct_terms);
+  RUN_TEST(test_lightly_damped_chain);
+  RUN_TEST(test_closed_loop_has_the_poles_of_regulator_and_filter);
+  RUN_TEST(test_integrator_has_its_closed_form);
+  RUN_TEST(test_loop_without_crossings_has_no_gain_and_phase_margin);
+  RUN_TEST(test_estimator_alone_has_no_margins);
+  return UNITY_END();
+}

@@ -1,0 +1,122 @@
+// The regulator of whole problems: gains with a closed form, all three kinds of cost, cross terms.
+#include <unity.h>
+
+#include "design/riccati.hpp"
+#include "design/rounding.hpp"
+#include "problems.hpp"
+
+using namespace lqg::design;
+using namespace design_test;
+using Eigen::MatrixXd;
+
+extern "C" {
+void setUp(void) {}
+void tearDown(void) {}
+}
+
+namespace {
+
+Problem scalar_problem(Domain domain, double a) {
+  const MatrixXd one = MatrixXd::Constant(1, 1, 1);
+  Problem problem = problem_of(domain, 0.25, a * one, one, one);
+  problem.estimator.reset();
+  return problem;
+}
+
+// X = φ, K = 1/φ: the golden ratio.
+void test_discrete_integrator_with_unit_weights() {
+  const Solution found = solved(scalar_problem(Domain::discrete, 1));
+  const Digits scope(60);
+  const Real ratio = (1 + sqrt(Real(5))) / 2;
+  TEST_ASSERT_TRUE(to_double(found.regulator->X(0, 0)) == to_double(ratio));
+  TEST_ASSERT_TRUE(to_double(found.regulator->K(0, 0)) == to_double(1 / ratio));
+  TEST_ASSERT_TRUE(found.regulator->poles[0].real() == to_double(1 - 1 / ratio));
+}
+
+void test_continuous_gain_of_the_double_integrator_is_one_and_root_three() {
+  Problem problem = double_integrator(0.01);
+  problem.regulator->cost = Cost::continuous;
+  problem.estimator.reset();
+  const Solution found = solved(problem);
+  const Digits scope(60);
+  TEST_ASSERT_TRUE(to_double(found.regulator->K(0, 0)) == 1);
+  TEST_ASSERT_TRUE(to_double(found.regulator->K(0, 1)) == to_double(sqrt(Real(3))));
+  TEST_ASSERT_TRUE(is_zero(found.regulator->cost.Q - identity(2)));
+}
+
+// Minimising over one held period after another is minimising over the trajectory: X is the trajectory's cost. A short
+// period comes close to the continuous X, from above, with an error of the order T².
+void test_sampled_cost_tends_to_the_continuous_one_from_above() {
+  Problem continuous = double_integrator(1e-3);
+  continuous.regulator->cost = Cost::continuous;
+  const Real limit = solved(continuous).regulator->X(0, 0);
+  const Real coarse = solved(double_integrator(2e-3)).regulator->X(0, 0) - limit;
+  const Real fine = solved(double_integrator(1e-3)).regulator->X(0, 0) - limit;
+  TEST_ASSERT_TRUE(fine > 0);
+  expect_small(abs(coarse / fine - 4), 0.02, "the ratio of the errors, less 4,");
+}
+
+// u = v − R⁻¹Nᵀx takes the cross term away: the same plant with A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ, and K less R⁻¹Nᵀ.
+void test_cross_term_is_a_change_of_the_input() {
+  Problem with = scalar_problem(Domain::discrete, 1.5);
+  with.regulator->Q(0, 0) = 2;
+  with.regulator->R(0, 0) = 4;
+  with.regulator->N(0, 0) = 1;
+  Problem without = scalar_problem(Domain::discrete, 1.25);
+  without.regulator->Q(0, 0) = 1.75;
+  without.regulator->R(0, 0) = 4;
+  const RegulatorSolution a = *solved(with).regulator, b = *solved(without).regulator;
+  TEST_ASSERT_TRUE(to_double(a.X(0, 0)) == to_double(b.X(0, 0)));
+  TEST_ASSERT_TRUE(to_double(a.K(0, 0)) == to_double(b.K(0, 0) + Real(0.25)));
+}
+
+// x₀ᵀXx₀ is what the loop costs from x₀ on.
+void test_X_is_the_cost_from_the_start() {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Problem problem = random_problem(seed);
+    const Solution found = solved(problem);
+    const Digits scope(100);
+    const RegulatorSolution& lqr = *found.regulator;
+    const RealMatrix closed = found.plant.A - multiply(found.plant.B, lqr.K), NK = multiply(lqr.cost.N, lqr.K);
+    const RealMatrix step = lqr.cost.Q - NK - NK.transpose() + transpose_congruence(lqr.K, lqr.cost.R);
+    expect_small(distance(*solve_stein(closed, step), lqr.X), 1e-40, "the difference of the costs");
+  }
+}
+
+// A diagonal plant of two equal halves: what does not belong together has gains of exactly zero.
+void test_decoupled_halves_have_exact_zeros() {
+  Problem problem = problem_of(Domain::continuous, 0.5, -0.3 * MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2),
+                               MatrixXd::Identity(2, 2));
+  const double c = 0.6, s = 0.8;
+  const MatrixXd turn = (MatrixXd(2, 2) << c, -s, s, c).finished();
+  problem.plant.B = turn;
+  problem.plant.C = turn.transpose();
+  const Solution found = solved(problem);
+  // K = k turnᵀ and X = x I up to the last bits of 0.6² + 0.8²; with Q and R = I, X off the diagonal is exactly zero.
+  TEST_ASSERT_TRUE(found.regulator->X(0, 1).is_zero());
+  TEST_ASSERT_TRUE(to_double(found.regulator->K(0, 0)) == to_double(found.regulator->K(1, 1)));
+}
+
+void test_poles_are_sorted_and_in_conjugate_pairs() {
+  const Poles poles = solved(two_mass()).regulator->poles;
+  TEST_ASSERT_EQUAL(4, poles.size());
+  for (std::size_t i = 0; i + 1 < poles.size(); ++i) TEST_ASSERT_TRUE(std::abs(poles[i]) >= std::abs(poles[i + 1]) - 1e-15);
+  for (std::size_t i = 0; i < poles.size(); i += 2) {
+    TEST_ASSERT_TRUE(poles[i].imag() > 0);
+    TEST_ASSERT_TRUE(poles[i] == std::conj(poles[i + 1]));
+  }
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(test_discrete_integrator_with_unit_weights);
+  RUN_TEST(test_continuous_gain_of_the_double_integrator_is_one_and_root_three);
+  RUN_TEST(test_sampled_cost_tends_to_the_continuous_one_from_above);
+  RUN_TEST(test_cross_term_is_a_change_of_the_input);
+  RUN_TEST(test_X_is_the_cost_from_the_start);
+  RUN_TEST(test_decoupled_halves_have_exact_zeros);
+  RUN_TEST(test_poles_are_sorted_and_in_conjugate_pairs);
+  return UNITY_END();
+}
