@@ -231,7 +231,7 @@ void check_weights_on_limit(const Problem& problem, const Samples& samples, Find
   const Unreached unweighed = is_continuous ? unreached_modes(free.transpose(), weight)
                                             : unreached_sampled_modes(free.transpose(), weight);
   for (const Mode& mode : unweighed.modes) {
-    const bool on_limit = is_continuous ? abs(mode.value.re) <= negligible(0.25) * norm(free) : on_circle(mode.value);
+    const bool on_limit = is_continuous ? on_axis(mode.value, norm(free)) : on_circle(mode.value);
     if (on_limit)
       add_once(findings, "lqr.Q", name_mode(plant, mode, is_continuous)
                                       + " is on the stability limit and carries no weight: no stabilising gain is optimal");

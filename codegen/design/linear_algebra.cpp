@@ -49,10 +49,10 @@ RealMatrix real(const Eigen::MatrixXd& a) {
   return result;
 }
 
-RealMatrix zeros(Index rows, Index columns) { return RealMatrix(rows, columns); }
+RealMatrix zeros(Index rows, Index columns) { return RealMatrix::Constant(rows, columns, Real(0)); }
 
 RealMatrix identity(Index size) {
-  RealMatrix result(size, size);
+  RealMatrix result = zeros(size, size);
   for (Index i = 0; i < size; ++i) result(i, i) = 1;
   return result;
 }
@@ -65,7 +65,8 @@ RealMatrix in_present_digits(const RealMatrix& a) {
 }
 
 RealMatrix multiply(const RealMatrix& a, const RealMatrix& b) {
-  RealMatrix result(a.rows(), b.cols());
+  RealMatrix result = zeros(a.rows(), b.cols());
+  if (a.cols() == 0) return result;
   Accumulator sum;
   for (Index j = 0; j < b.cols(); ++j)
     for (Index i = 0; i < a.rows(); ++i)
@@ -74,7 +75,8 @@ RealMatrix multiply(const RealMatrix& a, const RealMatrix& b) {
 }
 
 RealMatrix transpose_multiply(const RealMatrix& a, const RealMatrix& b) {
-  RealMatrix result(a.cols(), b.cols());
+  RealMatrix result = zeros(a.cols(), b.cols());
+  if (a.rows() == 0) return result;
   Accumulator sum;
   for (Index j = 0; j < b.cols(); ++j)
     for (Index i = 0; i < a.cols(); ++i)
@@ -83,7 +85,8 @@ RealMatrix transpose_multiply(const RealMatrix& a, const RealMatrix& b) {
 }
 
 RealMatrix multiply_transpose(const RealMatrix& a, const RealMatrix& b) {
-  RealMatrix result(a.rows(), b.rows());
+  RealMatrix result = zeros(a.rows(), b.rows());
+  if (a.cols() == 0) return result;
   Accumulator sum;
   for (Index j = 0; j < b.rows(); ++j)
     for (Index i = 0; i < a.rows(); ++i)
@@ -93,7 +96,8 @@ RealMatrix multiply_transpose(const RealMatrix& a, const RealMatrix& b) {
 
 RealMatrix congruence(const RealMatrix& a, const RealMatrix& p) {
   const RealMatrix ap = multiply(a, p);
-  RealMatrix result(a.rows(), a.rows());
+  RealMatrix result = zeros(a.rows(), a.rows());
+  if (a.cols() == 0) return result;
   Accumulator sum;
   for (Index j = 0; j < a.rows(); ++j)
     for (Index i = j; i < a.rows(); ++i)
@@ -104,7 +108,8 @@ RealMatrix congruence(const RealMatrix& a, const RealMatrix& p) {
 
 RealMatrix transpose_congruence(const RealMatrix& a, const RealMatrix& p) {
   const RealMatrix pa = multiply(p, a);
-  RealMatrix result(a.cols(), a.cols());
+  RealMatrix result = zeros(a.cols(), a.cols());
+  if (a.rows() == 0) return result;
   Accumulator sum;
   for (Index j = 0; j < a.cols(); ++j)
     for (Index i = j; i < a.cols(); ++i)
@@ -169,7 +174,7 @@ std::optional<RealMatrix> solve(const RealMatrix& a, const RealMatrix& b) {
     Real* column = x.data() + j * n;
     for (Index i = 0; i < n; ++i) sum.subtract(column[i], lu.data() + i, n, column, 1, i);
     for (Index i = n - 1; i >= 0; --i) {
-      sum.subtract(column[i], lu.data() + i + (i + 1) * n, n, column + i + 1, 1, n - 1 - i);
+      if (i + 1 < n) sum.subtract(column[i], &lu(i, i + 1), n, column + i + 1, 1, n - 1 - i);
       column[i] /= lu(i, i);
     }
   }
@@ -177,7 +182,8 @@ std::optional<RealMatrix> solve(const RealMatrix& a, const RealMatrix& b) {
 }
 
 Real trace_of_product(const RealMatrix& a, const RealMatrix& b) {
-  Real result;
+  Real result = 0;
+  if (a.cols() == 0) return result;
   Accumulator sum;
   for (Index i = 0; i < a.rows(); ++i)
     sum.add(result, a.data() + i, a.rows(), b.data() + i * b.rows(), 1, a.cols());

@@ -94,7 +94,8 @@ std::vector<Index> states_of(const RealMatrix& unreached, const RealMatrix& rest
   return states;
 }
 
-Real limit() { return negligible(0.25); }
+// Wide enough for the scatter of an eigenvalue that is five times defective.
+Real limit() { return negligible(1.0 / 6); }
 
 }  // namespace
 
@@ -121,6 +122,8 @@ Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B, cons
 bool on_or_outside_circle(const ComplexReal& z) { return hypot(z.re, z.im) >= 1 - limit(); }
 
 bool on_circle(const ComplexReal& z) { return abs(hypot(z.re, z.im) - 1) <= limit(); }
+
+bool on_axis(const ComplexReal& s, const Real& scale) { return abs(s.re) <= limit() * scale; }
 
 bool on_or_right_of_axis(const ComplexReal& s, const Real& scale) { return s.re >= -limit() * scale; }
 

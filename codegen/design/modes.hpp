@@ -26,9 +26,10 @@ Unreached unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& 
 Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B,
                                   const Real& coupling = no_coupling());
 
-// Is the mode on the limit of stability or beyond? 10^(−digits/4) inside of it still counts as on it.
+// Is the mode on the limit of stability or beyond? 10^(−digits/6) inside of it still counts as on it.
 bool on_or_outside_circle(const ComplexReal& z);
 bool on_circle(const ComplexReal& z);
+bool on_axis(const ComplexReal& s, const Real& scale);
 bool on_or_right_of_axis(const ComplexReal& s, const Real& scale);
 
 }  // namespace lqg::design

@@ -12,7 +12,7 @@ struct Bodies {
   std::string includes;   // #include lines and checks of options
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
-  std::string update, control, predict;
+  std::string init, update, control, predict;
 };
 
 Bodies unrolled_bodies(const Controller& controller);

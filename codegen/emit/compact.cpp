@@ -1,5 +1,6 @@
 // Calls of the library's loops over constant matrices.
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "emit/bodies.hpp"
@@ -13,12 +14,13 @@ namespace {
 using design::Real;
 using design::RealMatrix;
 
-// The constants of a filter and a regulator, array after array.
+// The constants of a filter or a regulator, array after array.
 class Tables {
  public:
-  explicit Tables(const Controller& controller) : controller_(controller), name_(upper(controller.problem.name)) {}
+  Tables(const Controller& controller, const char* owner)
+      : controller_(controller), name_(upper(controller.problem.name) + "_" + owner) {}
 
-  // Defines NAME_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it.
+  // Defines NAME_<owner>_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it.
   std::string add(const std::string& suffix, const RealMatrix& matrix) {
     if (matrix.size() == 0) return "NULL";
     text += "static const lqg_real " + name_ + "_" + suffix + "[" + std::to_string(matrix.size()) + "] = {\n" +
@@ -66,11 +68,19 @@ RealMatrix limits_row(const Eigen::VectorXd& limits, int inward, bool is_double)
   return row;
 }
 
+// Fields of an initializer, in the order in which they were defined (a braced list is evaluated from left to right).
+std::string fields(std::initializer_list<std::string> values) {
+  std::string out;
+  for (const std::string& value : values) out += (out.empty() ? "" : ", ") + value;
+  return out;
+}
+
 std::string plant_fields(const Controller& controller, const RealMatrix& C, const RealMatrix& D, Tables& tables) {
-  return "    {" + upper(controller.problem.name) + "_NX, " + std::to_string(controller.nu()) + ", " +
-         upper(controller.problem.name) + "_NY, " + tables.add("A", controller.solution.plant.A) + ", " +
-         tables.add("B", controller.solution.plant.B) + ", " + tables.add("C", C) + ", " +
-         tables.add_unless_zero("D", D) + "},  /* nx, nu, ny, A, B, C, D */\n";
+  const std::string NAME = upper(controller.problem.name);
+  return "    {" + fields({NAME + "_NX", std::to_string(controller.nu()), NAME + "_NY",
+                           tables.add("A", controller.solution.plant.A), tables.add("B", controller.solution.plant.B),
+                           tables.add("C", C), tables.add_unless_zero("D", D)}) +
+         "},  /* nx, nu, ny, A, B, C, D */\n";
 }
 
 std::string initial_state(const Controller& controller, Tables& tables) {
@@ -83,58 +93,59 @@ std::string initial_state(const Controller& controller, Tables& tables) {
 std::string steady_fields(const Controller& controller, Tables& tables) {
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   const design::SampledPlant& plant = controller.solution.plant;
-  return plant_fields(controller, plant.C, plant.D, tables) + "    " + tables.add("L", estimator.L) + ", " +
-         tables.add_unless_zero("M", estimator.M) + ", " + initial_state(controller, tables) + "  /* L, M, x0 */\n";
+  std::string out = plant_fields(controller, plant.C, plant.D, tables);
+  return out + "    " + fields({tables.add("L", estimator.L), tables.add_unless_zero("M", estimator.M),
+                                initial_state(controller, tables)}) + "  /* L, M, x0 */\n";
 }
 
 std::string online_fields(const Controller& controller, Tables& tables) {
   const design::OnlineSolution& online = *controller.solution.online;
   const bool has_M = !is_zero(online.M);
-  const bool is_ud = controller.filter() == step::Filter::ud;
   std::string out = plant_fields(controller, online.C, online.D, tables);
-  out += "    " + (online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E)) + ", " +
-         tables.add("V", as_row(online.V)) + ",  /* E, V */\n";
-  if (is_ud)
-    out += "    " + std::to_string(online.G.cols()) + ", " + tables.add("G", online.G) + ", " +
-           tables.add("W", as_row(online.w)) + ",  /* nq, G, w */\n";
-  else
+  out += "    " + fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
+         ",  /* E, V */\n";
+  const auto add_rest = [&] {
+    out += "    " + fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
+           ",  /* M, A_free */\n";
+  };
+  if (controller.filter() == step::Filter::plain) {
     out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
-  out += "    " + (has_M ? tables.add("M", online.M) : "NULL") + ", " +
-         (has_M ? tables.add("A_FREE", online.A_free) : "NULL") + ",  /* M, A_free */\n";
-  out += "    " + initial_state(controller, tables) + ", ";
-  return out + (is_ud ? tables.add("U0", strict_upper_triangle(online.U0)) + ", " +
-                            tables.add("D0", as_row(online.D0)) + "  /* x0, U0, d0 */\n"
-                      : tables.add("P0", lower_triangle(online.P0)) + "  /* x0, P0 */\n");
+    add_rest();
+    return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(online.P0))}) +
+           "  /* x0, P0 */\n";
+  }
+  out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
+         ",  /* nq, G, w */\n";
+  add_rest();
+  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(online.U0)),
+                                tables.add("D0", as_row(online.D0))}) + "  /* x0, U0, d0 */\n";
 }
 
 std::string kalman_constants(const Controller& controller) {
-  Tables tables(controller);
-  const std::string fields =
+  Tables tables(controller, "KALMAN");
+  const std::string values =
       controller.solution.online ? online_fields(controller, tables) : steady_fields(controller, tables);
   return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", common_words(controller)) +
-         fields + "};\n";
+         values + "};\n";
 }
 
 std::string lqr_constants(const Controller& controller) {
-  Tables tables(controller);
-  const std::string K = tables.add("K", controller.solution.regulator->K);
+  Tables tables(controller, "LQR");
+  const std::string NAME = upper(controller.problem.name), K = tables.add("K", controller.solution.regulator->K);
   std::string u_min = "NULL", u_max = "NULL";
   if (const auto& limits = controller.problem.limits) {
     u_min = tables.add("U_MIN", limits_row(limits->u_min, +1, controller.is_double()));
     u_max = tables.add("U_MAX", limits_row(limits->u_max, -1, controller.is_double()));
   }
-  return tables.text + fill("static const lqg_lqr_t {NAME}_LQR = {{NAME}_NX, {NAME}_NU, ", common_words(controller)) +
-         K + ", " + u_min + ", " + u_max + "};  /* nx, nu, K, u_min, u_max */\n";
+  return tables.text + "static const lqg_lqr_t " + NAME + "_LQR = {\n    " +
+         fields({NAME + "_NX", NAME + "_NU", K, u_min, u_max}) + "  /* nx, nu, K, u_min, u_max */\n};\n";
 }
 
 // The words of a call of the filter: its state, and how long its scratch is.
 Words call_words(const Controller& controller) {
   Words words = common_words(controller);
-  const bool has_D = !is_zero(controller.solution.plant.D);
-  const bool has_M = controller.solution.online ? !is_zero(controller.solution.online->M)
-                                                : !is_zero(controller.solution.estimator->M);
-  const std::string u_applied = has_D ? "self->u_applied" : "NULL";
-  const std::string innovation = has_M ? "self->innovation" : "NULL";
+  const std::string u_applied = controller.keeps_input() ? "self->u_applied" : "NULL";
+  const std::string innovation = controller.keeps_innovation() ? "self->innovation" : "NULL";
   std::string covariance, nq;
   if (controller.filter() == step::Filter::plain) covariance = "self->P, ";
   if (controller.filter() == step::Filter::ud) {
@@ -167,6 +178,7 @@ Bodies compact_bodies(const Controller& controller) {
   if (controller.has_filter()) {
     bodies.constants = kalman_constants(controller);
     const Words words = call_words(controller);
+    bodies.init = fill("    lqg_kalman_{filter}_init(&{NAME}_KALMAN, {state});\n", words);
     bodies.update = fill(R"(    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];
 
     return lqg_kalman_{filter}_update(&{NAME}_KALMAN, {state}, y, work);
@@ -178,8 +190,7 @@ Bodies compact_bodies(const Controller& controller) {
   }
   if (controller.has_regulator()) {
     bodies.constants += lqr_constants(controller);
-    const bool has_D = controller.has_filter() && !is_zero(controller.solution.plant.D);
-    bodies.control = fill(has_D ? R"(    const lqg_status status = lqg_lqr_control(&{NAME}_LQR, self->x, u);
+    bodies.control = fill(controller.keeps_input() ? R"(    const lqg_status status = lqg_lqr_control(&{NAME}_LQR, self->x, u);
 
     for (int i = 0; i < {NAME}_NU; i++)
         self->u_applied[i] = u[i];

@@ -37,10 +37,8 @@ long state_bytes(const Controller& controller) {
   const long nx = controller.nx();
   long reals = nx;
   if (controller.filter() != step::Filter::steady) reals += nx * (nx + 1) / 2;
-  if (!is_zero(controller.solution.plant.D)) reals += controller.nu();
-  const design::RealMatrix& M =
-      controller.solution.online ? controller.solution.online->M : controller.solution.estimator->M;
-  if (!is_zero(M)) reals += controller.ny();
+  if (controller.keeps_input()) reals += controller.nu();
+  if (controller.keeps_innovation()) reals += controller.ny();
   return reals * bytes_of_real(controller);
 }
 
@@ -105,6 +103,12 @@ step::Filter Controller::filter() const {
   if (!problem.estimator) return step::Filter::none;
   if (problem.estimator->gain == design::Gain::steady) return step::Filter::steady;
   return problem.estimator->covariance == design::Covariance::ud ? step::Filter::ud : step::Filter::plain;
+}
+
+bool Controller::keeps_input() const { return has_filter() && !is_zero(solution.plant.D); }
+
+bool Controller::keeps_innovation() const {
+  return has_filter() && !is_zero(solution.online ? solution.online->M : solution.estimator->M);
 }
 
 std::optional<Controller> make_controller(design::Problem problem, design::Solution solution, Source source,

@@ -36,6 +36,8 @@ struct Controller {
   bool has_regulator() const { return problem.regulator.has_value(); }
   bool is_predictor() const { return has_filter() && problem.estimator->form == design::Form::predictor; }
   step::Filter filter() const;
+  bool keeps_input() const;       // D u needs the last input
+  bool keeps_innovation() const;  // predict needs the last outputs: w and v are correlated
   int nx() const { return static_cast<int>(problem.plant.A.rows()); }
   int nu() const { return static_cast<int>(problem.plant.B.cols()); }
   int ny() const { return has_filter() ? static_cast<int>(problem.plant.C.rows()) : 0; }

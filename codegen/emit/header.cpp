@@ -1,9 +1,7 @@
 #include "emit/header.hpp"
 
 #include "emit/bodies.hpp"
-#include "emit/model_of.hpp"
 #include "emit/preamble.hpp"
-#include "emit/rounding.hpp"
 #include "emit/text.hpp"
 
 namespace lqg::emit {
@@ -39,15 +37,6 @@ std::string index_enum(const Controller& controller, const char* kind, const std
   return out + "};\n";
 }
 
-bool keeps_input(const Controller& controller) {
-  return controller.has_filter() && !is_zero(controller.solution.plant.D);
-}
-
-bool keeps_innovation(const Controller& controller) {
-  return controller.solution.online ? !is_zero(controller.solution.online->M)
-                                    : !is_zero(controller.solution.estimator->M);
-}
-
 std::string state_type(const Controller& controller) {
   if (!controller.has_filter()) return "";
   const int nx = controller.nx();
@@ -61,52 +50,27 @@ std::string state_type(const Controller& controller) {
     if (nx > 1) fields += "    {real} U[{strict}];  /* P = U diag(d) Uᵀ: strict upper triangle, column by column, U_ij at [j*(j-1)/2 + i] */\n";
     fields += "    {real} d[{NAME}_NX];\n";
   }
-  if (keeps_input(controller)) fields += "    {real} u_applied[{NAME}_NU];  /* the input that acts: of the last predict or control */\n";
-  if (keeps_innovation(controller)) fields += "    {real} innovation[{NAME}_NY];  /* what predict has yet to hear of the last outputs */\n";
+  if (controller.keeps_input()) fields += "    {real} u_applied[{NAME}_NU];  /* the input that acts: of the last predict or control */\n";
+  if (controller.keeps_innovation()) fields += "    {real} innovation[{NAME}_NY];  /* what predict has yet to hear of the last outputs */\n";
   return fill("\n/* The whole state of the controller: no pointers inside, may be copied. Begin it with {name}_init. */\n"
               "typedef struct {\n" + fields + "} {name}_t;\n", words);
 }
 
-template <class Values>
-std::string initializer(const Values& values, bool is_double) {
-  std::string out = "{";
-  for (int i = 0; i < static_cast<int>(values.size()); ++i)
-    out += (i ? ", " : "") + trace::literal(values[static_cast<std::size_t>(i)], is_double);
-  return out + "}";
-}
-
-std::string init_function(const Controller& controller) {
-  const bool is_double = controller.is_double();
-  const auto model = model_of<double>(
-      controller, [&](const design::Real& value) { return rounded_to_target(value, is_double); });
-  std::vector<std::string> fields = {
-      initializer(std::vector<double>(model.x0.data(), model.x0.data() + model.nx), is_double)};
-  if (!model.P0.empty()) fields.push_back(initializer(model.P0, is_double));
-  if (!model.U0.empty()) fields.push_back(initializer(model.U0, is_double));
-  if (!model.D0.empty()) fields.push_back(initializer(model.D0, is_double));
-  if (keeps_input(controller))
-    fields.push_back(initializer(std::vector<double>(static_cast<std::size_t>(controller.nu()), 0), is_double));
-  if (keeps_innovation(controller))
-    fields.push_back(initializer(std::vector<double>(static_cast<std::size_t>(controller.ny()), 0), is_double));
-  std::string values;
-  for (const std::string& field : fields)
-    values += trace::wrap("        " + field, 9) + (&field == &fields.back() ? "\n" : ",\n");
+std::string init_function(const Controller& controller, const Bodies& bodies) {
+  Words words = common_words(controller);
+  words["covariance"] = controller.filter() == step::Filter::steady ? "" : ", its covariance P0";
+  words["body"] = bodies.init;
   return fill(R"(
 /* x̂ = x0{covariance}; nothing applied yet. */
 static inline void {name}_init({name}_t *self)
 {
-    static const {name}_t initial = {
-{values}    };
-
-    *self = initial;
-}
-)", {{"name", controller.problem.name}, {"values", values},
-     {"covariance", controller.filter() == step::Filter::steady ? "" : ", its covariance P0"}});
+{body}}
+)", words);
 }
 
 std::string update_function(const Controller& controller, const Bodies& bodies) {
   Words words = common_words(controller);
-  words["law"] = keeps_input(controller) ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)";
+  words["law"] = controller.keeps_input() ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)";
   words["covariance"] = controller.filter() == step::Filter::steady ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P";
   words["left_out"] = controller.filter() == step::Filter::steady
                           ? "An output that is not finite is taken as having come as expected."
@@ -145,7 +109,7 @@ static inline lqg_status {name}_predict({name}_t *self{parameter})
 std::string control_function(const Controller& controller, const Bodies& bodies) {
   Words words = common_words(controller);
   words["x"] = controller.has_filter() ? "x̂" : "x";
-  words["parameter"] = controller.has_filter() ? (keeps_input(controller) ? "{name}_t *self" : "const {name}_t *self")
+  words["parameter"] = controller.has_filter() ? (controller.keeps_input() ? "{name}_t *self" : "const {name}_t *self")
                                                : "const {real} x[{NAME}_NX]";
   words["parameter"] = fill(words["parameter"], words);
   words["in"] = controller.has_filter() ? "" : " * x  in: the state, in its units\n";
@@ -228,7 +192,7 @@ std::string header(const Controller& controller) {
   if (controller.has_filter()) out += index_enum(controller, "Y", plant.outputs) + state_type(controller);
   if (!bodies.constants.empty()) out += "\n" + bodies.constants;
   out += "\nLQG_STRICT_BEGIN\n" + bodies.options;
-  if (controller.has_filter()) out += init_function(controller) + update_function(controller, bodies);
+  if (controller.has_filter()) out += init_function(controller, bodies) + update_function(controller, bodies);
   if (controller.has_regulator()) out += control_function(controller, bodies);
   if (controller.has_filter())
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller);

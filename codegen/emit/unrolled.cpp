@@ -1,5 +1,7 @@
 // Straight-line code of this plant's structure.
 #include "emit/bodies.hpp"
+#include "emit/model_of.hpp"
+#include "emit/rounding.hpp"
 #include "emit/text.hpp"
 #include "emit/traced.hpp"
 
@@ -29,6 +31,36 @@ std::string body(const Controller& controller, const TracedFunction& function) {
   return "    LQG_STRICT_BODY\n" + printer.statements(function.stores) + "\n" + status(controller, function, printer);
 }
 
+template <class Values>
+std::string initializer(const Values& values, bool is_double) {
+  std::string out = "{";
+  for (int i = 0; i < static_cast<int>(values.size()); ++i)
+    out += (i ? ", " : "") + trace::literal(values[static_cast<std::size_t>(i)], is_double);
+  return out + "}";
+}
+
+// All fields of the state, in their order.
+std::string initial_state(const Controller& controller) {
+  const bool is_double = controller.is_double();
+  const auto model =
+      model_of<double>(controller, [&](const design::Real& value) { return rounded_to_target(value, is_double); });
+  const auto zeros = [](int count) { return std::vector<double>(static_cast<std::size_t>(count), 0); };
+  std::vector<std::string> fields = {
+      initializer(std::vector<double>(model.x0.data(), model.x0.data() + model.nx), is_double)};
+  for (const std::vector<double>* part : {&model.P0, &model.U0, &model.D0})
+    if (!part->empty()) fields.push_back(initializer(*part, is_double));
+  if (controller.keeps_input()) fields.push_back(initializer(zeros(controller.nu()), is_double));
+  if (controller.keeps_innovation()) fields.push_back(initializer(zeros(controller.ny()), is_double));
+  std::string values;
+  for (const std::string& field : fields)
+    values += trace::wrap("        " + field, 9) + (&field == &fields.back() ? "\n" : ",\n");
+  return fill(R"(    static const {name}_t initial = {
+{values}    };
+
+    *self = initial;
+)", {{"name", controller.problem.name}, {"values", values}});
+}
+
 }  // namespace
 
 Bodies unrolled_bodies(const Controller& controller) {
@@ -41,6 +73,7 @@ Bodies unrolled_bodies(const Controller& controller) {
 #endif
 )";
   if (controller.has_filter()) {
+    bodies.init = initial_state(controller);
     bodies.update = body(controller, traced.update);
     bodies.predict = body(controller, traced.predict);
   }

@@ -1,0 +1,230 @@
+/* two_mass: two masses, spring and damper
+ *
+ * Made by lqgen 0.1.0 from two_mass.toml with the SHA-256
+ * 46860654c241d4662f7925e59e28b72728299719d8f3760ea0a0858f9525b9e5.
+ * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
+ *
+ * Plant, sampled every 0.5 s:  x⁺ = A x + B u + G w,  y = C x + D u + v
+ *
+ *   states   x[0] dy1 [m], x[1] v1 [m/s], x[2] dy2 [m], x[3] v2 [m/s]
+ *   inputs   u[0] force [N]
+ *   outputs  y[0] dy1 [m], y[1] dy2 [m]
+ *
+ *   A = [    0.9877046   0.4974466  0.012295422   0.002553408 ]
+ *       [ -0.048467956   0.9857659  0.048467956  0.0142341405 ]
+ *       [  0.061477114  0.01276704    0.9385229    0.48723295 ]
+ *       [   0.24233977   0.0711707  -0.24233977     0.9288293 ]
+ *   B = [   0.12465904 ]
+ *       [    0.4974466 ]
+ *       [ 0.0017048119 ]
+ *       [   0.01276704 ]
+ *   C = [ 1.0  0.0  0.0  0.0 ]
+ *       [ 0.0  0.0  1.0  0.0 ]
+ *   D = [ 0.0 ]
+ *       [ 0.0 ]
+ *
+ * Regulator  u = −K x̂:
+ *
+ *   K = [ 2.4226158  2.1417978  -0.33327204  1.9239638 ]
+ *   poles of A − B K: 0.7867 ± 0.3256i, 0.438 ± 0.3274i
+ *
+ * Kalman filter, filter form (u[k] is made of the outputs up to y[k]),
+ * with its constant gain; of samples:
+ *
+ *   G = [   0.12465904 ]
+ *       [    0.4974466 ]
+ *       [ 0.0017048119 ]
+ *       [   0.01276704 ]
+ *   W = E[w wᵀ] = [ 0.01 ]
+ *   V = E[v vᵀ] = [ 0.001    0.0 ]
+ *                   [   0.0  0.001 ]
+ *   L = [  0.7008788    0.03500962 ]
+ *       [  0.8304034  -0.105838105 ]
+ *       [ 0.03500962    0.26355246 ]
+ *       [ 0.17161791   0.078661025 ]
+ *   poles of A − L_predictor C: 0.7867 ± 0.3256i, 0.4374 ± 0.3276i
+ *
+ * Closed loop, opened at the plant's input:
+ *
+ *   gain margin         6.125 dB
+ *   phase margin        21.89°
+ *   disk margin         0.3849
+ *   cost per sample     0.00816
+ *   cost per second     0.01635
+ *
+ * One sample takes 47 multiply-adds and 16 bytes of RAM; on a Cortex-M4F at -O2 about 792 bytes of
+ * flash and 100 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
+ */
+#ifndef TWO_MASS_H
+#define TWO_MASS_H
+
+#include "lqg/arithmetic.h"
+#include "lqg/status.h"
+#include "lqg/version.h"
+
+#if LQG_HEADER_FORMAT != 1
+#error "two_mass.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on two_mass.toml again."
+#endif
+
+#define TWO_MASS_NX 4  /* states */
+#define TWO_MASS_NU 1  /* inputs */
+#define TWO_MASS_NY 2  /* outputs */
+#define TWO_MASS_SAMPLE_TIME 0.5f  /* s between two samples */
+
+enum {
+    TWO_MASS_X_DY1 = 0,  /* [m] */
+    TWO_MASS_X_V1 = 1,  /* [m/s] */
+    TWO_MASS_X_DY2 = 2,  /* [m] */
+    TWO_MASS_X_V2 = 3  /* [m/s] */
+};
+
+enum {
+    TWO_MASS_U_FORCE = 0  /* [N] */
+};
+
+enum {
+    TWO_MASS_Y_DY1 = 0,  /* [m] */
+    TWO_MASS_Y_DY2 = 1  /* [m] */
+};
+
+/* The whole state of the controller: no pointers inside, may be copied. Begin it with two_mass_init. */
+typedef struct {
+    float x[TWO_MASS_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
+} two_mass_t;
+
+LQG_STRICT_BEGIN
+#if defined __GNUC__ && !defined __clang__
+#pragma GCC optimize ("no-schedule-insns")  /* in the order as written, few values wait in registers */
+#endif
+
+/* x̂ = x0; nothing applied yet. */
+static inline void two_mass_init(two_mass_t *self)
+{
+    static const two_mass_t initial = {
+        {0.0f, 0.0f, 0.0f, 0.0f}
+    };
+
+    *self = initial;
+}
+
+/* x̂ ← x̂ + L (y − C x̂)
+ *
+ * y  in: the outputs, in their units. An output that is not finite is taken as having come as expected.
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
+static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float x_1 = self->x[1];
+    const float x_2 = self->x[2];
+    const float x_3 = self->x[3];
+    const float y_0 = y[0];
+    const float y_1 = y[1];
+
+    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not finite */
+    const float measured_dy1 = y_0 - x_0;
+    const lqg_status fault_dy1 = measured_dy1
+        - measured_dy1 == 0.0f ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const int usable_dy1 = fault_dy1 == LQG_OK;
+    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
+
+    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not finite */
+    const float measured_dy2 = y_1 - x_2;
+    const lqg_status fault_dy2 = measured_dy2
+        - measured_dy2 == 0.0f ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const int usable_dy2 = fault_dy2 == LQG_OK;
+    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
+
+    /* x̂ ← x̂ + L innovation */
+    const float posterior_0 = x_0 + 0.7008788f * innovation_dy1 + 0.03500962f * innovation_dy2;
+    self->x[0] = posterior_0;
+    const float posterior_1 = x_1 + 0.8304034f * innovation_dy1 - 0.105838105f * innovation_dy2;
+    self->x[1] = posterior_1;
+    const float posterior_2 = x_2 + 0.03500962f * innovation_dy1 + 0.26355246f * innovation_dy2;
+    self->x[2] = posterior_2;
+    const float posterior_3 = x_3 + 0.17161791f * innovation_dy1 + 0.078661025f * innovation_dy2;
+    self->x[3] = posterior_3;
+    const float shared_60 = posterior_0 + posterior_1 + posterior_2 + posterior_3;
+
+    lqg_status status = fault_dy1 | fault_dy2;
+    if (!(shared_60 - shared_60 == 0.0f)) {
+        two_mass_init(self);
+        status |= LQG_STATE_RESET;
+    }
+    return status;
+}
+
+/* u = −K x̂, within its limits
+ *
+ * u  out: the inputs, in their units: finite, whatever came in
+ *
+ * Status: LQG_INPUT_LIMITED. */
+static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float x_1 = self->x[1];
+    const float x_2 = self->x[2];
+    const float x_3 = self->x[3];
+
+    /* u = −K x̂ */
+    const float law_0 = -(2.4226158f * x_0) - 2.1417978f * x_1 + 0.33327204f * x_2
+        - 1.9239638f * x_3;
+    const int finite_0 = law_0 - law_0 == 0.0f;
+    const float demand_0 = finite_0 ? law_0 : 0.0f;
+    u[0] = demand_0;
+
+    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK);
+}
+
+/* x̂ ← A x̂ + B u: from this sample to the next.
+ *
+ * u  in: what was applied, in its units; not what was asked for, where the two differ
+ *
+ * Status: LQG_STATE_RESET. */
+static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float x_1 = self->x[1];
+    const float x_2 = self->x[2];
+    const float x_3 = self->x[3];
+    const float u_0 = u[0];
+
+    /* x̂ ← A x̂ + B u */
+    const float next_0 = 0.9877046f * x_0 + 0.4974466f * x_1 + 0.012295422f * x_2
+        + 0.002553408f * x_3 + 0.12465904f * u_0;
+    self->x[0] = next_0;
+    const float next_1 = -(0.048467956f * x_0) + 0.9857659f * x_1 + 0.048467956f * x_2
+        + 0.0142341405f * x_3 + 0.4974466f * u_0;
+    self->x[1] = next_1;
+    const float next_2 = 0.061477114f * x_0 + 0.01276704f * x_1 + 0.9385229f * x_2
+        + 0.48723295f * x_3 + 0.0017048119f * u_0;
+    self->x[2] = next_2;
+    const float next_3 = 0.24233977f * x_0 + 0.0711707f * x_1 - 0.24233977f * x_2
+        + 0.9288293f * x_3 + 0.01276704f * u_0;
+    self->x[3] = next_3;
+    const float shared_59 = next_0 + next_1 + next_2 + next_3;
+
+    lqg_status status = LQG_OK;
+    if (!(shared_59 - shared_59 == 0.0f)) {
+        two_mass_init(self);
+        status |= LQG_STATE_RESET;
+    }
+    return status;
+}
+
+/* One sample: update, control and predict, for an actuator that applies u as it is. */
+static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
+{
+    lqg_status status = two_mass_update(self, y);
+
+    status |= two_mass_control(self, u);
+    status |= two_mass_predict(self, u);
+    return status;
+}
+
+LQG_STRICT_END
+
+#endif
