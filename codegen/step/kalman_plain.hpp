@@ -59,7 +59,7 @@ auto update_plain(const Model<S>& model, State<S>& state, const Vector<S>& measu
     usable.push_back(update_plain_output(model, state, S(y(i)), i, total, listener));
   }
   keep_residual(model, state, y, usable, listener);
-  return is_finite(total.sum);
+  return all_finite(total, listener);
 }
 
 // P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.
@@ -92,7 +92,7 @@ auto predict_plain(const Model<S>& model, State<S>& state, const Vector<S>& u, L
   Total<S> total;
   predict_state(model, state, u, total, listener);
   predict_plain_covariance(model, state, total, listener);
-  return is_finite(total.sum);
+  return all_finite(total, listener);
 }
 
 }  // namespace lqg::step

@@ -29,14 +29,14 @@ auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, L
     total.add(sum);
   }
   if (model.M.cols()) state.innovation = innovation;
-  return is_finite(total.sum);
+  return all_finite(total, listener);
 }
 
 template <class S, class Listener>
 auto predict_steady(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   Total<S> total;
   predict_state(model, state, u, total, listener);
-  return is_finite(total.sum);
+  return all_finite(total, listener);
 }
 
 }  // namespace lqg::step

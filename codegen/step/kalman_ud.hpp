@@ -80,7 +80,7 @@ auto update_ud(const Model<S>& model, State<S>& state, const Vector<S>& measured
     usable.push_back(update_ud_output(model, state, S(y(i)), i, total, listener));
   }
   keep_residual(model, state, y, usable, listener);
-  return is_finite(total.sum);
+  return all_finite(total, listener);
 }
 
 // [A U | G], the rows that Thornton makes orthogonal under the weights diag(D, w).
@@ -146,7 +146,7 @@ auto predict_ud(const Model<S>& model, State<S>& state, const Vector<S>& u, List
   Total<S> total;
   predict_state(model, state, u, total, listener);
   predict_ud_covariance(model, state, total, listener);
-  return is_finite(total.sum);
+  return all_finite(total, listener);
 }
 
 }  // namespace lqg::step

@@ -13,6 +13,12 @@ struct Total {
   void add(const S& part) { sum = sum + part; }
 };
 
+template <class S, class Listener>
+auto all_finite(const Total<S>& total, Listener& listener) {
+  listener.name(total.sum, "sum");
+  return is_finite(total.sum);
+}
+
 // y_i − C_i x − D_i u
 template <class S>
 S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {

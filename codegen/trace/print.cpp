@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <map>
 
 namespace lqg::trace {
@@ -28,14 +29,21 @@ int columns(const std::string& text, std::size_t from, std::size_t to) {
   return count;
 }
 
-// The last place before `width` where the line may break: after a comma, before an operator.
+bool breaks_before(const std::string& line, std::size_t i, const char* signs) {
+  return line[i] == ' ' && i + 2 < line.size() && line[i - 1] != ' ' && line[i + 2] == ' ' &&
+         std::strchr(signs, line[i + 1]);
+}
+
+// The last place before `width` where the line may break: before ? and : if it has any, else before + and −, else after
+// a comma.
 std::size_t break_before(const std::string& line, std::size_t start, int width) {
-  std::size_t best = std::string::npos;
-  for (std::size_t i = start + 1; i < line.size() && columns(line, start, i) < width; ++i)
-    if (line[i] == ' ' && i + 2 < line.size() && line[i - 1] != ' ' &&
-        (line[i - 1] == ',' || (line[i + 2] == ' ' && (line[i + 1] == '+' || line[i + 1] == '-'))))
-      best = i;
-  return best;
+  std::size_t choice = std::string::npos, sum = choice, comma = choice;
+  for (std::size_t i = start + 1; i < line.size() && columns(line, start, i) < width; ++i) {
+    if (breaks_before(line, i, "?:")) choice = i;
+    if (breaks_before(line, i, "+-")) sum = i;
+    if (line[i] == ' ' && line[i - 1] == ',') comma = i;
+  }
+  return choice != std::string::npos ? choice : sum != std::string::npos ? sum : comma;
 }
 
 }  // namespace

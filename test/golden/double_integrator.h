@@ -115,9 +115,9 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
 
     /* output 0, position [m]: innovation = y − C x̂; a gain of 0 leaves the output out */
     const float measured_position = y_0 - x_0;
-    const lqg_status fault_position = measured_position
-        - measured_position < S_position ? LQG_OK : measured_position
-        - measured_position == 0.0f ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
+    const lqg_status fault_position = measured_position - measured_position < S_position ? LQG_OK
+        : measured_position - measured_position == 0.0f ? LQG_INNOVATION_NOT_POSITIVE
+        : LQG_OUTPUT_NOT_FINITE;
     const int usable_position = fault_position == LQG_OK;
     const float reciprocal_position = usable_position ? 1.0f / S_position : 0.0f;
     const float innovation_position = usable_position ? measured_position : 0.0f;
@@ -133,12 +133,12 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
     const float gain_0_position = P_00 * reciprocal_position;
     const float x_0_position = x_0 + gain_0_position * innovation_position;
     self->x[0] = x_0_position;
-    const float shared_38 = x_1_position + x_0_position;
+    const float sum_position = x_1_position + x_0_position;
     const float P_00_position = P_00 - gain_0_position * P_00;
     self->P[0] = P_00_position;
 
     lqg_status status = fault_position;
-    if (!(shared_38 - shared_38 == 0.0f)) {
+    if (!(sum_position - sum_position == 0.0f)) {
         double_integrator_init(self);
         status |= LQG_STATE_RESET;
     }
@@ -198,10 +198,10 @@ static inline lqg_status double_integrator_predict(double_integrator_t *self, co
     self->P[1] = prior_10;
     const float prior_11 = 1e-04f + P_11;
     self->P[2] = prior_11;
-    const float shared_31 = next_0 + next_1 + prior_00 + prior_11;
+    const float sum = next_0 + next_1 + prior_00 + prior_11;
 
     lqg_status status = LQG_OK;
-    if (!(shared_31 - shared_31 == 0.0f)) {
+    if (!(sum - sum == 0.0f)) {
         double_integrator_init(self);
         status |= LQG_STATE_RESET;
     }

@@ -124,15 +124,15 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
 
     /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not finite */
     const float measured_dy1 = y_0 - x_0;
-    const lqg_status fault_dy1 = measured_dy1
-        - measured_dy1 == 0.0f ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const lqg_status fault_dy1 = measured_dy1 - measured_dy1 == 0.0f ? LQG_OK
+        : LQG_OUTPUT_NOT_FINITE;
     const int usable_dy1 = fault_dy1 == LQG_OK;
     const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
 
     /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not finite */
     const float measured_dy2 = y_1 - x_2;
-    const lqg_status fault_dy2 = measured_dy2
-        - measured_dy2 == 0.0f ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const lqg_status fault_dy2 = measured_dy2 - measured_dy2 == 0.0f ? LQG_OK
+        : LQG_OUTPUT_NOT_FINITE;
     const int usable_dy2 = fault_dy2 == LQG_OK;
     const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
 
@@ -145,10 +145,10 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
     self->x[2] = posterior_2;
     const float posterior_3 = x_3 + 0.17161791f * innovation_dy1 + 0.078661025f * innovation_dy2;
     self->x[3] = posterior_3;
-    const float shared_60 = posterior_0 + posterior_1 + posterior_2 + posterior_3;
+    const float sum = posterior_0 + posterior_1 + posterior_2 + posterior_3;
 
     lqg_status status = fault_dy1 | fault_dy2;
-    if (!(shared_60 - shared_60 == 0.0f)) {
+    if (!(sum - sum == 0.0f)) {
         two_mass_init(self);
         status |= LQG_STATE_RESET;
     }
@@ -205,10 +205,10 @@ static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MA
     const float next_3 = 0.24233977f * x_0 + 0.0711707f * x_1 - 0.24233977f * x_2
         + 0.9288293f * x_3 + 0.01276704f * u_0;
     self->x[3] = next_3;
-    const float shared_59 = next_0 + next_1 + next_2 + next_3;
+    const float sum = next_0 + next_1 + next_2 + next_3;
 
     lqg_status status = LQG_OK;
-    if (!(shared_59 - shared_59 == 0.0f)) {
+    if (!(sum - sum == 0.0f)) {
         two_mass_init(self);
         status |= LQG_STATE_RESET;
     }
