@@ -165,8 +165,8 @@ void test_write_that_fails_at_the_last_byte_of_a_file() {
 void test_full_disk() {
   fs::create_directory(folder / "full");
   fs::create_directory(folder / "after");
-  const Outcome mounts = run({"/bin/sh", "-c", "unshare -rm mount -t tmpfs none full"}, folder);
-  if (mounts.status != 0) TEST_IGNORE_MESSAGE("no file system can be mounted here");
+  const int status = run({"/bin/sh", "-c", "unshare -rm mount -t tmpfs none full"}, folder).status;
+  if (status != 0) TEST_IGNORE_MESSAGE("no file system can be mounted here");
   const std::string script =
       "mount -t tmpfs -o size=32k none full && cp -p out/* full && \"$0\" base.toml -o full; status=$?; "
       "cp -pR full/. after; exit $status";
