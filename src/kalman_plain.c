@@ -107,7 +107,9 @@ lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x
     lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
     predict_covariance(kalman, P, work);
 
-    const lqg_real sum = add_all(add_all(0, x, nx), P, LQG_TRIANGLE(nx));
+    lqg_real sum = add_all(0, x, nx);
+    for (unsigned i = 0; i < nx; i++) /* what is not finite elsewhere is on the diagonal one sample later */
+        sum += P[LQG_TRIANGLE(i) + i];
     return reset_unless_finite(kalman, sum, x, P, u_applied, innovation);
 }
 

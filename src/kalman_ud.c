@@ -169,7 +169,10 @@ lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lq
     copy(weight + nx, kalman->w, kalman->nq);
     orthogonalise(U, d, nx, columns, T, weight, v);
 
-    const lqg_real sum = add_all(add_all(add_all(0, x, nx), U, LQG_STRICT_TRIANGLE(nx)), d, nx);
+    lqg_real sum = add_all(0, x, nx);
+    for (unsigned i = nx; i-- > 1;)
+        sum = add_all(sum + d[i], U + LQG_STRICT_TRIANGLE(i), i);
+    sum += d[0]; /* its column of U is empty, and U may be NULL */
     return reset_unless_finite(kalman, sum, x, U, d, u_applied, innovation);
 }
 

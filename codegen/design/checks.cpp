@@ -53,11 +53,12 @@ ComplexReal continuous_pole(const ComplexReal& z, double sample_time) {
 std::string name_mode(const Plant& plant, const Mode& mode, bool is_continuous) {
   const double T = plant.sample_time;
   const std::string states = name_states(plant, mode.states);
-  if (plant.domain == Domain::discrete) return "the mode at z = " + short_complex(mode.value, 1) + " (" + states + ")";
+  if (plant.domain == Domain::discrete)
+    return "the mode at z = " + short_complex(mode.value, 1) + " (" + states + ")";
   const ComplexReal s = is_continuous ? mode.value : continuous_pole(mode.value, T);
   const ComplexReal z = is_continuous ? sampled_pole(mode.value, T) : mode.value;
-  return "the mode at s = " + short_complex(s, norm(real(plant.A))) + " (z = " + short_complex(z, 1) + "; " + states
-         + ")";
+  return "the mode at s = " + short_complex(s, norm(real(plant.A))) + " (z = " + short_complex(z, 1) + "; "
+         + states + ")";
 }
 
 bool is_unstable(const Plant& plant, const Mode& mode) {
@@ -70,7 +71,8 @@ Unreached unreached_modes_of(const Plant& plant, const Eigen::MatrixXd& A, const
                                             : unreached_sampled_modes(real(A), real(B));
 }
 
-// Do s and r become one pole by sampling: (s − r)T = 2πjk with k ≠ 0, up to what typing rounded numbers explains?
+// Do s and r become one pole by sampling: (s − r)T = 2πjk with k ≠ 0, up to what typing rounded numbers
+// explains?
 bool become_one(const ComplexReal& s, const ComplexReal& r, double sample_time) {
   const Real near = 1e-9;
   const Real turns = (s.im - r.im) * sample_time / (8 * atan(Real(1)));
@@ -78,23 +80,32 @@ bool become_one(const ComplexReal& s, const ComplexReal& r, double sample_time) 
          && abs(s.re - r.re) * sample_time <= near * abs(turns);
 }
 
-// Unstable modes that B reaches in continuous time and does not in the samples. With the numbers of a file no two poles
-// become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is one more pole at s = 0.
-std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B, bool is_held) {
+std::vector<ComplexReal> rough_poles(const Plant& plant) {
+  const Digits enough(30);
+  return eigenvalues(real(plant.A));
+}
+
+// Unstable modes that B reaches in continuous time and does not in the samples. With the numbers of a file no
+// two poles become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is
+// one more pole at s = 0.
+std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B,
+                                         bool is_held) {
   const Real weak = 1e-6;
-  std::vector<ComplexReal> merged, poles = eigenvalues(real(plant.A));
+  std::vector<ComplexReal> merged, poles = rough_poles(plant);
   const std::size_t count = poles.size();
   if (is_held) poles.push_back({Real(0), Real(0)});
   for (std::size_t i = 0; i < count; ++i)
     for (const ComplexReal& other : poles)
-      if (become_one(poles[i], other, plant.sample_time)) merged.push_back(sampled_pole(poles[i], plant.sample_time));
+      if (become_one(poles[i], other, plant.sample_time))
+        merged.push_back(sampled_pole(poles[i], plant.sample_time));
   std::vector<Mode> lost;
   if (merged.empty()) return lost;
   const Real usual = is_held ? Real(plant.sample_time * largest_entry(real(plant.B))) : largest_entry(B);
   const RealMatrix reach = B.unaryExpr([&](const Real& b) { return abs(b) > weak * usual ? b : Real(0); });
   for (const Mode& mode : unreached_sampled_modes(A, reach, weak).modes)
     for (const ComplexReal& z : merged)
-      if (on_or_outside_circle(z) && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
+      if (on_or_outside_circle(z)
+          && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
         lost.push_back({z, mode.states});
         break;
       }
@@ -136,6 +147,31 @@ void check_joint(const Eigen::MatrixXd& a, const Eigen::MatrixXd& cross, const E
     add_error(findings, key_cross, "with this cross term the weights together are not positive semidefinite");
 }
 
+// (A, B), or (Aᵀ, Cᵀ) for what the outputs see: in the numbers of the file, and sampled.
+struct Pair {
+  Eigen::MatrixXd A, B;
+  RealMatrix sampled_A, sampled_B;
+  bool is_held;
+};
+
+struct Words {
+  std::string key, none, weak, lost;
+};
+
+// Errors for unstable modes that B does not reach, or that it reaches no more by sampling. False when the
+// digits in force see another number of modes than there are exactly.
+bool check_pair(const Plant& plant, const Pair& pair, const Words& words, Findings& findings) {
+  const Unreached unreached = unreached_modes_of(plant, pair.A, pair.B);
+  const bool certain = unreached.dimension == pair.A.rows() - reached_dimension(pair.A, pair.B);
+  for (const Mode& mode : unreached.modes)
+    if (is_unstable(plant, mode))
+      add_once(findings, words.key, name_mode(plant, mode, true) + (certain ? words.none : words.weak));
+  if (!certain || has_error(findings) || plant.domain == Domain::discrete) return certain;
+  for (const Mode& mode : modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held))
+    add_once(findings, "plant.sample_time", name_mode(plant, mode, false) + words.lost);
+  return true;
+}
+
 }  // namespace
 
 void add_error(Findings& findings, const std::string& key, const std::string& message) {
@@ -170,51 +206,40 @@ void check_definiteness(const Problem& problem, Findings& findings) {
     const Regulator& lqr = *problem.regulator;
     check_joint(lqr.Q, lqr.N, lqr.R, "lqr.Q", "lqr.N", "lqr.R", findings);
     if (lqr.cost == Cost::continuous && !positive_definite(real(lqr.R)))
-      add_error(findings, "lqr.R", "expected a positive definite matrix: the continuous gain needs its inverse");
+      add_error(findings, "lqr.R",
+                "expected a positive definite matrix: the continuous gain needs its inverse");
   }
   if (!problem.estimator) return;
   const Estimator& kalman = *problem.estimator;
-  check_joint(kalman.W, kalman.Swv, kalman.V, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise",
-              findings);
+  check_joint(kalman.W, kalman.Swv, kalman.V, "kalman.process_noise", "kalman.cross_noise",
+              "kalman.measurement_noise", findings);
   if (!has_error(findings) && !positive_definite(real(kalman.V)))
-    add_error(findings, "kalman.measurement_noise", "expected a positive definite matrix: every output needs some noise");
+    add_error(findings, "kalman.measurement_noise",
+              "expected a positive definite matrix: every output needs some noise");
   if (kalman.gain == Gain::online && is_indefinite(real(kalman.P0)))
     add_error(findings, "kalman.initial_covariance", "expected a positive semidefinite matrix");
 }
 
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
-  const Unreached unreached = unreached_modes_of(plant, plant.A, plant.B);
-  const bool certain = unreached.dimension == plant.A.rows() - reached_dimension(plant.A, plant.B);
-  const std::string reason = certain ? " is reached by no input: the plant is not stabilisable"
-                                     : " is reached too weakly by the inputs: the plant is hardly stabilisable";
-  for (const Mode& mode : unreached.modes)
-    if (is_unstable(plant, mode)) add_once(findings, "plant.B", name_mode(plant, mode, true) + reason);
-  if (!certain) return false;
-  if (has_error(findings) || plant.domain == Domain::discrete) return true;
-  for (const Mode& mode : modes_lost_by_sampling(plant, sampled.A, sampled.B, true))
-    add_once(findings, "plant.sample_time",
-             name_mode(plant, mode, false) + " can be stabilised, but not with inputs that are held this long: "
-                                             "the sample time matches its oscillation");
-  return true;
+  const Pair pair = {plant.A, plant.B, sampled.A, sampled.B, true};
+  return check_pair(plant, pair,
+                    {"plant.B", " is reached by no input: the plant is not stabilisable",
+                     " is reached too weakly by the inputs: the plant is hardly stabilisable",
+                     " can be stabilised, but not with inputs held that long: the sample time matches its "
+                     "oscillation"},
+                    findings);
 }
 
 bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
-  const Eigen::MatrixXd A = plant.A.transpose(), C = plant.C.transpose();
-  const Unreached unseen = unreached_modes_of(plant, A, C);
-  const bool certain = unseen.dimension == A.rows() - reached_dimension(A, C);
-  const std::string reason = certain ? " is seen in no output: the plant is not detectable"
-                                     : " is seen too weakly in the outputs: the plant is hardly detectable";
-  for (const Mode& mode : unseen.modes)
-    if (is_unstable(plant, mode)) add_once(findings, "plant.C", name_mode(plant, mode, true) + reason);
-  if (!certain) return false;
-  if (has_error(findings) || plant.domain == Domain::discrete) return true;
-  for (const Mode& mode : modes_lost_by_sampling(plant, sampled.A.transpose(), sampled.C.transpose(), false))
-    add_once(findings, "plant.sample_time",
-             name_mode(plant, mode, false) + " can be seen, but not at these samples: "
-                                             "the sample time matches its oscillation");
-  return true;
+  const Pair pair = {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(),
+                     false};
+  return check_pair(plant, pair,
+                    {"plant.C", " is seen in no output: the plant is not detectable",
+                     " is seen too weakly in the outputs: the plant is hardly detectable",
+                     " can be seen, but not at these samples: the sample time matches its oscillation"},
+                    findings);
 }
 
 // The modes of (A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ) that are not observable: with R > 0 the only ones that cost nothing.
@@ -233,8 +258,9 @@ void check_weights_on_limit(const Problem& problem, const Samples& samples, Find
   for (const Mode& mode : unweighed.modes) {
     const bool on_limit = is_continuous ? on_axis(mode.value, norm(free)) : on_circle(mode.value);
     if (on_limit)
-      add_once(findings, "lqr.Q", name_mode(plant, mode, is_continuous)
-                                      + " is on the stability limit and carries no weight: no stabilising gain is optimal");
+      add_once(findings, "lqr.Q",
+               name_mode(plant, mode, is_continuous)
+                   + " is on the stability limit and carries no weight: no stabilising gain is optimal");
   }
 }
 
@@ -245,12 +271,14 @@ void check_noise_on_limit(const Problem& problem, const Samples& samples, Findin
   const RealMatrix told = *solve(noise.V, beside(plant.C, noise.Swv.transpose()));
   const Index nx = plant.A.rows(), nw = plant.G.cols();
   const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
-  const RealMatrix own = congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
+  const RealMatrix own =
+      congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
   for (const Mode& mode : unreached_sampled_modes(free, own).modes)
     if (on_circle(mode.value))
       add_once(findings, "kalman.process_noise",
                name_mode(problem.plant, mode, false)
-                   + " is on the stability limit and driven by no process noise: no stable steady filter is optimal");
+                   + " is on the stability limit and driven by no process noise: "
+                     "no stable steady filter is optimal");
 }
 
 }  // namespace lqg::design

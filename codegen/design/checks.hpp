@@ -1,4 +1,5 @@
-// Is the problem well posed? Each finding names the key and, for a mode, its eigenvalue and the states that take part.
+// Is the problem well posed? Each finding names the key and, for a mode, its eigenvalue and the states that
+// take part.
 #pragma once
 
 #include "design/finding.hpp"
@@ -11,17 +12,20 @@ namespace lqg::design {
 void add_error(Findings& findings, const std::string& key, const std::string& message);
 void add_note(Findings& findings, const std::string& key, const std::string& message);
 
-// Is the design one that the plant's domain allows; are weights and covariances symmetric, and (semi)definite?
+// Is the design one that the plant's domain allows; are weights and covariances symmetric, and
+// (semi)definite?
 void check_kinds(const Problem& problem, Findings& findings);
 void check_symmetry(const Problem& problem, Findings& findings);
 void check_definiteness(const Problem& problem, Findings& findings);
 
-// Stabilisable and detectable? Of a continuous plant that is asked of the continuous plant, whose numbers are exact, and
-// then whether sampling has lost it. False when the digits in force do not tell how many modes are reached or seen.
+// Stabilisable and detectable? Of a continuous plant that is asked of the continuous plant, whose numbers are
+// exact, and then whether sampling has lost it. False when the digits in force do not tell how many modes are
+// reached or seen.
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 
-// A mode on the stability limit that carries no weight, or that no process noise drives, has no stabilising solution.
+// A mode on the stability limit that carries no weight, or that no process noise drives, has no stabilising
+// solution.
 void check_weights_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
 void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
 

@@ -9,8 +9,8 @@ namespace {
 // The covariance of the estimate that u is made of. The innovations are white, so that
 //   filter:     Σ = FΣFᵀ + ΓSΓᵀ of x̂⁻ with F = A − BK, Γ = FL + M; x̂ = x̂⁻ + L innovation has Σ + LSLᵀ
 //   predictor:  the same of x̂⁻ with Γ = L_predictor
-RealMatrix estimate_covariance(const SampledPlant& plant, const RealMatrix& K, const EstimatorSolution& filter,
-                               Form form) {
+RealMatrix estimate_covariance(const SampledPlant& plant, const RealMatrix& K,
+                               const EstimatorSolution& filter, Form form) {
   const RealMatrix closed = plant.A - multiply(plant.B, K);
   const bool filtered = form == Form::filter;
   const RealMatrix drive = filtered ? RealMatrix(multiply(closed, filter.L) + filter.M) : filter.L_predictor;
@@ -19,7 +19,8 @@ RealMatrix estimate_covariance(const SampledPlant& plant, const RealMatrix& K, c
 }
 
 // u = −Kx̂ and x − x̂ is not correlated with x̂:  tr((Q − NK − KᵀNᵀ + KᵀRK) E[x̂x̂ᵀ]) + tr(Q P).
-Real cost_of(const SampledCost& cost, const RealMatrix& K, const RealMatrix& estimate, const RealMatrix& error) {
+Real cost_of(const SampledCost& cost, const RealMatrix& K, const RealMatrix& estimate,
+             const RealMatrix& error) {
   const RealMatrix NK = multiply(cost.N, K);
   const RealMatrix weight = cost.Q - (NK + NK.transpose()) + transpose_congruence(K, cost.R);
   return trace_of_product(weight, estimate) + trace_of_product(cost.Q, error);
@@ -40,8 +41,9 @@ SteadyCost steady_cost(const Problem& problem, const Samples& samples, const Sol
   // u holds −K L v, so that E[w uᵀ] = −Swv LᵀKᵀ; in predictor form u is older than v.
   Real between = samples.between->noise_cost;
   if (form == Form::filter && samples.between->u_noise.size() > 0)
-    between -= 2 * trace_of_product(samples.between->u_noise,
-                                    multiply(real(problem.estimator->Swv), multiply(K, filter.L).transpose()));
+    between -= 2
+               * trace_of_product(samples.between->u_noise,
+                                  multiply(real(problem.estimator->Swv), multiply(K, filter.L).transpose()));
   cost.per_second = (cost.per_sample + between) / Real(problem.plant.sample_time);
   return cost;
 }

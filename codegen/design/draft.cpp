@@ -33,8 +33,9 @@ void draft_regulator(const Problem& problem, const Samples& samples, const Draft
   result.regulator_poles = eigenvalues(found.closed);
   for (const ComplexReal& pole : result.regulator_poles)
     if (!(hypot(pole.re, pole.im) < 1) && problem.regulator->cost == Cost::continuous)
-      return add_error(result.findings, "lqr.cost",
-                       "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");
+      return add_error(
+          result.findings, "lqr.cost",
+          "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");
 }
 
 void draft_estimator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
@@ -49,7 +50,8 @@ void draft_estimator(const Problem& problem, const Samples& samples, const Draft
   take_condition(result.solution, found);
   result.solution.estimator = filter_of(samples, found.X);
   result.estimator_poles = eigenvalues(found.closed);
-  if (problem.estimator->gain == Gain::online) result.solution.online = online_filter(*problem.estimator, samples);
+  if (problem.estimator->gain == Gain::online)
+    result.solution.online = online_filter(*problem.estimator, samples);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Eigenvalues of a real matrix: Hessenberg form, then the implicit double-shift QR sweeps of J. G. F. Francis,
-// "The QR transformation, part 2", The Computer Journal 4 (1962), 332–345.
+// Eigenvalues of a real matrix: Hessenberg form, then the implicit double-shift QR sweeps of J. G. F.
+// Francis, "The QR transformation, part 2", The Computer Journal 4 (1962), 332–345.
 #include <array>
 #include <limits>
 
@@ -52,10 +52,9 @@ void sweep(RealMatrix& h, Index low, Index high, const Real& sum, const Real& pr
   const Index n = h.rows();
   Real* a = h.data();
   // The first column of (H − σ₁)(H − σ₂).
-  std::array<Real, 3> x = {
-      h(low, low) * (h(low, low) - sum) + h(low, low + 1) * h(low + 1, low) + product,
-      h(low + 1, low) * (h(low, low) + h(low + 1, low + 1) - sum),
-      low + 2 <= high ? h(low + 1, low) * h(low + 2, low + 1) : Real(0)};
+  std::array<Real, 3> x = {h(low, low) * (h(low, low) - sum) + h(low, low + 1) * h(low + 1, low) + product,
+                           h(low + 1, low) * (h(low, low) + h(low + 1, low + 1) - sum),
+                           low + 2 <= high ? h(low + 1, low) * h(low + 2, low + 1) : Real(0)};
   Reflection reflection;
   for (Index k = low; k < high; ++k) {
     const Index size = std::min<Index>(3, high - k + 1);
@@ -86,7 +85,8 @@ std::array<ComplexReal, 2> eigenvalues_of_pair(const Real& a, const Real& b, con
   return {ComplexReal{d + away, Real(0)}, ComplexReal{other, Real(0)}};
 }
 
-// The start of the trailing block that ends at `high` and cannot be split; the negligible entry before it is set to 0.
+// The start of the trailing block that ends at `high` and cannot be split; the negligible entry before it is
+// set to 0.
 Index split(RealMatrix& h, Index high, const Real& rounding, const Real& scale) {
   Index low = high;
   while (low > 0) {
@@ -147,7 +147,8 @@ std::vector<ComplexReal> eigenvalues(const RealMatrix& a) {
     if (low == high) {
       found.push_back({h(high, high), Real(0)});
     } else if (low + 1 == high) {
-      for (const ComplexReal& value : eigenvalues_of_pair(h(low, low), h(low, high), h(high, low), h(high, high)))
+      for (const ComplexReal& value :
+           eigenvalues_of_pair(h(low, low), h(low, high), h(high, low), h(high, high)))
         found.push_back(value);
     } else if (sweeps++ < most_sweeps) {
       const Index last = high - 1;

@@ -8,8 +8,8 @@ namespace lqg::design {
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
   const SampledPlant& plant = samples.plant;
   const SampledNoise& noise = *samples.noise;
-  return solve_discrete_riccati({plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W), noise.V,
-                                 multiply(plant.G, noise.Swv)},
+  return solve_discrete_riccati({plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W),
+                                 noise.V, multiply(plant.G, noise.Swv)},
                                 start);
 }
 
@@ -74,11 +74,14 @@ void explain_estimator(RiccatiFailure failure, Findings& findings) {
     case RiccatiFailure::none:
       return;
     case RiccatiFailure::not_definite:
-      return add_error(findings, "kalman.measurement_noise", "the innovation covariance CPCᵀ + V is not positive definite");
+      return add_error(findings, "kalman.measurement_noise",
+                       "the innovation covariance CPCᵀ + V is not positive definite");
     case RiccatiFailure::no_start:
-      return add_error(findings, "kalman", "no stable filter was found: the plant is too close to one that is not detectable");
+      return add_error(findings, "kalman",
+                       "no stable filter was found: the plant is too close to one that is not detectable");
     case RiccatiFailure::not_converged:
-      return add_error(findings, "kalman", "no stable filter is optimal: a pole of the filter tends to the stability limit");
+      return add_error(findings, "kalman",
+                       "no stable filter is optimal: a pole of the filter tends to the stability limit");
     case RiccatiFailure::residual:
       return add_error(findings, "kalman", "the Riccati equation is too ill conditioned to be solved");
   }

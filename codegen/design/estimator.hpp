@@ -6,8 +6,8 @@
 
 namespace lqg::design {
 
-// The dual Riccati equation: Aᵀ, Cᵀ, GWGᵀ, V, G Swv in the places of A, B, Q, R, N; its X is P_prior, its K is
-// L_predictorᵀ. `start` is P_prior in fewer digits, or empty.
+// The dual Riccati equation: Aᵀ, Cᵀ, GWGᵀ, V, G Swv in the places of A, B, Q, R, N; its X is P_prior, its K
+// is L_predictorᵀ. `start` is P_prior in fewer digits, or empty.
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start);
 
 // All of the filter that follows from P_prior; the poles stay empty.

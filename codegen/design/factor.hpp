@@ -11,12 +11,13 @@ struct Factors {
   RealVector d;
 };
 
-// Lower triangular U, pivots from the first row on. Stops being meaningful at a pivot ≤ 0: such d say that P is not
-// positive definite.
+// Lower triangular U, pivots from the first row on. Stops being meaningful at a pivot ≤ 0: such d say that P
+// is not positive definite.
 Factors lower_factors(const RealMatrix& P);
 
-// Upper triangular U, pivots from the last row on; P may be singular. A pivot below 10^−40 of its diagonal entry counts
-// as an exact zero, with a zero column of U above its 1: that moves no entry of P by more than 10^−20 √(P_ii P_jj).
+// Upper triangular U, pivots from the last row on; P may be singular. A pivot below 10^−40 of its diagonal
+// entry counts as an exact zero, with a zero column of U above its 1: that moves no entry of P by more than
+// 10^−20 √(P_ii P_jj).
 Factors upper_factors(const RealMatrix& P);
 
 bool positive_definite(const RealMatrix& P);

@@ -6,7 +6,8 @@ namespace lqg::design {
 
 namespace {
 
-// sum ← sum ± Σ a_k b_k. A product and a sum into a scratch number take 35 ns at 50 digits, mpfr_fma takes 56.
+// sum ← sum ± Σ a_k b_k. A product and a sum into a scratch number take 35 ns at 50 digits, mpfr_fma takes
+// 56.
 class Accumulator {
  public:
   void add(Real& sum, const Real* a, Index a_stride, const Real* b, Index b_stride, Index count) {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "design/response.hpp"
 #include "design/rounding.hpp"
@@ -11,9 +12,10 @@ namespace lqg::design {
 
 namespace {
 
-using Evaluate = std::function<ComplexMatrix(const Real&)>;  // T at an angle
-using Value = std::function<Real(const ComplexMatrix&)>;     // of T
-using Function = std::function<Real(const Real&)>;           // of an angle
+using Evaluate = std::function<ComplexMatrix(const Real&)>;           // T at an angle
+using Value = std::function<Real(const ComplexMatrix&)>;              // of T
+using InputValue = std::function<Real(const ComplexMatrix&, Index)>;  // of T and an input
+using Function = std::function<Real(const Real&)>;                    // of an angle
 
 Real pi() { return atan(Real(1)) * 4; }
 
@@ -33,14 +35,15 @@ std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
   const Real ratio = pow(Real(2), Real(1) / 8);
   for (Real angle = slowest / 16; angle < end / 2; angle *= ratio) angles.push_back(angle);
   for (Real angle = fastest / 16; angle < end / 2; angle *= ratio) angles.push_back(end - angle);
-  angles.erase(std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
-               angles.end());
+  angles.erase(
+      std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
+      angles.end());
   std::sort(angles.begin(), angles.end());
   return angles;
 }
 
-// A root of f between low and high, where its signs differ: secant steps, halving where they would leave the bracket.
-// The last step is shorter than `fraction` of the bracket.
+// A root of f between low and high, where its signs differ: secant steps, halving where they would leave the
+// bracket. The last step is shorter than `fraction` of the bracket.
 Real root_between(const Function& f, Real low, Real high, const Real& fraction) {
   Real before = low, x = high, at_before = f(low), at_x = f(high);
   const bool low_is_negative = at_before < 0;
@@ -66,7 +69,7 @@ Function slope_of(const Function& f, const Real& step) {
 struct Fineness {
   double step, end_of_root, end_of_extremum;
 };
-const Fineness rough = {1e-4, 1e-6, 1e-3}, exact = {1e-16, 1e-25, 1e-13};
+const Fineness rough = {1e-4, 1e-7, 1e-3}, exact = {1e-14, 1e-14, 1e-10};
 
 struct Search {
   Evaluate evaluate;
@@ -80,16 +83,18 @@ Search search_with(const Evaluate& evaluate, const std::vector<Real>& angles) {
   return search;
 }
 
-// A cell of the grid with one root or one maximum in it, and the margin there, found roughly.
+// A cell of the grid with one root or one extremum in it; where that is, roughly, and the margin there.
 struct Place {
-  Real low, high, margin;
+  Real low, high, angle, margin;
+  Index input = 0;
 };
 
 Function at_angle(const Value& value, const Evaluate& evaluate) {
   return [value, evaluate](const Real& angle) { return value(evaluate(angle)); };
 }
 
-// Where `value` crosses zero: between neighbours of different sign, and on both sides of a dip that passes zero unseen.
+// Where `value` crosses zero: between neighbours of different sign, and on both sides of a dip that passes
+// zero unseen.
 std::vector<Place> crossings(const Search& search, const Value& value, const Value& margin) {
   std::vector<Place> places;
   std::vector<Real> values;
@@ -97,7 +102,7 @@ std::vector<Place> crossings(const Search& search, const Value& value, const Val
   const Function f = at_angle(value, search.evaluate);
   const auto add = [&](const Real& low, const Real& high) {
     const Real root = root_between(f, low, high, rough.end_of_root);
-    places.push_back({low, high, margin(search.evaluate(root))});
+    places.push_back({low, high, root, margin(search.evaluate(root))});
   };
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     const Real &low = search.angles[i], &high = search.angles[i + 1];
@@ -119,63 +124,85 @@ std::vector<Place> crossings(const Search& search, const Value& value, const Val
 
 bool by_margin(const Place& a, const Place& b) { return a.margin < b.margin; }
 
+// The root of f at a place, in all digits: first looked for next to where it was found roughly.
+std::optional<Real> root_near(const Function& f, const Place& place) {
+  for (const double share : {1e-5, 1.0}) {
+    const Real reach = share * (place.high - place.low);
+    const Real low = std::max<Real>(place.low, place.angle - reach),
+               high = std::min<Real>(place.high, place.angle + reach);
+    if ((f(low) < 0) != (f(high) < 0)) return root_between(f, low, high, exact.end_of_root);
+  }
+  return std::nullopt;
+}
+
 struct Outcome {
   std::optional<Real> least;
   bool as_expected = true;  // the rough search saw what the exact evaluation found
 };
 
-// Refines the places that may hold the least margin.
-void refine_roots(const std::vector<Place>& places, const Value& value, const Value& margin, const Evaluate& evaluate,
-                  Outcome& outcome) {
-  if (places.empty()) return;
+// The least margin of all inputs: the roots of `value`, the rough search's best ones refined, and what `ends`
+// has already.
+Outcome least_margin(const Search& search, const Evaluate& evaluate, const InputValue& value,
+                     const InputValue& margin, const std::optional<Real>& ends) {
+  Outcome outcome;
+  outcome.least = ends;
+  std::vector<Place> places;
+  for (Index input = 0; input < search.responses.front().re.rows(); ++input) {
+    const auto value_here = [&, input](const ComplexMatrix& T) { return value(T, input); };
+    const auto margin_here = [&, input](const ComplexMatrix& T) { return margin(T, input); };
+    for (Place& place : crossings(search, value_here, margin_here)) {
+      place.input = input;
+      if (isfinite(place.margin)) places.push_back(place);
+    }
+  }
+  if (places.empty()) return outcome;
   const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.01;
-  const Function f = at_angle(value, evaluate);
   for (const Place& place : places) {
     if (place.margin > bound) continue;
-    if ((f(place.low) < 0) == (f(place.high) < 0)) {
-      outcome.as_expected = false;
-      continue;
-    }
-    const Real found = margin(evaluate(root_between(f, place.low, place.high, exact.end_of_root)));
+    const Index input = place.input;
+    const Function f = [&, input](const Real& angle) { return value(evaluate(angle), input); };
+    const std::optional<Real> root = root_near(f, place);
+    outcome.as_expected = outcome.as_expected && root;
+    if (!root) continue;
+    const Real found = margin(evaluate(*root), input);
     outcome.as_expected = outcome.as_expected && abs(found - place.margin) <= 1e-3 * found;
     if (!outcome.least || found < *outcome.least) outcome.least = found;
   }
+  return outcome;
 }
 
 // |20 log10(1 − 1/t)|; infinite when a real t asks for no finite factor.
-Real gain_at(const Real& t) {
-  const Real rounding = 1e-20;
+Real gain_margin(const ComplexMatrix& T, Index input) {
+  const Real &t = T.re(input, input), rounding = 1e-20;
   if (t < -rounding || t > 1 + rounding) return abs(20 * log10(1 - 1 / t));
   return Real(std::numeric_limits<double>::infinity());
 }
 
-Outcome least_gain(const Search& search, const Evaluate& evaluate) {
-  Outcome outcome;
-  for (Index input = 0; input < search.responses.front().re.rows(); ++input) {
-    const Value value = [input](const ComplexMatrix& T) { return T.im(input, input); };
-    const Value margin = [input](const ComplexMatrix& T) { return gain_at(T.re(input, input)); };
-    for (const Real& end : {Real(0), pi()}) {
-      const Real found = margin(evaluate(end));
-      if (isfinite(found) && (!outcome.least || found < *outcome.least)) outcome.least = found;
+Real phase_margin(const ComplexMatrix& T, Index input) {
+  return 2 * atan2(Real(1), 2 * abs(T.im(input, input))) * 180 / pi();
+}
+
+// T is real at z = 1 and z = −1.
+std::optional<Real> gain_margin_at_ends(const Evaluate& evaluate) {
+  std::optional<Real> least;
+  for (const Real& end : {Real(0), pi()}) {
+    const ComplexMatrix T = evaluate(end);
+    for (Index input = 0; input < T.re.rows(); ++input) {
+      const Real found = gain_margin(T, input);
+      if (isfinite(found) && (!least || found < *least)) least = found;
     }
-    std::vector<Place> places = crossings(search, value, margin);
-    places.erase(std::remove_if(places.begin(), places.end(), [](const Place& p) { return !isfinite(p.margin); }),
-                 places.end());
-    refine_roots(places, value, margin, evaluate, outcome);
   }
-  return outcome;
+  return least;
+}
+
+Outcome least_gain(const Search& search, const Evaluate& evaluate) {
+  const auto imaginary = [](const ComplexMatrix& T, Index input) { return T.im(input, input); };
+  return least_margin(search, evaluate, imaginary, gain_margin, gain_margin_at_ends(evaluate));
 }
 
 Outcome least_phase(const Search& search, const Evaluate& evaluate) {
-  Outcome outcome;
-  for (Index input = 0; input < search.responses.front().re.rows(); ++input) {
-    const Value value = [input](const ComplexMatrix& T) { return Real(T.re(input, input) - 0.5); };
-    const Value margin = [input](const ComplexMatrix& T) {
-      return Real(2 * atan2(Real(1), 2 * abs(T.im(input, input))) * 180 / pi());
-    };
-    refine_roots(crossings(search, value, margin), value, margin, evaluate, outcome);
-  }
-  return outcome;
+  const auto from_half = [](const ComplexMatrix& T, Index input) { return Real(T.re(input, input) - 0.5); };
+  return least_margin(search, evaluate, from_half, phase_margin, std::nullopt);
 }
 
 // [Re H, −Im H; Im H, Re H] with H = I/2 − T: the norm of the complex matrix is that of this real one.
@@ -209,7 +236,7 @@ std::vector<Place> disk_places(const Search& search) {
   for (const ComplexMatrix& T : search.responses) sizes.push_back(rough_disk(T));
   for (std::size_t i = 1; i + 1 < sizes.size(); ++i)
     if (sizes[i] <= sizes[i - 1] && sizes[i] <= sizes[i + 1])
-      places.push_back({search.angles[i - 1], search.angles[i + 1], sizes[i]});
+      places.push_back({search.angles[i - 1], search.angles[i + 1], search.angles[i], sizes[i]});
   return places;
 }
 
@@ -226,7 +253,8 @@ Outcome least_disk(const Search& search, const Evaluate& evaluate) {
     const bool has_minimum = slope(place.low) < 0 && slope(place.high) > 0;
     outcome.as_expected = outcome.as_expected && has_minimum;
     if (!has_minimum) continue;
-    outcome.least = std::min<Real>(*outcome.least, f(root_between(slope, place.low, place.high, exact.end_of_extremum)));
+    outcome.least =
+        std::min<Real>(*outcome.least, f(root_between(slope, place.low, place.high, exact.end_of_extremum)));
   }
   return outcome;
 }
@@ -235,9 +263,10 @@ Outcome least_disk(const Search& search, const Evaluate& evaluate) {
 
 Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {
   const Response response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C);
-  const Digits enough(50);
+  const Digits enough(38);  // two limbs
+  const Response in_few_digits = response.in_present_digits();
   const std::vector<Real> angles = search_angles(closed_loop_poles);
-  const Evaluate exactly = [&](const Real& angle) { return response.at(angle); };
+  const Evaluate exactly = [&](const Real& angle) { return in_few_digits.at(angle); };
   const Evaluate roughly = [&](const Real& angle) {
     const Digits few(20);
     return response.roughly_at(angle);

@@ -15,8 +15,8 @@ struct Margins {
 //   gain   where t is real and < 0 or > 1: the factor 1 − 1/t makes the loop oscillate
 //   phase  where Re t = 1/2, the loop's gain is 1: the angle 2 atan(1/|2 Im t|) makes it oscillate
 //   disk   1/max ‖(S − T)/2‖ = 1/max ‖I/2 − T‖
-// The least of all inputs; searched on a grid that follows the poles, refined to the exact place in many digits. Empty
-// where there is no such place.
+// The least of all inputs; searched on a grid that follows the poles, refined to the exact place in many
+// digits. Empty where there is no such place.
 Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles);
 
 }  // namespace lqg::design

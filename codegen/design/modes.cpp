@@ -41,7 +41,8 @@ Basis reached(const RealMatrix& A, const RealMatrix& B, const Real& coupling) {
   return basis;
 }
 
-// Completes the basis to the whole space by the unit vectors that lie farthest outside; returns the new columns.
+// Completes the basis to the whole space by the unit vectors that lie farthest outside; returns the new
+// columns.
 RealMatrix completion(Basis basis) {
   const Index n = basis.columns().rows(), before = basis.columns().cols();
   while (basis.columns().cols() < n) {

@@ -10,8 +10,9 @@ struct Mode {
   std::vector<Index> states;  // that take part in it
 };
 
-// Below this a coupling counts as none: 10^(−0.6 digits), far below any product of doubles, far above the working
-// rounding. What a pair with couplings near that bound is found to be changes with the digits, which Ziv's test sees.
+// Below this a coupling counts as none: 10^(−0.6 digits), far below any product of doubles, far above the
+// working rounding. What a pair with couplings near that bound is found to be changes with the digits, which
+// Ziv's test sees.
 Real no_coupling();
 
 struct Unreached {

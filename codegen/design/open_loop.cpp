@@ -5,7 +5,8 @@ namespace lqg::design {
 namespace {
 
 // The filter form with D: the states p and q, the last ū and u, too; ν has D(p − q) more.
-OpenLoop with_kept_inputs(const OpenLoop& loop, const RealMatrix& D, const RealMatrix& KL, const RealMatrix& drive) {
+OpenLoop with_kept_inputs(const OpenLoop& loop, const RealMatrix& D, const RealMatrix& KL,
+                          const RealMatrix& drive) {
   const Index nz = loop.A.rows(), nu = loop.B.cols();
   const RealMatrix sees = beside(D, -D), answer = beside(loop.C, multiply(KL, sees));
   const RealMatrix moved = above(zeros(nz - drive.rows(), 2 * nu), multiply(drive, sees));
@@ -32,9 +33,11 @@ OpenLoop open_loop(const Problem& problem, const Solution& solution) {
   const RealMatrix sees = beside(plant.C, -plant.C);
   const RealMatrix answer = beside(zeros(nu, nx), K) + multiply(multiply(K, filter.L), sees);
   const RealMatrix drive = multiply(closed, filter.L) + filter.M;
-  const RealMatrix A = above(beside(plant.A, zeros(nx, nx)), beside(zeros(nx, nx), closed) + multiply(drive, sees));
+  const RealMatrix A =
+      above(beside(plant.A, zeros(nx, nx)), beside(zeros(nx, nx), closed) + multiply(drive, sees));
   const RealMatrix B = above(plant.B, zeros(nx, nu));
-  return is_zero(plant.D) ? OpenLoop{A, B, answer} : with_kept_inputs({A, B, answer}, plant.D, multiply(K, filter.L), drive);
+  return is_zero(plant.D) ? OpenLoop{A, B, answer}
+                          : with_kept_inputs({A, B, answer}, plant.D, multiply(K, filter.L), drive);
 }
 
 }  // namespace lqg::design

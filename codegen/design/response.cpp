@@ -12,7 +12,8 @@ namespace {
 // c ← c − a b, complex; without new numbers, for this is where the margins spend their time.
 class RealProducts {
  public:
-  void subtract(Real& c_re, Real& c_im, const Real& a_re, const Real& a_im, const Real& b_re, const Real& b_im) {
+  void subtract(Real& c_re, Real& c_im, const Real& a_re, const Real& a_im, const Real& b_re,
+                const Real& b_im) {
     apply(mpfr_sub, c_re, a_re, b_re);
     apply(mpfr_add, c_re, a_im, b_im);
     apply(mpfr_sub, c_im, a_re, b_im);
@@ -36,8 +37,8 @@ struct DoubleProducts {
   }
 };
 
-// zI − A, an upper Hessenberg matrix, and the right sides, transposed: a column here is a row there, so that the loops
-// run along memory.
+// zI − A, an upper Hessenberg matrix, and the right sides, transposed: a column here is a row there, so that
+// the loops run along memory.
 template <typename Scalar, typename Products>
 struct System {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
@@ -58,7 +59,8 @@ struct System {
 
   // (re, im)(k, i) / (re, im)(k', i')
   std::pair<Scalar, Scalar> quotient(Index k, Index i, Index k_below, Index i_below) const {
-    const Scalar &a_re = re(k, i), &a_im = im(k, i), &b_re = re(k_below, i_below), &b_im = im(k_below, i_below);
+    const Scalar &a_re = re(k, i), &a_im = im(k, i), &b_re = re(k_below, i_below),
+                 &b_im = im(k_below, i_below);
     const Scalar length = b_re * b_re + b_im * b_im;
     return {(a_re * b_re + a_im * b_im) / length, (a_im * b_re - a_re * b_im) / length};
   }
@@ -107,22 +109,29 @@ Response::Response(RealMatrix A, RealMatrix B, RealMatrix C)
   reduce_to_hessenberg(A_, B_, C_);
   rough_A_ = in_double(A_);
   rough_B_ = in_double(B_);
+  rough_C_ = in_double(C_);
+}
+
+Response Response::in_present_digits() const {
+  Response result = *this;
+  for (RealMatrix* matrix : {&result.A_, &result.B_, &result.C_})
+    *matrix = design::in_present_digits(*matrix);
+  return result;
 }
 
 ComplexMatrix Response::at(const Real& angle) const {
-  System<Real, RealProducts> system(in_present_digits(A_), in_present_digits(B_), cos(angle), sin(angle));
+  System<Real, RealProducts> system(A_, B_, cos(angle), sin(angle));
   system.solve();
-  const Index right_sides = B_.cols();
-  return {multiply_transpose(C_, system.re.bottomRows(right_sides)),
-          multiply_transpose(C_, system.im.bottomRows(right_sides))};
+  return {multiply_transpose(C_, system.re.bottomRows(B_.cols())),
+          multiply_transpose(C_, system.im.bottomRows(B_.cols()))};
 }
 
 ComplexMatrix Response::roughly_at(const Real& angle) const {
   System<double, DoubleProducts> system(rough_A_, rough_B_, to_double(cos(angle)), to_double(sin(angle)));
   system.solve();
   const Index right_sides = B_.cols();
-  return {multiply_transpose(C_, real(system.re.bottomRows(right_sides))),
-          multiply_transpose(C_, real(system.im.bottomRows(right_sides)))};
+  return {real(rough_C_ * system.re.bottomRows(right_sides).transpose()),
+          real(rough_C_ * system.im.bottomRows(right_sides).transpose())};
 }
 
 }  // namespace lqg::design

@@ -28,9 +28,9 @@ RealMatrix step_cost(const RiccatiEquation& e, const RealMatrix& K) {
   return e.Q - (NK + NK.transpose()) + transpose_congruence(K, e.R);
 }
 
-// X by structure-preserving doubling (E. K. Chu, H. Y. Fan, W. W. Lin, C. S. Wang, International Journal of Control 77
-// (2004), 767–788); the minimal X, not the stabilising one, where an unstable mode has no weight. Empty when R or a
-// step is singular.
+// X by structure-preserving doubling (E. K. Chu, H. Y. Fan, W. W. Lin, C. S. Wang, International Journal of
+// Control 77 (2004), 767–788); the minimal X, not the stabilising one, where an unstable mode has no weight.
+// Empty when R or a step is singular.
 //   A ← A(I + GH)⁻¹A,  G ← G + A(I + GH)⁻¹GAᵀ,  H ← H + AᵀH(I + GH)⁻¹A;  H → X
 std::optional<RealMatrix> doubled_up(const RiccatiEquation& e) {
   const Index nx = e.A.rows();
@@ -52,7 +52,8 @@ std::optional<RealMatrix> doubled_up(const RiccatiEquation& e) {
   return H;
 }
 
-// K of some other weights: Q and R lifted off the semidefinite limit by `lift`, or identities for all when it is 0.
+// K of some other weights: Q and R lifted off the semidefinite limit by `lift`, or identities for all when it
+// is 0.
 std::optional<RealMatrix> gain_of_other_weights(const RiccatiEquation& e, const Real& lift) {
   RiccatiEquation other = e;
   const Index nx = e.A.rows(), nu = e.B.cols();
@@ -70,9 +71,10 @@ std::optional<RealMatrix> gain_of_other_weights(const RiccatiEquation& e, const 
   return X ? gain_of(other, *X) : std::nullopt;
 }
 
-// One step of D. L. Kleinman's iteration (G. A. Hewer, IEEE Transactions on Automatic Control 16 (1971), 382–384): the X that
-// u = −Kx costs. K was made of `X`, which may be empty; then the step is a correction of X by the residual, and a small
-// residual needs only half of the digits to be solved for. Empty when A − BK is not strictly stable.
+// One step of D. L. Kleinman's iteration (G. A. Hewer, IEEE Transactions on Automatic Control 16 (1971),
+// 382–384): the X that u = −Kx costs. K was made of `X`, which may be empty; then the step is a correction of
+// X by the residual, and a small residual needs only half of the digits to be solved for. Empty when A − BK
+// is not strictly stable.
 std::optional<RealMatrix> cost_of_gain(const RiccatiEquation& e, const RealMatrix& K, const RealMatrix& X) {
   const RealMatrix closed = e.A - multiply(e.B, K), cost = step_cost(e, K);
   if (X.size() == 0) return solve_stein(closed, cost);
@@ -132,8 +134,8 @@ RiccatiResult first_that_stabilises(const RiccatiEquation& e) {
   return result;
 }
 
-// ‖Ω⁻¹‖ ‖Ω‖ of Ω: Z ↦ Z − AᵀZA. Ω⁻¹ keeps definiteness, so that the identity is its worst right-hand side. Few digits
-// are enough, but where A is too far from normal for them.
+// ‖Ω⁻¹‖ ‖Ω‖ of Ω: Z ↦ Z − AᵀZA. Ω⁻¹ keeps definiteness, so that the identity is its worst right-hand side.
+// Few digits are enough, but where A is too far from normal for them.
 Real stein_condition(const RealMatrix& A) {
   for (const unsigned digits : {20u, Real::default_precision()}) {
     const Digits scope(digits);

@@ -94,7 +94,8 @@ Samples sample(const Problem& problem) {
     samples.plant = {real(plant.A), real(plant.B), real(plant.C), real(plant.D), real(plant.G)};
   if (problem.regulator && !samples.cost) samples.cost = weights_of(*problem.regulator);
   if (problem.estimator && !samples.noise)
-    samples.noise = SampledNoise{real(problem.estimator->W), real(problem.estimator->V), real(problem.estimator->Swv)};
+    samples.noise =
+        SampledNoise{real(problem.estimator->W), real(problem.estimator->V), real(problem.estimator->Swv)};
   return samples;
 }
 

@@ -11,12 +11,12 @@ namespace lqg::design {
 struct BetweenSamples {
   SampledCost cost;    // the sampled integral's weights, of whatever `cost` the design has
   Real noise_cost;     // the process noise's own share of a period
-  RealMatrix u_noise;  // nu × nw: the integral's weight uᵀ(u_noise)w on the part of w that is correlated with v; 0 × 0: none
+  RealMatrix u_noise;  // nu × nw: the weight uᵀ(u_noise)w on the part of w that v tells; 0 × 0: none
 };
 
 struct Samples {
   SampledPlant plant;
-  std::optional<SampledCost> cost;   // of the Riccati equation: continuous weights with Cost::continuous
+  std::optional<SampledCost> cost;  // of the Riccati equation: continuous weights with Cost::continuous
   std::optional<SampledNoise> noise;
   std::optional<BetweenSamples> between;  // of a continuous cost
 };

@@ -16,8 +16,8 @@ RealMatrix extended(const HeldPlant& plant) {
   return F;
 }
 
-// The length of the longest of all shortest paths i → j over the nonzero entries of F: powers of F up to this one
-// can bring an entry that is zero in all lower ones.
+// The length of the longest of all shortest paths i → j over the nonzero entries of F: powers of F up to this
+// one can bring an entry that is zero in all lower ones.
 Index longest_reach(const RealMatrix& F) {
   const Index n = F.rows();
   Index longest = 1;
@@ -75,7 +75,8 @@ Period short_period(const HeldPlant& plant, const RealMatrix& F, const Real& h) 
   const Real rounding = negligible(1) / 1000;
   const Index least = 2 * longest_reach(F) + orders_until_negligible(2 * h * norm(plant.A));
   const Index most = 8 * least + 100;  // an entry that cancels to nothing but rounding never settles
-  const RealMatrix cost_xx = has_cost && has_noise ? RealMatrix(plant.cost.topLeftCorner(nx, nx)) : RealMatrix();
+  const RealMatrix cost_xx =
+      has_cost && has_noise ? RealMatrix(plant.cost.topLeftCorner(nx, nx)) : RealMatrix();
   for (Index order = 2; order <= most; ++order) {
     const Real step = h / order;
     if (has_cost && has_noise) sum.noise_cost += step * trace_of_product(cost_xx, noise);
@@ -101,8 +102,8 @@ void double_period(Period& period, Index nx) {
   const RealMatrix phi = period.transition.topLeftCorner(nx, nx);
   if (period.cost.size() > 0) {
     if (period.noise.size() > 0)
-      period.noise_cost = 2 * period.noise_cost
-                          + trace_of_product(period.cost.topLeftCorner(nx, nx), period.noise);
+      period.noise_cost =
+          2 * period.noise_cost + trace_of_product(period.cost.topLeftCorner(nx, nx), period.noise);
     period.cost += transpose_congruence(period.transition, period.cost);
   }
   if (period.noise.size() > 0) period.noise += congruence(phi, period.noise);
@@ -114,8 +115,8 @@ void double_period(Period& period, Index nx) {
 SampledPeriod sample(const HeldPlant& plant, double sample_time) {
   const Index nx = plant.A.rows(), held = plant.B.cols();
   const RealMatrix F = extended(plant);
-  // ‖A‖ h ≤ 1/16: fewer orders cost more than the doublings they save.
-  const Real size = norm(plant.A) * sample_time * 16;
+  // ‖A‖ h ≤ 1/1024: a doubling less costs more than the orders it saves.
+  const Real size = norm(plant.A) * sample_time * 1024;
   int doublings = 0;
   for (Real reach = 1; reach < size; reach *= 2) ++doublings;
   const Real h = ldexp(Real(sample_time), -doublings);

@@ -24,7 +24,7 @@ Real middle_of(Scalar low, Scalar high) {
 // Both numbers within their digits' rounding of the same middle.
 bool is_tie(const Real& coarse, const Real& fine, const Real& middle, unsigned digits) {
   return isfinite(middle) && abs(coarse - middle) <= power_of_ten(-0.6 * digits) * abs(middle)
-         && abs(fine - middle) <= power_of_ten(-1.2 * digits) * abs(middle);
+         && abs(fine - middle) <= negligible(0.6) * abs(middle);
 }
 
 bool settle_span(const Real* coarse, Real* fine, Index count, unsigned coarse_digits) {
@@ -50,8 +50,7 @@ bool settle(const Real& coarse, Real& fine, const Real& scale, unsigned coarse_d
   const Real distance = 2 * abs(fine - coarse), low = fine - distance, high = fine + distance;
   if (fine.is_zero()) fine = 0;  // without a sign
   if (round_alike(low, high)) return true;
-  if (abs(coarse) <= power_of_ten(-0.6 * coarse_digits) * scale
-      && abs(fine) <= power_of_ten(-1.2 * coarse_digits) * scale) {
+  if (abs(coarse) <= power_of_ten(-0.6 * coarse_digits) * scale && abs(fine) <= negligible(0.6) * scale) {
     fine = 0;
     return true;
   }
@@ -78,10 +77,12 @@ bool settle(const std::vector<ComplexReal>& coarse, std::vector<ComplexReal>& fi
   bool settled = coarse.size() == fine.size();
   for (ComplexReal& pole : fine) {
     if (left.empty()) return false;
-    const auto distance = [&](const ComplexReal& other) { return Real(hypot(other.re - pole.re, other.im - pole.im)); };
-    const auto nearest = std::min_element(left.begin(), left.end(), [&](const ComplexReal& a, const ComplexReal& b) {
-      return distance(a) < distance(b);
-    });
+    const auto distance = [&](const ComplexReal& other) {
+      return Real(hypot(other.re - pole.re, other.im - pole.im));
+    };
+    const auto nearest = std::min_element(
+        left.begin(), left.end(),
+        [&](const ComplexReal& a, const ComplexReal& b) { return distance(a) < distance(b); });
     settled = settle_part(nearest->re, pole.re) && settled;
     settled = settle_part(nearest->im, pole.im) && settled;
     left.erase(nearest);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "design/checks.hpp"
 #include "design/draft.hpp"
@@ -12,7 +13,8 @@ namespace lqg::design {
 
 namespace {
 
-const unsigned first_digits = 50, last_digits = 400;
+// Each run is judged by the next. 300 for what 200 digits cannot begin with and 400 need not double.
+const std::array<unsigned, 5> runs = {50, 100, 200, 300, 400};
 
 bool same(const Findings& a, const Findings& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Finding& x, const Finding& y) {
@@ -58,10 +60,11 @@ Poles sorted_poles(const std::vector<ComplexReal>& values) {
   Poles poles;
   for (const ComplexReal& value : values) poles.emplace_back(to_double(value.re), to_double(value.im));
   const auto size = [](const std::complex<double>& z) { return z.real() * z.real() + z.imag() * z.imag(); };
-  std::stable_sort(poles.begin(), poles.end(), [&](const std::complex<double>& a, const std::complex<double>& b) {
-    if (size(a) != size(b)) return size(a) > size(b);
-    return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
-  });
+  std::stable_sort(poles.begin(), poles.end(),
+                   [&](const std::complex<double>& a, const std::complex<double>& b) {
+                     if (size(a) != size(b)) return size(a) > size(b);
+                     return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
+                   });
   return poles;
 }
 
@@ -86,34 +89,46 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
 
 }  // namespace
 
+namespace {
+
+bool is_well_posed(const Problem& problem, Findings& findings) {
+  check_kinds(problem, findings);
+  check_symmetry(problem, findings);
+  if (!has_error(findings)) check_definiteness(problem, findings);
+  return !has_error(findings);
+}
+
+}  // namespace
+
 std::optional<Solution> solve(const Problem& problem, Findings& findings) {
   std::optional<Draft> coarse;
-  {
-    const Digits scope(first_digits);
-    check_kinds(problem, findings);
-    check_symmetry(problem, findings);
-    if (!has_error(findings)) check_definiteness(problem, findings);
-    if (has_error(findings)) return std::nullopt;
-    coarse = draft(problem, nullptr);
-  }
-  for (unsigned digits = 2 * first_digits; digits <= last_digits; digits *= 2) {
+  unsigned coarse_digits = 0;
+  for (const unsigned digits : runs) {
     const Digits scope(digits);
-    const bool failed = has_error(coarse->findings);
-    Draft fine = draft(problem, failed ? nullptr : &*coarse);
-    const bool refused = failed && !fine.may_want_digits && same(coarse->findings, fine.findings);
-    if (refused || (has_error(fine.findings) && digits == last_digits)) {
-      findings.insert(findings.end(), fine.findings.begin(), fine.findings.end());
+    if (!coarse && !is_well_posed(problem, findings)) return std::nullopt;
+    const bool has_start = coarse && !has_error(coarse->findings);
+    Draft fine = draft(problem, has_start ? &*coarse : nullptr);
+    const bool failed = has_error(fine.findings);
+    const bool refused = coarse && failed && !fine.may_want_digits && same(coarse->findings, fine.findings);
+    if (refused || (failed && digits == runs.back())) {
+      for (Finding finding : fine.findings) {
+        if (fine.may_want_digits)
+          finding.message += " (or " + std::to_string(digits) + " digits are too few to tell)";
+        findings.push_back(finding);
+      }
       return std::nullopt;
     }
-    if (!failed && !has_error(fine.findings) && settle_draft(*coarse, fine, digits / 2)) {
+    if (has_start && !failed && settle_draft(*coarse, fine, coarse_digits)) {
       finish(problem, fine, digits, findings);
       if (has_error(findings)) return std::nullopt;
       return fine.solution;
     }
     coarse = std::move(fine);
+    coarse_digits = digits;
   }
-  add_error(findings, "design", "the problem is so ill conditioned that " + std::to_string(last_digits)
-                                    + " digits do not settle it");
+  add_error(
+      findings, "design",
+      "the problem is so ill conditioned that " + std::to_string(runs.back()) + " digits do not settle it");
   return std::nullopt;
 }
 

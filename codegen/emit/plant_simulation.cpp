@@ -39,6 +39,7 @@ Matrix<double> square_root(const Matrix<double>& S) {
 }
 
 Matrix<double> joint_covariance(const design::Solution& solution) {
+  const design::Digits digits(solution.numerics.digits);
   const design::RealMatrix& G = solution.plant.G;
   const design::SampledNoise& noise = solution.estimator->noise;
   const design::RealMatrix GWG = G * noise.W * G.transpose(), GS = G * noise.Swv;

@@ -1,5 +1,7 @@
 #include "emit/unit_test.hpp"
 
+#include <cmath>
+
 #include "emit/preamble.hpp"
 #include "emit/text.hpp"
 #include "emit/vectors.hpp"
@@ -134,7 +136,7 @@ std::string fault_test(const Controller& controller) {
          "            {name}_t self;\n" + std::string(controller.has_regulator() ? "            {real} u[{NAME}_NU];\n" : "") +
          "            {real} y[{NAME}_NY];\n\n"
          "            {name}_init(&self);\n"
-         "            for (int k = 0; k < SAMPLES / 4; k++) {\n"
+         "            for (int k = 0; k < SAMPLES; k++) {\n"
          "                lqg_status status;\n\n"
          "                memcpy(y, y_in[k], sizeof y);\n"
          "                y[bad] = k % 3 == 1 ? hostile[what] : y[bad];\n"
@@ -187,6 +189,10 @@ static uint32_t hash_of(uint32_t hash, const {real} values[], int count)
 )";
 }
 
+std::string bound(const char* comparison, double limit, const Controller& controller) {
+  return std::isinf(limit) ? "" : comparison + trace::literal(limit, controller.is_double());
+}
+
 Words test_words(const Controller& controller, const Vectors& vectors) {
   Words words = common_words(controller);
   char hash[11] = "0x00000000";
@@ -201,8 +207,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["tiny"] = controller.is_double() ? "5e-324" : "1e-45f";
   words["within"] = "";
   if (const auto& limits = controller.problem.limits; limits && controller.nu() == 1)
-    words["within"] = " && u[i] >= " + trace::literal(limits->u_min(0), controller.is_double()) +
-                      " && u[i] <= " + trace::literal(limits->u_max(0), controller.is_double());
+    words["within"] = bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
   words["bits"] = "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n";
   if (controller.is_fused())

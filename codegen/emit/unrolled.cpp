@@ -1,4 +1,6 @@
 // Straight-line code of this plant's structure.
+#include <initializer_list>
+
 #include "emit/bodies.hpp"
 #include "emit/model_of.hpp"
 #include "emit/rounding.hpp"
@@ -26,9 +28,15 @@ std::string status(const Controller& controller, const TracedFunction& function,
 )", {{"status", trace::wrap("    lqg_status status = " + raised + ";", 8)}, {"finite", printer.expression(function.finite)}, {"name", controller.problem.name}});
 }
 
-std::string body(const Controller& controller, const TracedFunction& function) {
+// `parameters` that the body does not need are said to be unused.
+std::string body(const Controller& controller, const TracedFunction& function, std::initializer_list<const char*> parameters) {
   const trace::Printer printer(*function.graph, function.results());
-  return "    LQG_STRICT_BODY\n" + printer.statements(function.stores) + "\n" + status(controller, function, printer);
+  const std::string statements = printer.statements(function.stores), end = status(controller, function, printer);
+  std::string unused;
+  for (const std::string parameter : parameters)
+    if ((statements + end).find(parameter == "self" ? "self" : " " + parameter + "[") == std::string::npos)
+      unused += "    (void)" + parameter + ";\n";
+  return "    LQG_STRICT_BODY\n" + unused + statements + "\n" + end;
 }
 
 template <class Values>
@@ -74,10 +82,11 @@ Bodies unrolled_bodies(const Controller& controller) {
 )";
   if (controller.has_filter()) {
     bodies.init = initial_state(controller);
-    bodies.update = body(controller, traced.update);
-    bodies.predict = body(controller, traced.predict);
+    bodies.update = body(controller, traced.update, {"self", "y"});
+    bodies.predict = controller.nu() ? body(controller, traced.predict, {"self", "u"})
+                                     : body(controller, traced.predict, {"self"});
   }
-  if (controller.has_regulator()) bodies.control = body(controller, traced.control);
+  if (controller.has_regulator()) bodies.control = body(controller, traced.control, {controller.has_filter() ? "self" : "x"});
   return bodies;
 }
 

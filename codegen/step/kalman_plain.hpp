@@ -7,8 +7,7 @@ namespace lqg::step {
 
 // S = C P Cᵀ + V, L = P Cᵀ / S, x̂ ← x̂ + L(y − C x̂ − D u), P ← P − L C P for output i; true if it was used.
 template <class S, class Listener>
-auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Total<S>& total,
-                         Listener& listener) {
+auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const int nx = model.nx;
   listener.section("S = C P Cᵀ + V, P Cᵀ first", i);
   Vector<S> f(nx);
@@ -39,7 +38,6 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
     listener.name(gain, "gain", j);
     state.x(j) = multiply_add(gain, nu, S(state.x(j)));
     listener.name(state.x(j), "x", j);
-    total.add(state.x(j));
     for (int l = j; l >= 0; --l) {
       S& entry = state.P[triangle(j, l)];
       entry = multiply_subtract(gain, S(f(l)), entry);
@@ -53,12 +51,10 @@ template <class S, class Listener>
 auto update_plain(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
   const Vector<S> y = decorrelate(model, measured, listener);
   std::vector<decltype(is_finite(y(0)))> usable;
-  Total<S> total;
-  for (int i = 0; i < model.ny; ++i) {
-    total = {};  // that of the last output counts
-    usable.push_back(update_plain_output(model, state, S(y(i)), i, total, listener));
-  }
+  for (int i = 0; i < model.ny; ++i) usable.push_back(update_plain_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
+  Total<S> total;
+  for (int j = 0; j < model.nx; ++j) total.add(state.x(j));
   return all_finite(total, listener);
 }
 

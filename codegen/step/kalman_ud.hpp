@@ -10,8 +10,7 @@ namespace lqg::step {
 // Bierman: column by column α_j = α_{j−1} + f_j g_j, f = Uᵀ Cᵀ, g = D f, α_{−1} = V; S = α at the end.
 // The reciprocal of α is carried along, so that one division a column is enough; f = 0 changes nothing, to the bit.
 template <class S, class Listener>
-auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i, Total<S>& total,
-                      Listener& listener) {
+auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const int nx = model.nx;
   listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not finite"
                                   : "innovation = y − C x̂, 0 if it is not finite", i);
@@ -65,7 +64,6 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
     listener.name(gain, "gain", j);
     state.x(j) = multiply_add(gain, nu, S(state.x(j)));
     listener.name(state.x(j), "x", j);
-    total.add(state.x(j));
   }
   return usable;
 }
@@ -74,12 +72,10 @@ template <class S, class Listener>
 auto update_ud(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
   const Vector<S> y = decorrelate(model, measured, listener);
   std::vector<decltype(is_finite(y(0)))> usable;
-  Total<S> total;
-  for (int i = 0; i < model.ny; ++i) {
-    total = {};  // that of the last output counts
-    usable.push_back(update_ud_output(model, state, S(y(i)), i, total, listener));
-  }
+  for (int i = 0; i < model.ny; ++i) usable.push_back(update_ud_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
+  Total<S> total;
+  for (int j = 0; j < model.nx; ++j) total.add(state.x(j));
   return all_finite(total, listener);
 }
 

@@ -84,7 +84,9 @@ int Graph::flag(const std::string& text) {
 
 int Graph::make(Op op, int a, int b, int c) {
   const bool is_product = op == Op::multiply || op == Op::multiply_add || op == Op::multiply_subtract;
-  if (is_product && is_constant(b)) std::swap(a, b);  // the number stands before the value, as in an equation
+  // The number stands before the value, as in an equation, and of two numbers the one that folds.
+  if (is_product && is_constant(b) && (!is_constant(a) || is_constant(b, 0) || std::abs(nodes_[b].value) == 1))
+    std::swap(a, b);
   const int folded = fold(op, a, b, c);
   if (folded >= 0) return folded;
   Key key{op, a, b, c};
@@ -151,6 +153,7 @@ int Graph::fold_multiply_add(int a, int b, int c) {
   if (is_constant(a, 1)) return make(Op::add, c, b);
   if (is_constant(a, -1)) return make(Op::subtract, c, b);
   if (is_constant(c, 0)) return make(Op::multiply, a, b);
+  if (is_constant(a) && is_constant(b) && !target_.is_fused) return make(Op::add, c, make(Op::multiply, a, b));
   if (is_constant(a) && nodes_[a].value < 0)
     return make(Op::multiply_subtract, constant(-nodes_[a].value), b, c);
   return -1;
@@ -160,6 +163,7 @@ int Graph::fold_multiply_subtract(int a, int b, int c) {
   if (is_constant(a, 0)) return c;
   if (is_constant(a, 1)) return make(Op::subtract, c, b);
   if (is_constant(a, -1)) return make(Op::add, c, b);
+  if (is_constant(a) && is_constant(b) && !target_.is_fused) return make(Op::subtract, c, make(Op::multiply, a, b));
   if (is_constant(a) && (nodes_[a].value < 0 || is_constant(c, 0)))
     return make(Op::multiply_add, constant(-nodes_[a].value), b, c);
   if (is_constant(c, 0)) return make(Op::negate, make(Op::multiply, a, b));
@@ -192,10 +196,10 @@ void Graph::section(const std::string& equation, const std::string& suffix) {
 
 void Graph::name(int node, const std::string& base) {
   if (nodes_[node].op == Op::constant || !nodes_[node].name.empty()) return;
-  std::string name = base + sections_.back().suffix;
-  const int before = taken_[name]++;
-  if (before > 0) name += before <= 26 ? std::string("_") + static_cast<char>('a' + before - 1)
-                                       : "_again" + std::to_string(before);
+  const std::string wanted = base + sections_.back().suffix;
+  std::string name = wanted;
+  for (int i = 1; !taken_.insert(name).second; ++i)
+    name = wanted + (i <= 26 ? std::string("_") + static_cast<char>('a' + i - 1) : "_again" + std::to_string(i));
   nodes_[node].name = name;
 }
 

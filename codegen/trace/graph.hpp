@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -82,7 +83,7 @@ class Graph {
   std::map<Key, int> known_;
   std::map<double, int> constants_;
   std::map<std::string, int> flags_;
-  std::map<std::string, int> taken_;
+  std::set<std::string> taken_;
 };
 
 }  // namespace lqg::trace

@@ -35,15 +35,18 @@ bool breaks_before(const std::string& line, std::size_t i, const char* signs) {
 }
 
 // The last place before `width` where the line may break: before ? and : if it has any, else before + and −, else after
-// a comma.
+// a comma; the first place behind `width` if there is none before it.
 std::size_t break_before(const std::string& line, std::size_t start, int width) {
-  std::size_t choice = std::string::npos, sum = choice, comma = choice;
-  for (std::size_t i = start + 1; i < line.size() && columns(line, start, i) < width; ++i) {
+  constexpr std::size_t none = std::string::npos;
+  std::size_t choice = none, sum = none, comma = none;
+  for (std::size_t i = start + 1; i < line.size(); ++i) {
+    const bool has_one = choice != none || sum != none || comma != none;
+    if (has_one && columns(line, start, i) >= width) break;
     if (breaks_before(line, i, "?:")) choice = i;
     if (breaks_before(line, i, "+-")) sum = i;
     if (line[i] == ' ' && line[i - 1] == ',') comma = i;
   }
-  return choice != std::string::npos ? choice : sum != std::string::npos ? sum : comma;
+  return choice != none ? choice : sum != none ? sum : comma;
 }
 
 }  // namespace
@@ -110,7 +113,7 @@ std::string Printer::print_multiply_add(const Node& node, int level) const {
     return bracketed(print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " +
                          print(node.b, unary), sum, level);
   const std::string function = graph_.target().is_double ? "fma(" : "fmaf(";
-  return function + (subtracts ? "-" + print(node.a, unary) : print(node.a, any)) + ", " + print(node.b, any) +
+  return function + (subtracts ? "-" + print(node.a, unary + 1) : print(node.a, any)) + ", " + print(node.b, any) +
          ", " + print(node.c, any) + ")";
 }
 

@@ -19,5 +19,6 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT
 find_program(LQG_QEMU_ARM qemu-system-arm)
 if(LQG_QEMU_ARM)
   set(CMAKE_CROSSCOMPILING_EMULATOR ${LQG_QEMU_ARM} -machine mps2-an386 -nographic -monitor none -serial none
-                                    -semihosting-config enable=on,target=native -kernel)
+                                    -chardev stdio,id=pc
+                                    -semihosting-config enable=on,target=native,chardev=pc -kernel)
 endif()

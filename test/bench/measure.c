@@ -1,8 +1,8 @@
 /* What the controller in HEADER costs on a Cortex-M4F: instructions executed and stack used by each of its
  * functions, for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar.
  *
- * For QEMU with -icount shift=8, where an instruction takes 256 ns of virtual time, whatever it does: SysTick,
- * at 25 MHz, is then a counter of instructions. On a board it would count cycles. */
+ * Made for QEMU with -icount shift=8, where every instruction takes 256 ns of virtual time: SysTick, at 25 MHz,
+ * then counts instructions. On a board it would count cycles. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ enum { SAMPLES = sizeof y_in / sizeof y_in[0], NY = SIZE(NY), NU = SIZE(NU) };
 #define SYSTICK_RELOAD (*(volatile uint32_t *)0xE000E014u)
 #define SYSTICK_CURRENT (*(volatile uint32_t *)0xE000E018u)
 
-enum { SYSTICK_MASK = 0xFFFFFF, TEN_INSTRUCTIONS = 64 /* ticks of 40 ns */ };
+enum { SYSTICK_MASK = 0xFFFFFF, TICKS_OF_TEN = 64 /* instructions: 2560 ns */ };
 enum { STACK_WORDS = 4096, UNTOUCHED = 0x5AA5C33C };
 
 typedef void function(void);
@@ -60,9 +60,9 @@ __asm__(".syntax unified\n"
 
 typedef struct {
     unsigned instructions, stack;
-} cost;
+} cost_t;
 
-static cost cost_of(function *f, void *object, const void *signals)
+static cost_t cost_of(function *f, void *object, const void *signals)
 {
     static uint32_t stack[STACK_WORDS];
     unsigned untouched = 0;
@@ -75,8 +75,10 @@ static cost cost_of(function *f, void *object, const void *signals)
 
     while (untouched < STACK_WORDS && stack[untouched] == UNTOUCHED)
         untouched++;
-    return (cost){1 + (10 * (ticks - frame) + TEN_INSTRUCTIONS / 2) / TEN_INSTRUCTIONS,
-                  4 * (STACK_WORDS - untouched)};
+    return (cost_t){
+        .instructions = 1 + (10 * (ticks - frame) + TICKS_OF_TEN / 2) / TICKS_OF_TEN, /* 1: do_nothing's own */
+        .stack = 4 * (STACK_WORDS - untouched),
+    };
 }
 
 static void start_counting(void)
@@ -96,20 +98,24 @@ static int counts_right(void)
 enum { UPDATE, CONTROL, PREDICT, FUNCTIONS };
 
 typedef struct {
-    unsigned instructions[SAMPLES]; /* of the samples as they are */
+    unsigned instructions[SAMPLES]; /* of the last run */
     unsigned most, stack;           /* of all runs */
-} record;
+} record_t;
 
-static record records[FUNCTIONS];
+static record_t records[FUNCTIONS];
 
-static void note(record *record, unsigned sample, int as_it_is, cost cost)
+static unsigned larger(unsigned a, unsigned b)
 {
-    if (as_it_is)
-        record->instructions[sample] = cost.instructions;
-    if (cost.instructions > record->most)
-        record->most = cost.instructions;
-    if (cost.stack > record->stack)
-        record->stack = cost.stack;
+    return a > b ? a : b;
+}
+
+static void measure(record_t *record, unsigned sample, function *f, void *object, const void *signals)
+{
+    const cost_t cost = cost_of(f, object, signals);
+
+    record->instructions[sample] = cost.instructions;
+    record->most = larger(record->most, cost.instructions);
+    record->stack = larger(record->stack, cost.stack);
 }
 
 /* All samples; output `left_out` is missing in every third, or none where there is no such output. */
@@ -120,13 +126,11 @@ static void run(unsigned left_out)
 
     OF(init)(&self);
     for (unsigned k = 0; k < SAMPLES; k++) {
-        const int as_it_is = left_out >= NY;
-
         for (unsigned i = 0; i < NY; i++)
             y[i] = i == left_out && k % 3 == 1 ? (REAL)NAN : y_in[k][i];
-        note(&records[UPDATE], k, as_it_is, cost_of((function *)OF(update), &self, y));
-        note(&records[CONTROL], k, as_it_is, cost_of((function *)OF(control), &self, u));
-        note(&records[PREDICT], k, as_it_is, cost_of((function *)OF(predict), &self, u_out[k]));
+        measure(&records[UPDATE], k, (function *)OF(update), &self, y);
+        measure(&records[CONTROL], k, (function *)OF(control), &self, u);
+        measure(&records[PREDICT], k, (function *)OF(predict), &self, u_out[k]);
     }
 }
 
@@ -155,19 +159,10 @@ static int ascending(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-static unsigned median(record *record)
+static unsigned median(record_t *record)
 {
     qsort(record->instructions, SAMPLES, sizeof record->instructions[0], ascending);
     return record->instructions[SAMPLES / 2];
-}
-
-static unsigned largest_stack(void)
-{
-    unsigned largest = 0;
-
-    for (unsigned i = 0; i < FUNCTIONS; i++)
-        largest = records[i].stack > largest ? records[i].stack : largest;
-    return largest;
 }
 
 /* Lines that a shell can read as assignments. */
@@ -177,15 +172,16 @@ int main(void)
     if (!counts_right())
         return 1;
 
-    for (unsigned left_out = 0; left_out <= NY; left_out++)
+    for (unsigned left_out = 0; left_out < NY; left_out++)
         run(left_out);
+    run(NY); /* the last, whose instructions stay in the records: the samples as they are */
     print("update", median(&records[UPDATE]));
     print("control", median(&records[CONTROL]));
     print("predict", median(&records[PREDICT]));
     print("most_update", records[UPDATE].most);
     print("most_control", records[CONTROL].most);
     print("most_predict", records[PREDICT].most);
-    print("stack", largest_stack());
+    print("stack", larger(larger(records[UPDATE].stack, records[CONTROL].stack), records[PREDICT].stack));
     print("ram", sizeof(OF(t)));
     return 0;
 }

@@ -1,5 +1,6 @@
 #include "problems.hpp"
 
+#include <map>
 #include <string>
 
 #include <unity.h>
@@ -30,15 +31,17 @@ MatrixXd Random::semidefinite(Index size, Index rank) {
   return factor * factor.transpose() / 16;
 }
 
-Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const MatrixXd& B, const MatrixXd& C) {
+Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const MatrixXd& B,
+                   const MatrixXd& C) {
   const Index nx = A.rows(), nu = B.cols(), ny = C.rows();
   const bool continuous = domain == Domain::continuous;
   Problem problem;
   problem.name = "problem";
-  problem.plant = {domain, sample_time, A, B, C, MatrixXd::Zero(ny, nu), MatrixXd::Identity(nx, nx), {}, {}, {}};
+  problem.plant = {domain, sample_time, A, B, C, MatrixXd::Zero(ny, nu), MatrixXd::Identity(nx, nx),
+                   {},     {},          {}};
   for (Index i = 0; i < nx; ++i) problem.plant.states.push_back({"x" + std::to_string(i), ""});
-  problem.regulator = Regulator{MatrixXd::Identity(nx, nx), MatrixXd::Identity(nu, nu), MatrixXd::Zero(nx, nu),
-                                continuous ? Cost::sampled : Cost::discrete};
+  problem.regulator = Regulator{MatrixXd::Identity(nx, nx), MatrixXd::Identity(nu, nu),
+                                MatrixXd::Zero(nx, nu), continuous ? Cost::sampled : Cost::discrete};
   Estimator estimator;
   estimator.W = MatrixXd::Identity(nx, nx);
   estimator.V = MatrixXd::Identity(ny, ny);
@@ -57,12 +60,14 @@ Problem double_integrator(double sample_time) {
 }
 
 Problem two_mass() {
-  const MatrixXd A = (MatrixXd(4, 4) << 0, 1, 0, 0,                //
-                      -0.1, -0.004, 0.1, 0.004,                    //
-                      0, 0, 0, 1,                                  //
-                      0.5, 0.02, -0.5, -0.02).finished();
+  const MatrixXd A = (MatrixXd(4, 4) << 0, 1, 0, 0,  //
+                      -0.1, -0.004, 0.1, 0.004,      //
+                      0, 0, 0, 1,                    //
+                      0.5, 0.02, -0.5, -0.02)
+                         .finished();
   const MatrixXd B = (MatrixXd(4, 1) << 0, 1, 0, 0).finished();
-  Problem problem = problem_of(Domain::continuous, 0.5, A, B, (MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished());
+  Problem problem =
+      problem_of(Domain::continuous, 0.5, A, B, (MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished());
   problem.plant.G = B;
   problem.plant.states = {{"dy1", "m"}, {"v1", "m/s"}, {"dy2", "m"}, {"v2", "m/s"}};
   problem.regulator->Q = Eigen::Vector4d(1, 0, 1, 0).asDiagonal();
@@ -98,9 +103,9 @@ Problem random_problem(std::uint64_t seed) {
   const Index nx = 1 + static_cast<Index>(seed % 6), nu = 1 + static_cast<Index>(seed % 2);
   const Index ny = 1 + static_cast<Index>(seed / 2 % 3), nw = 1 + static_cast<Index>(seed % 3);
   const bool continuous = seed % 3 != 0;
-  Problem problem = problem_of(continuous ? Domain::continuous : Domain::discrete,
-                               std::exp2(4 * random.uniform() - 3), 1.5 * random.matrix(nx, nx),
-                               random.matrix(nx, nu), random.matrix(ny, nx));
+  Problem problem =
+      problem_of(continuous ? Domain::continuous : Domain::discrete, std::exp2(4 * random.uniform() - 3),
+                 1.5 * random.matrix(nx, nx), random.matrix(nx, nu), random.matrix(ny, nx));
   problem.plant.D = random.matrix(ny, nu);
   problem.plant.G = random.matrix(nx, nw);
   const MatrixXd weight = random.semidefinite(nx + nu, nx + nu + 1);
@@ -124,6 +129,12 @@ Solution solved(const Problem& problem) {
   const std::string first = findings.empty() ? "" : findings.front().key + ": " + findings.front().message;
   TEST_ASSERT_TRUE_MESSAGE(solution.has_value(), first.c_str());
   return *solution;
+}
+
+const Solution& solved_random_problem(std::uint64_t seed) {
+  static std::map<std::uint64_t, Solution> solutions;
+  const auto known = solutions.find(seed);
+  return known != solutions.end() ? known->second : solutions[seed] = solved(random_problem(seed));
 }
 
 Real distance(const RealMatrix& a, const RealMatrix& b) {

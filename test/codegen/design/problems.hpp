@@ -25,13 +25,14 @@ class Random {
 };
 
 // A plant with regulator and estimator whose fields hold the defaults of the design file and unit weights.
-Problem problem_of(lqg::design::Domain domain, double sample_time, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
-                   const Eigen::MatrixXd& C);
+Problem problem_of(lqg::design::Domain domain, double sample_time, const Eigen::MatrixXd& A,
+                   const Eigen::MatrixXd& B, const Eigen::MatrixXd& C);
 
 // ẍ = u, the position is measured.
 Problem double_integrator(double sample_time);
 
-// Two masses with spring and damper: k = 0.1, b = 0.004, M = 1, m = 0.2, dt = 0.5, the example of Scilab's help page `lqe`.
+// Two masses with spring and damper: k = 0.1, b = 0.004, M = 1, m = 0.2, dt = 0.5, the example of Scilab's
+// help page `lqe`.
 Problem two_mass();
 
 // `masses` of them in a chain, driven at one end, seen at both: 2 masses states.
@@ -42,6 +43,9 @@ Problem random_problem(std::uint64_t seed);
 
 // Solved, or the test fails with the first finding.
 lqg::design::Solution solved(const Problem& problem);
+
+// random_problem(seed), solved once.
+const lqg::design::Solution& solved_random_problem(std::uint64_t seed);
 
 // The largest |a − b| beside the largest |b|, in the digits in force.
 Real distance(const RealMatrix& a, const RealMatrix& b);

@@ -1,5 +1,5 @@
-# Makes the numbers of test_solve.cpp: python3 reference.py, with mpmath (https://mpmath.org).
-# Nothing here is shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the stable
+# Makes the numbers of test_solve.cpp: python3 reference.py, with mpmath (https://mpmath.org). Nothing here is
+# shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the stable
 # eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits.
 from mpmath import matrix, mp, mpf, eye, expm, zeros
 
@@ -35,8 +35,8 @@ def sample(A, B, Q, R, T):
     whole = expm(block([[-F.T, weight], [zeros(nz, nz), F]]) * T, method="taylor")
     phi = part(whole, nz, 2 * nz, nz, 2 * nz)
     cost = phi.T * part(whole, 0, nz, nz, 2 * nz)
-    return (part(phi, 0, nx, 0, nx), part(phi, 0, nx, nx, nz), part(cost, 0, nx, 0, nx), part(cost, nx, nz, nx, nz),
-            part(cost, 0, nx, nx, nz))
+    return (part(phi, 0, nx, 0, nx), part(phi, 0, nx, nx, nz),
+            part(cost, 0, nx, 0, nx), part(cost, nx, nz, nx, nz), part(cost, 0, nx, nx, nz))
 
 
 def riccati(A, B, Q, R, N):

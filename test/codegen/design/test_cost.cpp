@@ -17,9 +17,11 @@ void tearDown(void) {}
 
 namespace {
 
-const double rounding = 1e-15;  // the cost is a double: half a unit in its last place, and the comparison's own
+const double rounding =
+    1e-15;  // the cost is a double: half a unit in its last place, and the comparison's own
 
-// x and the controller's x̂⁻, driven by w and v:  [x; x̂⁻]⁺ = A [x; x̂⁻] + B [w; v],  [x; u] = C [x; x̂⁻] + D [w; v].
+// x and the controller's x̂⁻, driven by w and v: [x; x̂⁻]⁺ = A [x; x̂⁻] + B [w; v], [x; u] = C [x; x̂⁻] + D
+// [w; v].
 struct Joint {
   RealMatrix A, B, C, D, noise;
 };
@@ -59,7 +61,8 @@ void test_cost_per_sample_is_that_of_the_joint_covariance() {
   }
 }
 
-// One period cut into `parts`: w(t) is followed through all of them while u is held, with the correlation of what v tells.
+// One period cut into `parts`: w(t) is followed through all of them while u is held, with the correlation of
+// what v tells.
 Real cost_of_parts(const Problem& problem, const Solution& s, int parts) {
   Problem fine = problem;
   fine.plant.sample_time /= parts;
@@ -85,13 +88,14 @@ void test_cost_per_second_with_continuous_noise_is_the_sum_over_short_parts() {
     problem.estimator->form = form;
     const Solution found = solved(problem);
     for (const int parts : {1, 2, 8})
-      expect_small(abs(*found.loop.cost_per_second / cost_of_parts(problem, found, parts) - 1), rounding, "the difference");
+      expect_small(abs(*found.loop.cost_per_second / cost_of_parts(problem, found, parts) - 1), rounding,
+                   "the difference");
   }
 }
 
-// ẋ = u + w, y = x + v, all of one: between the samples x(t) = x + t(u + w) with w held, and in filter form u = −KL v − …
-// is correlated with w: E[uw] = −KL s. The integral of x² + u² over a period of 1 is
-// E[x² + xu + u²/3] + E[u²] + 2 E[xw]/2 + 2 E[uw]/3 + E[w²]/3.
+// ẋ = u + w, y = x + v, all of one: between the samples x(t) = x + t(u + w) with w held, and in filter form u
+// = −KL v − … is correlated with w: E[uw] = −KL s. The integral of x² + u² over a period of 1 is E[x² + xu +
+// u²/3] + E[u²] + 2 E[xw]/2 + 2 E[uw]/3 + E[w²]/3.
 void test_cost_per_second_counts_held_noise_that_the_output_tells() {
   const MatrixXd one = MatrixXd::Constant(1, 1, 1);
   Problem problem = problem_of(Domain::continuous, 1, 0 * one, one, one);
@@ -100,7 +104,8 @@ void test_cost_per_second_counts_held_noise_that_the_output_tells() {
   const Solution found = solved(problem);
   const Digits scope(60);
   const Real between = Real(1) / 3 - 2 * found.regulator->K(0, 0) * found.estimator->L(0, 0) * Real(0.5) / 3;
-  expect_small(abs(*found.loop.cost_per_second - *found.loop.cost_per_sample - between), rounding * 10, "the difference");
+  expect_small(abs(*found.loop.cost_per_second - *found.loop.cost_per_sample - between), rounding * 10,
+               "the difference");
 }
 
 void test_cost_of_the_samples_is_no_cost_per_second() {
@@ -132,7 +137,8 @@ void test_no_gain_near_the_optimal_one_costs_less() {
   const Joint joint = joint_loop(problem, found);
   const RealMatrix states = *solve_stein(joint.A.transpose(), congruence(joint.B, joint.noise));
   const RealMatrix outputs = congruence(joint.C, states) + congruence(joint.D, joint.noise);
-  TEST_ASSERT_TRUE(trace_of_product(together(best.regulator->cost), outputs) > *best.loop.cost_per_sample * (1 + 1e-6));
+  TEST_ASSERT_TRUE(trace_of_product(together(best.regulator->cost), outputs)
+                   > *best.loop.cost_per_sample * (1 + 1e-6));
 }
 
 }  // namespace

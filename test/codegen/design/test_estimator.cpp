@@ -34,8 +34,9 @@ void test_constant_in_noise_has_its_closed_form() {
   TEST_ASSERT_TRUE(to_double(found.P_posterior(0, 0)) == to_double(P * v / (P + v)));
 }
 
-// The α–β tracker: P. R. Kalata, "The tracking index", IEEE Transactions on Aerospace and Electronic Systems 20 (1984),
-// 174–182: with λ = T²σ_w/σ_v, r = (4 + λ − √(8λ + λ²))/4 it is α = 1 − r², β = 2(2 − α) − 4√(1 − α); L = [α; β/T].
+// The α–β tracker: P. R. Kalata, "The tracking index", IEEE Transactions on Aerospace and Electronic Systems
+// 20 (1984), 174–182: with λ = T²σ_w/σ_v, r = (4 + λ − √(8λ + λ²))/4 it is α = 1 − r², β = 2(2 − α) − 4√(1 −
+// α); L = [α; β/T].
 void test_tracker_of_position_and_speed_has_the_gains_of_the_tracking_index() {
   const double T = 0.5, sigma_w = 3, sigma_v = 2;
   Problem problem = double_integrator(T);
@@ -69,13 +70,14 @@ void test_predictor_gain_is_the_gain_of_the_dual_regulator() {
     problem.estimator.reset();
     const Solution dual = solved(problem);
     const Digits scope(100);
-    expect_small(distance(dual.regulator->K.transpose(), filter.estimator->L_predictor), 1e-10, "the difference");
+    expect_small(distance(dual.regulator->K.transpose(), filter.estimator->L_predictor), 1e-10,
+                 "the difference");
   }
 }
 
 void test_relations_between_the_gains_and_covariances() {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const Solution found = solved(random_problem(seed));
+    const Solution& found = solved_random_problem(seed);
     const EstimatorSolution& f = *found.estimator;
     const SampledPlant& p = found.plant;
     const Digits scope(100);
@@ -89,7 +91,8 @@ void test_relations_between_the_gains_and_covariances() {
                  "P_posterior");
     const RealMatrix next = p.A - multiply(f.L_predictor, C);
     const RealMatrix cross = multiply(p.G, multiply(f.noise.Swv, f.L_predictor.transpose()));
-    const RealMatrix drive = congruence(p.G, f.noise.W) + congruence(f.L_predictor, f.noise.V) - cross - cross.transpose();
+    const RealMatrix drive =
+        congruence(p.G, f.noise.W) + congruence(f.L_predictor, f.noise.V) - cross - cross.transpose();
     expect_small(distance(congruence(next, f.P_prior) + drive, f.P_prior), rounding, "the Riccati equation");
     TEST_ASSERT_TRUE(least_scaled_eigenvalue(f.P_posterior) > -rounding);
     TEST_ASSERT_TRUE(std::abs(f.poles.front()) < 1);
@@ -98,7 +101,7 @@ void test_relations_between_the_gains_and_covariances() {
 
 void test_outputs_of_the_online_filter_are_not_correlated() {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const Solution found = solved(random_problem(seed));
+    const Solution& found = solved_random_problem(seed);
     const OnlineSolution& o = *found.online;
     const SampledNoise& noise = found.estimator->noise;
     const Digits scope(100);
@@ -114,19 +117,23 @@ void test_outputs_of_the_online_filter_are_not_correlated() {
 
 void test_online_noise_is_factored_and_free_of_what_the_outputs_tell() {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const Solution found = solved(random_problem(seed));
+    const Solution& found = solved_random_problem(seed);
     const OnlineSolution& o = *found.online;
     const SampledNoise& noise = found.estimator->noise;
     const Digits scope(100);
     // w' = G w − M y'-noise has no correlation with it: G Swv Eᵀ = M diag(V), and W is what is left.
     const RealMatrix V = o.V.asDiagonal(), GS = multiply(found.plant.G, noise.Swv);
     expect_small(distance(multiply(GS, o.E.transpose()), multiply(o.M, V)), rounding, "M");
-    expect_small(distance(congruence(found.plant.G, noise.W) - congruence(GS, *solve(noise.V, identity(V.rows()))), o.W),
-                 rounding, "W");
-    expect_small(distance(found.plant.A - multiply(GS, *solve(noise.V, found.plant.C)), o.A_free), rounding, "A_free");
+    expect_small(
+        distance(congruence(found.plant.G, noise.W) - congruence(GS, *solve(noise.V, identity(V.rows()))),
+                 o.W),
+        rounding, "W");
+    expect_small(distance(found.plant.A - multiply(GS, *solve(noise.V, found.plant.C)), o.A_free), rounding,
+                 "A_free");
     expect_small(distance(congruence(o.G, RealMatrix(o.w.asDiagonal())), o.W), rounding, "G diag(w) Gᵀ");
     for (Index q = 0; q < o.w.size(); ++q) TEST_ASSERT_TRUE(o.w(q) > 0);
-    expect_small(distance(congruence(o.U0, RealMatrix(o.D0.asDiagonal())), o.P0), rounding, "U0 diag(D0) U0ᵀ");
+    expect_small(distance(congruence(o.U0, RealMatrix(o.D0.asDiagonal())), o.P0), rounding,
+                 "U0 diag(D0) U0ᵀ");
   }
 }
 
@@ -143,7 +150,8 @@ void test_noise_of_rank_one_has_one_column() {
 RealMatrix recursion(const OnlineSolution& o, int steps) {
   RealMatrix P = o.P0;
   for (int k = 0; k < steps; ++k) {
-    const RealMatrix PCt = multiply(P, o.C.transpose()), S = congruence(o.C, P) + RealMatrix(o.V.asDiagonal());
+    const RealMatrix PCt = multiply(P, o.C.transpose()),
+                     S = congruence(o.C, P) + RealMatrix(o.V.asDiagonal());
     P = congruence(o.A_free, P - multiply(PCt, *solve(S, PCt.transpose()))) + o.W;
   }
   return P;
@@ -152,7 +160,7 @@ RealMatrix recursion(const OnlineSolution& o, int steps) {
 void test_online_covariance_tends_to_the_steady_one() {
   int tried = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const Solution found = solved(random_problem(seed));
+    const Solution& found = solved_random_problem(seed);
     if (std::abs(found.estimator->poles[0]) > 0.9) continue;  // 0.9^(2 · 400) is 1e-37
     const Digits scope(60);
     expect_small(distance(recursion(*found.online, 400), found.estimator->P_prior), 1e-30, "the distance");

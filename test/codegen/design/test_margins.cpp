@@ -52,9 +52,11 @@ const double rounding = 1e-8;
 void expect_gain_margin(const Loop& loop, double dB) {
   double worst = 0;
   for (Index i = 0; i < loop.B.cols(); ++i) {
-    for (const double sign : {-1.0, 1.0}) worst = std::max(worst, radius(loop, i, std::pow(10, sign * dB / 20)));
+    for (const double sign : {-1.0, 1.0})
+      worst = std::max(worst, radius(loop, i, std::pow(10, sign * dB / 20)));
     for (int k = -9; k <= 9; ++k)
-      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + rounding, "unstable inside");
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + rounding,
+                               "unstable inside");
   }
   TEST_ASSERT_DOUBLE_WITHIN(rounding, 1, worst);
 }
@@ -65,7 +67,8 @@ void expect_phase_margin(const Loop& loop, double degrees) {
   for (Index i = 0; i < loop.B.cols(); ++i) {
     worst = std::max(worst, radius(loop, i, std::polar(1.0, angle)));
     for (int k = 0; k <= 9; ++k)
-      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + rounding, "unstable inside");
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + rounding,
+                               "unstable inside");
   }
   TEST_ASSERT_DOUBLE_WITHIN(rounding, 1, worst);
 }
@@ -73,7 +76,8 @@ void expect_phase_margin(const Loop& loop, double degrees) {
 double difference_norm(const Loop& loop, double angle) {
   const Index n = loop.A.rows(), nu = loop.B.cols();
   const MatrixXcd closed = loop.A - loop.B * loop.C;
-  const MatrixXcd T = loop.C * (std::polar(1.0, angle) * MatrixXcd::Identity(n, n) - closed).partialPivLu().solve(loop.B);
+  const MatrixXcd T =
+      loop.C * (std::polar(1.0, angle) * MatrixXcd::Identity(n, n) - closed).partialPivLu().solve(loop.B);
   const MatrixXcd H = 0.5 * MatrixXcd::Identity(nu, nu) - T;
   return std::sqrt(Eigen::SelfAdjointEigenSolver<MatrixXcd>(H.adjoint() * H).eigenvalues().maxCoeff());
 }
@@ -85,7 +89,8 @@ void expect_disk_margin(const Loop& loop, double disk) {
     const double angle = std::acos(-1.0) * std::pow(10, -6.0 * k / points);
     largest = std::max(largest, difference_norm(loop, angle));
   }
-  const double own_error = 1e-9 + 1e-14 * largest;  // a resonance that high stands on poles that near to the circle
+  const double own_error =
+      1e-9 + 1e-14 * largest;  // a resonance that high stands on poles that near to the circle
   TEST_ASSERT_TRUE_MESSAGE(1 / largest > disk * (1 - own_error), "a point on the grid is worse");
   TEST_ASSERT_DOUBLE_WITHIN(0.01 * disk, disk, 1 / largest);
 }
@@ -135,12 +140,14 @@ void test_closed_loop_has_the_poles_of_regulator_and_filter() {
       expect_small(away(*nearest), 1e-10, "the distance to a pole");
       left.erase(nearest);
     }
-    for (const ComplexReal& kept : left) expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
+    for (const ComplexReal& kept : left)
+      expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
   }
 }
 
 // L = k/(z − 1), k = K: T = k/(z − 1 + k). At z = −1: 1 − 1/t = 1 + (2 − k)/k = 2/k is the gain margin, and
-// Re t = 1/2 where |L| = 1, |z − 1| = k: 2 sin(θ/2) = k, margin 90° − θ/2. (S − T)/2 is largest at z = −1: (2/k + 1)/(2/k − 1)/2.
+// Re t = 1/2 where |L| = 1, |z − 1| = k: 2 sin(θ/2) = k, margin 90° − θ/2. (S − T)/2 is largest at z = −1:
+// (2/k + 1)/(2/k − 1)/2.
 void test_integrator_has_its_closed_form() {
   const MatrixXd one = MatrixXd::Constant(1, 1, 1);
   Problem problem = problem_of(Domain::discrete, 1, one, one, one);

@@ -1,4 +1,5 @@
-// Impossible designs: each is refused for its reason, under its key, with the mode and the states that take part.
+// Impossible designs: each is refused for its reason, under its key, with the mode and the states that take
+// part.
 #include <cmath>
 #include <string>
 
@@ -50,7 +51,8 @@ void test_unstable_mode_that_no_input_reaches() {
 }
 
 void test_stable_mode_that_no_input_reaches_is_no_reason() {
-  solved(regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(), Eigen::Vector2d(1, 0)));
+  solved(regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(),
+                         Eigen::Vector2d(1, 0)));
 }
 
 void test_undamped_pair_that_no_input_reaches() {
@@ -62,8 +64,9 @@ void test_undamped_pair_that_no_input_reaches() {
 }
 
 void test_discrete_mode_on_the_circle_that_no_input_reaches() {
-  expect_refusal(regulator_alone(Domain::discrete, 1, Eigen::Vector2d(0.5, -1).asDiagonal(), Eigen::Vector2d(1, 0)),
-                 "plant.B", {"z = -1 (state x1)"});
+  expect_refusal(
+      regulator_alone(Domain::discrete, 1, Eigen::Vector2d(0.5, -1).asDiagonal(), Eigen::Vector2d(1, 0)),
+      "plant.B", {"z = -1 (state x1)"});
 }
 
 // Both integrators of the second chain: one eigenvalue, one line.
@@ -75,8 +78,8 @@ void test_defective_mode_that_no_input_reaches() {
 }
 
 void test_unstable_mode_that_no_output_sees() {
-  expect_refusal(estimator_alone(Domain::continuous, 0.1, unstable_second, Eigen::RowVector2d(1, 0)), "plant.C",
-                 {"s = 0.5", "state x1", "not detectable"});
+  expect_refusal(estimator_alone(Domain::continuous, 0.1, unstable_second, Eigen::RowVector2d(1, 0)),
+                 "plant.C", {"s = 0.5", "state x1", "not detectable"});
 }
 
 void test_position_that_is_not_measured() {
@@ -100,13 +103,15 @@ void test_integrator_without_weight_under_the_continuous_cost() {
 }
 
 void test_discrete_oscillation_without_weight() {
-  Problem problem = regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 0, 1, -1, 0).finished(), Eigen::Vector2d(0, 1));
+  Problem problem =
+      regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 0, 1, -1, 0).finished(), Eigen::Vector2d(0, 1));
   problem.regulator->Q.setZero();
   expect_refusal(problem, "lqr.Q", {"z = ±1j (states x0, x1)"});
 }
 
 void test_unstable_mode_without_weight_is_no_reason() {
-  Problem problem = regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
+  Problem problem =
+      regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
   problem.regulator->Q.setZero();
   TEST_ASSERT_TRUE(solved(problem).regulator->poles[0] == 0.5);
 }
@@ -118,24 +123,28 @@ void test_integrator_that_no_noise_drives() {
 }
 
 void test_constant_bias_that_no_noise_drives() {
-  Problem problem = estimator_alone(Domain::discrete, 1, Eigen::Vector2d(0.5, 1).asDiagonal(), Eigen::RowVector2d(1, 1));
+  Problem problem =
+      estimator_alone(Domain::discrete, 1, Eigen::Vector2d(0.5, 1).asDiagonal(), Eigen::RowVector2d(1, 1));
   problem.estimator->W = Eigen::Vector2d(1, 0).asDiagonal();
   expect_refusal(problem, "kalman.process_noise", {"z = 1 (state x1)"});
 }
 
 // Half a turn a sample: both states only change their sign, and one input cannot turn them apart.
 void test_sample_time_that_hides_an_oscillation_from_its_input() {
-  Problem problem = regulator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::Vector2d(0, 1));
+  Problem problem =
+      regulator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::Vector2d(0, 1));
   expect_refusal(problem, "plant.sample_time", {"(z = -1;", "can be stabilised", "sample time"});
 }
 
 void test_sample_time_of_a_whole_turn_hides_an_oscillation_from_every_held_input() {
-  Problem problem = regulator_alone(Domain::continuous, std::acos(-1.0), oscillator, MatrixXd::Identity(2, 2));
+  Problem problem =
+      regulator_alone(Domain::continuous, std::acos(-1.0), oscillator, MatrixXd::Identity(2, 2));
   expect_refusal(problem, "plant.sample_time", {"(z = 1;"});
 }
 
 void test_sample_time_that_hides_an_oscillation_from_the_output() {
-  Problem problem = estimator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::RowVector2d(1, 0));
+  Problem problem =
+      estimator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::RowVector2d(1, 0));
   expect_refusal(problem, "plant.sample_time", {"(z = -1;", "can be seen"});
 }
 
@@ -161,7 +170,8 @@ void test_continuous_cost_needs_R() {
 }
 
 void test_discrete_plant_has_no_trajectory_between_its_samples() {
-  Problem problem = regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
+  Problem problem =
+      regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
   problem.regulator->cost = Cost::sampled;
   expect_refusal(problem, "lqr.cost", {"\"discrete\""});
   problem = estimator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
@@ -193,7 +203,8 @@ void test_weight_that_is_not_symmetric() {
   expect_refusal(problem, "lqr.Q", {"symmetric"});
 }
 
-// CᵀC of C = [1/3 2/3], typed with four digits: its least eigenvalue is −1e-5 of the largest … and with ten it passes.
+// CᵀC of C = [1/3 2/3], typed with four digits: its least eigenvalue is −1e-5 of the largest … and with ten
+// it passes.
 void test_weight_of_typed_digits_passes_when_they_are_many() {
   Problem problem = double_integrator(0.1);
   problem.regulator->Q << 0.1111111111, 0.2222222222, 0.2222222222, 0.4444444443;
@@ -201,7 +212,8 @@ void test_weight_of_typed_digits_passes_when_they_are_many() {
 }
 
 void expect_overflow(double rate, lqg::design::Scalar real, const char* part) {
-  Problem problem = regulator_alone(Domain::continuous, 1, MatrixXd::Constant(1, 1, rate), MatrixXd::Identity(1, 1));
+  Problem problem =
+      regulator_alone(Domain::continuous, 1, MatrixXd::Constant(1, 1, rate), MatrixXd::Identity(1, 1));
   problem.code.real = real;
   Findings findings;
   TEST_ASSERT_FALSE(solve(problem, findings).has_value());
@@ -215,7 +227,8 @@ void test_sampled_plant_too_large_for_the_target() {
 }
 
 void test_variance_too_small_for_float() {
-  Problem problem = estimator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 1), MatrixXd::Identity(1, 1));
+  Problem problem =
+      estimator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 1), MatrixXd::Identity(1, 1));
   problem.estimator->V *= 1e-60;
   problem.estimator->gain = Gain::online;
   problem.code.real = lqg::design::Scalar::float32;
@@ -223,7 +236,8 @@ void test_variance_too_small_for_float() {
 }
 
 void test_entry_too_small_for_float_is_a_note() {
-  Problem problem = regulator_alone(Domain::continuous, 1, Eigen::Vector2d(-1, -200).asDiagonal(), Eigen::Vector2d(1, 1));
+  Problem problem =
+      regulator_alone(Domain::continuous, 1, Eigen::Vector2d(-1, -200).asDiagonal(), Eigen::Vector2d(1, 1));
   problem.code.real = lqg::design::Scalar::float32;
   Findings findings;
   TEST_ASSERT_TRUE(solve(problem, findings).has_value());

@@ -44,8 +44,8 @@ void test_continuous_gain_of_the_double_integrator_is_one_and_root_three() {
   TEST_ASSERT_TRUE(is_zero(found.regulator->cost.Q - identity(2)));
 }
 
-// Minimising over one held period after another is minimising over the trajectory: X is the trajectory's cost. A short
-// period comes close to the continuous X, from above, with an error of the order T².
+// Minimising over one held period after another is minimising over the trajectory: X is the trajectory's
+// cost. A short period comes close to the continuous X, from above, with an error of the order T².
 void test_sampled_cost_tends_to_the_continuous_one_from_above() {
   Problem continuous = double_integrator(1e-3);
   continuous.regulator->cost = Cost::continuous;
@@ -77,7 +77,8 @@ void test_X_is_the_cost_from_the_start() {
     const Solution found = solved(problem);
     const Digits scope(100);
     const RegulatorSolution& lqr = *found.regulator;
-    const RealMatrix closed = found.plant.A - multiply(found.plant.B, lqr.K), NK = multiply(lqr.cost.N, lqr.K);
+    const RealMatrix closed = found.plant.A - multiply(found.plant.B, lqr.K),
+                     NK = multiply(lqr.cost.N, lqr.K);
     const RealMatrix step = lqr.cost.Q - NK - NK.transpose() + transpose_congruence(lqr.K, lqr.cost.R);
     expect_small(distance(*solve_stein(closed, step), lqr.X), 1e-40, "the difference of the costs");
   }
@@ -85,14 +86,15 @@ void test_X_is_the_cost_from_the_start() {
 
 // A diagonal plant of two equal halves: what does not belong together has gains of exactly zero.
 void test_decoupled_halves_have_exact_zeros() {
-  Problem problem = problem_of(Domain::continuous, 0.5, -0.3 * MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2),
-                               MatrixXd::Identity(2, 2));
+  Problem problem = problem_of(Domain::continuous, 0.5, -0.3 * MatrixXd::Identity(2, 2),
+                               MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2));
   const double c = 0.6, s = 0.8;
   const MatrixXd turn = (MatrixXd(2, 2) << c, -s, s, c).finished();
   problem.plant.B = turn;
   problem.plant.C = turn.transpose();
   const Solution found = solved(problem);
-  // K = k turnᵀ and X = x I up to the last bits of 0.6² + 0.8²; with Q and R = I, X off the diagonal is exactly zero.
+  // K = k turnᵀ and X = x I up to the last bits of 0.6² + 0.8²; with Q and R = I, X off the diagonal is
+  // exactly zero.
   TEST_ASSERT_TRUE(found.regulator->X(0, 1).is_zero());
   TEST_ASSERT_TRUE(to_double(found.regulator->K(0, 0)) == to_double(found.regulator->K(1, 1)));
 }
@@ -100,7 +102,8 @@ void test_decoupled_halves_have_exact_zeros() {
 void test_poles_are_sorted_and_in_conjugate_pairs() {
   const Poles poles = solved(two_mass()).regulator->poles;
   TEST_ASSERT_EQUAL(4, poles.size());
-  for (std::size_t i = 0; i + 1 < poles.size(); ++i) TEST_ASSERT_TRUE(std::abs(poles[i]) >= std::abs(poles[i + 1]) - 1e-15);
+  for (std::size_t i = 0; i + 1 < poles.size(); ++i)
+    TEST_ASSERT_TRUE(std::abs(poles[i]) >= std::abs(poles[i + 1]) - 1e-15);
   for (std::size_t i = 0; i < poles.size(); i += 2) {
     TEST_ASSERT_TRUE(poles[i].imag() > 0);
     TEST_ASSERT_TRUE(poles[i] == std::conj(poles[i + 1]));

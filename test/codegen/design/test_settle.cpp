@@ -61,7 +61,8 @@ void test_rounding_around_zero_becomes_zero() {
   TEST_ASSERT_TRUE(fine.is_zero());
 }
 
-// 10^−40 beside 1 is far more than the rounding of 100 digits: a true number of which the coarse run knows too little.
+// 10^−40 beside 1 is far more than the rounding of 100 digits: a true number of which the coarse run knows
+// too little.
 void test_small_number_does_not_become_zero() {
   const Digits scope(100);
   Real fine = power_of_ten(-40);
@@ -132,7 +133,8 @@ void test_poles_are_compared_with_their_nearest() {
   const Digits scope(100);
   const Real e = power_of_ten(-30);
   std::vector<ComplexReal> fine = {{Real(0.5), Real(0.25)}, {Real(0.5), Real(-0.25)}, {Real(0.75), Real(0)}};
-  const std::vector<ComplexReal> coarse = {{0.75 + e, Real(0)}, {0.5 - e, 0.25 + e}, {Real(0.5), Real(-0.25)}};
+  const std::vector<ComplexReal> coarse = {
+      {0.75 + e, Real(0)}, {0.5 - e, 0.25 + e}, {Real(0.5), Real(-0.25)}};
   TEST_ASSERT_TRUE(settle(coarse, fine));
 }
 

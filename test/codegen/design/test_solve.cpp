@@ -1,4 +1,5 @@
-// Whole designs: numbers from an independent source to the last bit, digits as the problem wants them, the same every time.
+// Whole designs: numbers from an independent source to the last bit, digits as the problem wants them, the
+// same every time.
 #include <cmath>
 
 #include <unity.h>
@@ -20,12 +21,14 @@ namespace {
 // Scilab's lqe example, by reference.py.
 void test_two_mass_agrees_with_an_independent_solver_to_the_last_bit() {
   const Solution found = solved(two_mass());
-  const MatrixXd K = (MatrixXd(1, 4) << 2.4226156789566144, 2.1417978292566491, -0.33327203942904532,
-                      1.9239638074097958).finished();
+  const MatrixXd K =
+      (MatrixXd(1, 4) << 2.4226156789566144, 2.1417978292566491, -0.33327203942904532, 1.9239638074097958)
+          .finished();
   const MatrixXd L = (MatrixXd(4, 2) << 0.7008787708470462, 0.0350096186852598,  //
                       0.83040338046772444, -0.10583810842648636,                 //
                       0.0350096186852598, 0.2635524708484982,                    //
-                      0.17161791353928399, 0.078661028195893351).finished();
+                      0.17161791353928399, 0.078661028195893351)
+                         .finished();
   expect_rounded(real(K), found.regulator->K, "K");
   expect_rounded(real(L), found.estimator->L, "L");
   TEST_ASSERT_EQUAL(100, found.numerics.digits);
@@ -50,7 +53,8 @@ void test_same_problem_has_the_same_numbers_whatever_digits_are_in_force() {
   const Digits scope(17);
   const Solution second = solved(random_problem(5));
   TEST_ASSERT_EQUAL(17, Real::default_precision());
-  TEST_ASSERT_TRUE(same(first.regulator->X, second.regulator->X) && same(first.estimator->L, second.estimator->L));
+  TEST_ASSERT_TRUE(same(first.regulator->X, second.regulator->X)
+                   && same(first.estimator->L, second.estimator->L));
   TEST_ASSERT_TRUE(*first.loop.phase_margin_deg == *second.loop.phase_margin_deg);
   TEST_ASSERT_TRUE(*first.loop.disk_margin == *second.loop.disk_margin);
 }
@@ -89,7 +93,7 @@ void expect_last_refusal(double coupling, const char* key, const char* part) {
   TEST_ASSERT_TRUE(findings[0].message.find(part) != std::string::npos);
 }
 
-void test_what_400_digits_do_not_settle_is_refused() { expect_last_refusal(1e-150, "design", "400 digits"); }
+void test_what_400_digits_do_not_settle_is_refused() { expect_last_refusal(1e-200, "design", "400 digits"); }
 
 // The rank is exact: such a coupling is never called none.
 void test_coupling_below_all_digits_is_called_weak() { expect_last_refusal(1e-250, "plant.B", "too weakly"); }
@@ -100,7 +104,8 @@ void test_deadbeat_poles_are_exact_zeros() {
   MatrixXd A = MatrixXd::Zero(nx, nx);
   for (Index i = 0; i + 1 < nx; ++i) A(i, i + 1) = 1;
   A.row(nx - 1).setConstant(0.5);
-  Problem problem = problem_of(Domain::discrete, 1, A, MatrixXd::Identity(nx, nx).col(nx - 1), MatrixXd::Identity(1, nx));
+  Problem problem =
+      problem_of(Domain::discrete, 1, A, MatrixXd::Identity(nx, nx).col(nx - 1), MatrixXd::Identity(1, nx));
   problem.regulator->R.setZero();
   problem.regulator->Q = MatrixXd::Zero(nx, nx);
   problem.regulator->Q(nx - 1, nx - 1) = 1;

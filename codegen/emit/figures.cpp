@@ -1,0 +1,211 @@
+#include "emit/figures.hpp"
+
+#include <algorithm>
+
+#include "emit/model_of.hpp"
+#include "emit/traced.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+// Estimates for a Cortex-M4F at -O2, fitted to what GCC 12 made of the designs in designs/ and of two_mass, dc_motor and
+// quadrotor with every filter and arithmetic; test/bench/run.sh prints estimate and truth. Its FPU computes floats; double
+// is computed by the C library.
+struct Rates {
+  long function, operation, constant, access, selection;  // bytes of straight-line code
+  long numbers_in_software, division_in_software;         // bytes of the C library's routines
+  long steady_code, plain_code, ud_code;                  // bytes of this library's loops, the control law among them
+  long steady_frame, plain_frame, ud_frame;               // bytes of their stack without work[]
+};
+constexpr Rates rates_of_float = {-24, 4, 10, 5, 11, 0, 0, 1370, 2400, 2740, 144, 198, 214};
+constexpr Rates rates_of_double = {-60, 13, 20, 15, 12, 1780, 480, 3930, 5250, 5680, 200, 272, 308};
+
+// Of the FPU: a function may use the first half for nothing and saves on the stack what it uses of the other.
+constexpr long registers = 32;
+
+const Rates& rates(const Controller& controller) { return controller.is_double() ? rates_of_double : rates_of_float; }
+
+long bytes_of_real(const Controller& controller) { return controller.is_double() ? 8 : 4; }
+
+long triangle(long n) { return n * (n + 1) / 2; }
+
+long state_bytes(const Controller& controller) {
+  if (!controller.has_filter()) return 0;
+  const long nx = controller.nx();
+  const long reals = nx + (controller.filter() == step::Filter::steady ? 0 : triangle(nx)) +
+                     (controller.keeps_input() ? controller.nu() : 0) + (controller.keeps_innovation() ? controller.ny() : 0);
+  return reals * bytes_of_real(controller);
+}
+
+// ---- straight-line code
+
+bool is_number(const std::vector<trace::Node>& nodes, int i) {
+  const trace::Node& node = nodes[static_cast<std::size_t>(i)];
+  if (node.op == trace::Op::select) return is_number(nodes, node.b);  // it may choose between statuses
+  return node.op != trace::Op::flag && !trace::is_condition(node.op);
+}
+
+struct Numbers {
+  long inputs = 0;
+  long at_once = 0;        // the most that wait for a later use; inputs are read first, the rest is computed in order
+  long with_constants = 0; // the same with the constants, each from its first use on
+};
+
+Numbers numbers_of(const TracedFunction& function, const trace::Printer& printer) {
+  const std::vector<trace::Node>& nodes = function.graph->nodes();
+  std::vector<std::size_t> first(nodes.size(), nodes.size()), last(nodes.size(), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const int operand : {nodes[i].a, nodes[i].b, nodes[i].c}) {
+      if (operand < 0 || !printer.needs(static_cast<int>(i))) continue;
+      const std::size_t at = static_cast<std::size_t>(operand);
+      first[at] = std::min(first[at], i);
+      last[at] = i;
+    }
+  Numbers numbers;
+  std::vector<long> values(nodes.size(), 0), constants(nodes.size(), 0);  // how many more there are from a node on
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (last[i] == 0 || !is_number(nodes, static_cast<int>(i))) continue;
+    const trace::Op op = nodes[i].op;
+    std::vector<long>& more = op == trace::Op::constant ? constants : values;
+    ++more[op == trace::Op::constant ? first[i] : op == trace::Op::input ? 0 : i];
+    --more[last[i]];
+    numbers.inputs += op == trace::Op::input;
+  }
+  long waiting = 0, waiting_constants = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    waiting += values[i];
+    waiting_constants += constants[i];
+    numbers.at_once = std::max(numbers.at_once, waiting);
+    numbers.with_constants = std::max(numbers.with_constants, waiting + waiting_constants);
+  }
+  return numbers;
+}
+
+long stack_of(const Controller& controller, const Numbers& numbers, long statuses) {
+  const long in_core_registers = 4 * std::max(0L, statuses - 2);
+  if (controller.is_double()) return 60 + 8 * numbers.at_once + in_core_registers;
+  return 4 * std::clamp(numbers.with_constants - registers / 2, 0L, registers / 2) +
+         4 * std::max(0L, numbers.at_once - registers) + in_core_registers;
+}
+
+void add_function(Figures& figures, const Controller& controller, const TracedFunction& function) {
+  if (!function.graph) return;
+  const trace::Printer printer(*function.graph, function.results());
+  const trace::Operations count = printer.operations();
+  const Numbers numbers = numbers_of(function, printer);
+  const bool is_one_operation = controller.is_fused() && !controller.is_double();  // a multiply-add
+  const long operations = count.total() + (is_one_operation ? 0 : count.multiply_adds);
+  const Rates& bytes = rates(controller);
+  figures.multiply_adds += count.total();
+  figures.flash += bytes.function + bytes.operation * operations + bytes.constant * count.constants +
+                   bytes.access * (numbers.inputs + static_cast<long>(function.stores.size())) +
+                   bytes.selection * count.selections;
+  figures.stack = std::max(figures.stack, stack_of(controller, numbers, static_cast<long>(function.statuses.size())));
+}
+
+// ---- the library's loops
+
+// Numbers in flash: the constants of a filter.
+long filter_constants(const Controller& controller) {
+  const long nx = controller.nx(), nu = controller.nu(), ny = controller.ny();
+  long numbers = nx * nx + nx * nu + ny * nx + (controller.keeps_input() ? ny * nu : 0) +
+                 (controller.keeps_innovation() ? nx * ny : 0);
+  if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
+  if (controller.filter() == step::Filter::steady) return numbers + nx * ny;
+  const design::OnlineSolution& online = *controller.solution.online;
+  numbers += ny + triangle(nx) + (online.E.isIdentity(0) ? 0 : ny * ny) + (controller.keeps_innovation() ? nx * nx : 0);
+  return numbers + (controller.filter() == step::Filter::plain ? triangle(nx) : (nx + 1) * online.G.cols());
+}
+
+// One output's innovation, and the check that it is finite.
+long innovation_cost(const Controller& controller) {
+  return controller.nx() + (controller.keeps_input() ? controller.nu() : 0) + 1;
+}
+
+// What the filters that carry P do besides: decorrelated outputs, and what cross noise keeps.
+long online_cost(const Controller& controller) {
+  long cost = 0;
+  const design::RealMatrix& E = controller.solution.online->E;
+  for (int i = 0; i < E.rows(); ++i)
+    for (int j = 0; j < i; ++j) cost += E(i, j) != 0;
+  return cost + (controller.keeps_innovation() ? controller.ny() * (innovation_cost(controller) - 1) : 0);
+}
+
+// Multiply-adds, lone operations and divisions of update and predict, zeros and ones included.
+long filter_cost(const Controller& controller) {
+  const long nx = controller.nx(), ny = controller.ny();
+  const long state = nx * (nx + controller.nu() + (controller.keeps_innovation() ? ny : 0));
+  const long checks = 2 * (nx + 1);  // of the state, after update and after predict
+  const long innovations = ny * innovation_cost(controller);
+  const long common = state + checks + innovations;
+  switch (controller.filter()) {
+    case step::Filter::steady: return common + nx * ny;
+    case step::Filter::plain:
+      return common + online_cost(controller) + ny * (nx * nx + 3 * nx + triangle(nx) + 1) + nx * nx * nx +
+             nx * triangle(nx) + nx;
+    case step::Filter::ud: {
+      const long columns = nx + controller.solution.online->G.cols(), strict = triangle(nx - 1);
+      const long factors = 3 * strict + 8 * nx + 1;
+      return common + online_cost(controller) + ny * factors + nx * strict + 2 * nx * (columns + 1) +
+             strict * (2 * columns + 1) + triangle(nx);
+    }
+    default: return 0;
+  }
+}
+
+long filter_code(const Controller& controller) {
+  switch (controller.filter()) {
+    case step::Filter::steady: return rates(controller).steady_code;
+    case step::Filter::plain: return rates(controller).plain_code;
+    case step::Filter::ud: return rates(controller).ud_code;
+    default: return rates(controller).steady_code / 4;  // the control law alone
+  }
+}
+
+// The frames of the deepest calls, and work[].
+long filter_stack(const Controller& controller) {
+  const long nx = controller.nx(), ny = controller.ny(), real = bytes_of_real(controller);
+  switch (controller.filter()) {
+    case step::Filter::steady: return rates(controller).steady_frame + real * std::max(nx, ny);
+    case step::Filter::plain: return rates(controller).plain_frame + real * std::max(nx * nx, nx + ny);
+    case step::Filter::ud:
+      return rates(controller).ud_frame +
+             real * std::max((nx + 2) * (nx + controller.solution.online->G.cols()), nx + ny);
+    default: return rates(controller).steady_frame / 2;
+  }
+}
+
+}  // namespace
+
+Figures unrolled_figures(const Controller& controller) {
+  const TracedController traced = trace_controller(controller);
+  const Rates& bytes = rates(controller);
+  Figures figures;
+  for (const TracedFunction* function : {&traced.update, &traced.control, &traced.predict})
+    add_function(figures, controller, *function);
+  figures.ram = state_bytes(controller);
+  const long initial_state = controller.has_filter() ? std::min(30 + 2 * figures.ram, 300L) : 0;
+  const bool divides = controller.has_filter() && controller.filter() != step::Filter::steady;
+  figures.flash += bytes.numbers_in_software + (divides ? bytes.division_in_software : 0) + initial_state;
+  return figures;
+}
+
+Figures compact_figures(const Controller& controller) {
+  Figures figures;
+  long numbers = 0;
+  if (controller.has_filter()) {
+    figures.multiply_adds += filter_cost(controller);
+    numbers += filter_constants(controller);
+  }
+  if (controller.has_regulator()) {
+    figures.multiply_adds += controller.nu() * (controller.nx() + 1);
+    numbers += controller.nu() * (controller.nx() + (controller.problem.limits ? 2 : 0));
+  }
+  figures.ram = state_bytes(controller);
+  figures.flash = filter_code(controller) + bytes_of_real(controller) * numbers;
+  figures.stack = filter_stack(controller);
+  return figures;
+}
+
+}  // namespace lqg::emit

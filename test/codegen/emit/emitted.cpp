@@ -1,0 +1,66 @@
+#include "emitted.hpp"
+
+#include <unity.h>
+
+#include "emit/header.hpp"
+#include "emit/unit_test.hpp"
+
+namespace lqg_test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void expect_success(const Outcome& outcome, const std::string& what) {
+  if (!outcome.succeeded) TEST_FAIL_MESSAGE((what + ": " + outcome.output.substr(0, 3000)).c_str());
+}
+
+void expect_to_pass(const lqg::emit::Controller& controller, Language language, const fs::path& folder) {
+  const std::string name = controller.problem.name, program = (folder / "program").string();
+  const std::string compiler = language == Language::c ? as_c : as_cxx;
+  const std::string sources = (folder / (name + "_test.c")).string() + " " + (folder / "alone.c").string();
+  const std::string what = folder.string() + (language == Language::c ? " as C" : " as C++");
+  expect_success(run(compiler + " -O1" + options(controller, folder) + " -o " + program + " " + sources + " -x none " +
+                     library(controller) + " " LQG_UNITY_LIBRARY " -lm"), what);
+  expect_success(run(program), what);
+}
+
+}  // namespace
+
+std::string options(const lqg::emit::Controller& controller, const fs::path& folder) {
+  std::string out = " -I" + folder.string() + " -I" LQG_INCLUDE_FOLDER " -isystem " LQG_UNITY_FOLDER
+                    " -DUNITY_INCLUDE_DOUBLE";
+  if (controller.style == lqg::design::Style::unrolled) return out;
+  return out + (controller.is_double() ? " -DLQG_REAL_DOUBLE" : "") + (controller.is_fused() ? " -DLQG_FUSED" : "");
+}
+
+std::string library(const lqg::emit::Controller& controller) {
+  if (controller.is_double()) return controller.is_fused() ? LQG_LIBRARY_DOUBLE_FUSED : LQG_LIBRARY_DOUBLE;
+  return controller.is_fused() ? LQG_LIBRARY_FUSED : LQG_LIBRARY;
+}
+
+void expect_emitted_to_pass(lqg::emit::Controller controller, const std::vector<Language>& languages) {
+  const std::string name = controller.problem.name;
+  for (const auto style : {lqg::design::Style::unrolled, lqg::design::Style::compact}) {
+    controller.style = style;
+    const fs::path folder = empty_folder(name + (style == lqg::design::Style::compact ? "_compact" : "_unrolled"));
+    write(folder / (name + ".h"), lqg::emit::header(controller));
+    write(folder / (name + "_test.c"), lqg::emit::unit_test(controller));
+    write(folder / "alone.c", "#include \"" + name + ".h\"\n");
+    for (const Language language : languages) expect_to_pass(controller, language, folder);
+  }
+}
+
+std::string run_with_header(const lqg::emit::Controller& controller, const std::string& text) {
+  const fs::path folder = empty_folder("with_header");
+  write(folder / (controller.problem.name + ".h"), lqg::emit::header(controller));
+  write(folder / "program.c", text);
+  const std::string program = (folder / "program").string();
+  expect_success(run(as_c + options(controller, folder) + " -o " + program + " " + program + ".c " + library(controller) +
+                     " -lm"), "program.c");
+  const Outcome outcome = run(program);
+  expect_success(outcome, "program");
+  return outcome.output;
+}
+
+}  // namespace lqg_test

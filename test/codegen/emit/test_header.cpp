@@ -1,0 +1,268 @@
+// The header as a text: its parts and their order, its checks of what it is compiled with, the same bytes each time.
+#include <clocale>
+#include <locale>
+
+#include <unity.h>
+
+#include "design_text.hpp"
+#include "emit/header.hpp"
+#include "emit/json.hpp"
+#include "emit/preamble.hpp"
+#include "emit/unit_test.hpp"
+#include "emitted.hpp"
+#include "trace/print.hpp"
+
+using namespace lqg_test;
+using lqg::design::Style;
+using lqg::emit::Controller;
+
+namespace fs = std::filesystem;
+
+extern "C" {
+void setUp(void) {}
+void tearDown(void) {}
+}
+
+namespace {
+
+Controller controller_in(Style style, DesignText design = double_integrator()) {
+  design.style = style == Style::compact ? "compact" : "unrolled";
+  return controller_of(design);
+}
+
+// Each part stands behind the one before it.
+void expect_order(const std::string& text, const std::vector<std::string>& parts) {
+  std::size_t at = 0;
+  for (const std::string& part : parts) {
+    const std::size_t found = text.find(part, at);
+    if (found == std::string::npos) TEST_FAIL_MESSAGE((part + (text.find(part) == std::string::npos ? " is missing" : " is misplaced")).c_str());
+    at = found + part.size();
+  }
+}
+
+const char* const functions[] = {"loop_init(loop_t *self)", "loop_update(loop_t *self, const float y[LOOP_NY])",
+                                 "loop_control(const loop_t *self, float u[LOOP_NU])",
+                                 "loop_predict(loop_t *self, const float u[LOOP_NU])",
+                                 "loop_step(loop_t *self, const float y[LOOP_NY], float u[LOOP_NU])"};
+
+void test_header_has_its_parts_in_the_order_of_the_contract() {
+  for (const Style style : {Style::unrolled, Style::compact}) {
+    const Controller controller = controller_in(style);
+    std::vector<std::string> parts = {
+        "/* loop: a loop of the tests\n", "Made by lqgen " + lqg::emit::version() + " from loop.toml", controller.source.sha256,
+        "under any licence", "Plant, sampled every 0.1 s", "states   x[0] position [m], x[1] speed [m/s]",
+        "inputs   u[0] force [N]", "outputs  y[0] position [m]", " A = [", " B = [", " C = [", "Regulator", " K = [",
+        "poles of A − B K", "Kalman filter, filter form", " L = [", "poles of A − L_predictor C", "Closed loop",
+        "gain margin", "phase margin", "disk margin", "multiply-adds", "bytes of RAM", "flash", "stack", "*/\n#ifndef LOOP_H",
+        "#include \"lqg/", "#if LQG_HEADER_FORMAT != ", "#error", "run the lqgen", "#endif", "#define LOOP_NX 2", "#define LOOP_NU 1",
+        "#define LOOP_NY 1", "#define LOOP_SAMPLE_TIME 0.1f", "LOOP_X_POSITION = 0,", "LOOP_X_SPEED = 1", "LOOP_U_FORCE = 0",
+        "LOOP_Y_POSITION = 0", "float x[LOOP_NX];", "} loop_t;"};
+    parts.insert(parts.end(), std::begin(functions), std::end(functions));
+    parts.push_back("#endif\n");
+    expect_order(lqg::emit::header(controller), parts);
+  }
+}
+
+// The comment above a function says its equation, its arguments and its status.
+void test_every_function_carries_its_contract() {
+  const std::string text = lqg::emit::header(controller_in(Style::unrolled));
+  expect_order(text, {"/* x̂ = x0", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1], "/* u = −K x̂",
+                      "u  out:", "Status:", functions[2], "/* x̂ ← A x̂ + B u", "u  in:", "Status:", functions[3],
+                      "/* One sample: update, control and predict", functions[4]});
+}
+
+void test_step_makes_its_calls_in_the_order_of_the_form() {
+  DesignText design = double_integrator();
+  const std::string update = "loop_update(self, y);", control = "loop_control(self, u);", predict = "loop_predict(self, u);";
+  design.form = "filter";
+  expect_order(lqg::emit::header(controller_of(design)), {functions[4], update, control, predict});
+  design.form = "predictor";
+  expect_order(lqg::emit::header(controller_of(design)), {functions[4], control, update, predict});
+}
+
+void test_what_a_controller_does_not_have_is_not_written() {
+  DesignText design = double_integrator();
+  design.Q.resize(0, 0);
+  const std::string estimator = lqg::emit::header(controller_of(design));
+  TEST_ASSERT_TRUE(estimator.find("loop_control") == std::string::npos);
+  TEST_ASSERT_TRUE(estimator.find("Regulator") == std::string::npos);
+  design = double_integrator();
+  design.W.resize(0, 0), design.C.resize(0, 0), design.G.resize(0, 0), design.outputs = "";
+  const std::string regulator = lqg::emit::header(controller_of(design));
+  for (const char* absent : {"loop_t", "loop_update", "loop_predict", "loop_step", "LOOP_NY", "LOOP_Y_", "Kalman"})
+    TEST_ASSERT_TRUE_MESSAGE(regulator.find(absent) == std::string::npos, absent);
+  expect_order(regulator, {"loop_control(const float x[LOOP_NX], float u[LOOP_NU])"});
+}
+
+void test_the_gain_in_the_comment_is_that_of_the_design() {
+  const Controller controller = controller_in(Style::unrolled);
+  const std::string text = lqg::emit::header(controller);
+  for (int j = 0; j < 2; ++j) {
+    const double K = mpfr_get_flt(controller.solution.regulator->K(0, j).backend().data(), MPFR_RNDN);
+    std::string number = lqg::trace::literal(K, false);
+    number.pop_back();
+    const std::size_t line = text.find(" K = [");
+    TEST_ASSERT_TRUE(text.substr(line, text.find('\n', line) - line).find(number) != std::string::npos);
+  }
+}
+
+void test_lines_are_not_much_longer_than_a_screen_is_wide() {
+  constexpr std::size_t longest = 160;  // bytes; the width of a comment is not wrapped
+  for (const Style style : {Style::unrolled, Style::compact}) {
+    DesignText design = double_integrators(3);
+    design.gain = "online";
+    const std::string text = lqg::emit::header(controller_in(style, design));
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = text.find('\n', at);
+      TEST_ASSERT_TRUE_MESSAGE(end - at <= longest, text.substr(at, end - at).c_str());
+      at = end + 1;
+    }
+  }
+}
+
+struct Comma : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+std::string all_files(const DesignText& design) {
+  const Controller controller = controller_of(design);
+  return lqg::emit::header(controller) + lqg::emit::unit_test(controller) + lqg::emit::json(controller);
+}
+
+// Numbers with a comma and grouped digits: in iostreams always, in C's functions where such a locale is installed.
+void test_the_same_design_gives_the_same_bytes_in_any_locale() {
+  DesignText design = double_integrator();
+  design.sample_time = 0.123456789;
+  for (const char* style : {"unrolled", "compact"})
+    for (const char* real : {"float", "double"}) {
+      design.style = style, design.real = real;
+      const std::string first = all_files(design);
+      TEST_ASSERT_TRUE(first == all_files(design));
+      const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
+      for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
+        if (std::setlocale(LC_ALL, name)) break;
+      const std::string other = all_files(design);
+      std::setlocale(LC_ALL, "C");
+      std::locale::global(before);
+      TEST_ASSERT_TRUE(first == other);
+    }
+}
+
+// Writes the header; compiles a file that includes it with more options.
+Outcome compile(const Controller& controller, const std::string& more_options, const fs::path& include = LQG_INCLUDE_FOLDER) {
+  const fs::path folder = empty_folder("compile");
+  write(folder / "loop.h", lqg::emit::header(controller));
+  write(folder / "user.c", "#include \"loop.h\"\n");
+  return run(as_c + " -I" + include.string() + options(controller, folder) + " -fsyntax-only " + more_options + " " +
+             (folder / "user.c").string());
+}
+
+void expect_refusal(const Outcome& outcome, const std::string& reason) {
+  TEST_ASSERT_FALSE(outcome.succeeded);
+  TEST_ASSERT_TRUE_MESSAGE(outcome.output.find(reason) != std::string::npos, outcome.output.c_str());
+}
+
+void test_header_of_another_format_is_refused_with_what_to_do() {
+  const fs::path include = empty_folder("other_format");
+  fs::copy(LQG_INCLUDE_FOLDER, include, fs::copy_options::recursive);
+  std::string version = read(include / "lqg/version.h");
+  const std::string own = "#define LQG_HEADER_FORMAT " + lqg::emit::header_format() + "\n";
+  TEST_ASSERT_TRUE(version.find(own) != std::string::npos);
+  version.replace(version.find(own), own.size(), "#define LQG_HEADER_FORMAT 999\n");
+  write(include / "lqg/version.h", version);
+  for (const Style style : {Style::unrolled, Style::compact}) {
+    const Controller controller = controller_in(style);
+    TEST_ASSERT_TRUE(compile(controller, "").succeeded);
+    expect_refusal(compile(controller, "", include),
+                   "loop.h was made by lqgen " + lqg::emit::version() +
+                       ", which this TinyLQG does not know: run the lqgen of this TinyLQG on loop.toml again.");
+  }
+}
+
+void test_fast_math_is_refused() {
+  for (const Style style : {Style::unrolled, Style::compact})
+    for (const char* option : {"-ffast-math", "-ffinite-math-only"})
+      expect_refusal(compile(controller_in(style), option), "cannot be compiled with -ffast-math");
+}
+
+void test_compact_refuses_the_options_of_another_library() {
+  DesignText design = double_integrator();
+  expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_REAL_DOUBLE"), "loop.h computes in float: do not define LQG_REAL_DOUBLE");
+  expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_FUSED"), "loop.h uses plain arithmetic: do not define LQG_FUSED");
+  design.real = "double", design.arithmetic = "fused";
+  const Controller controller = controller_in(Style::compact, design);
+  TEST_ASSERT_TRUE(compile(controller, "").succeeded);
+  expect_refusal(compile(controller, "-ULQG_REAL_DOUBLE"), "loop.h computes in double: define LQG_REAL_DOUBLE");
+  expect_refusal(compile(controller, "-ULQG_FUSED"), "loop.h uses fused multiply-adds: define LQG_FUSED");
+}
+
+void test_unrolled_does_not_care_about_the_options_of_the_library() {
+  for (const char* options : {"", "-DLQG_REAL_DOUBLE", "-DLQG_FUSED -DLQG_REAL_DOUBLE"})
+    TEST_ASSERT_TRUE(compile(controller_in(Style::unrolled), options).succeeded);
+}
+
+// What gcc contracts and clang may: the header switches it off from the inside, at any optimisation.
+void test_contraction_around_the_header_changes_no_bit() {
+#if defined __x86_64__
+  if (!__builtin_cpu_supports("fma")) TEST_IGNORE_MESSAGE("this processor has no fused multiply-add");
+  const std::string fused = "-mfma ";
+#elif defined __aarch64__
+  const std::string fused;
+#else
+  TEST_IGNORE_MESSAGE("unknown processor");
+#endif
+#ifdef __clang__
+  const std::string contract = "-ffp-contract=on ";
+#else
+  const std::string contract = "-ffp-contract=fast ";
+#endif
+  DesignText design = double_integrators(2);
+  design.gain = "online";
+  const Controller controller = controller_in(Style::unrolled, design);
+  const fs::path folder = empty_folder("contraction");
+  write(folder / "loop.h", lqg::emit::header(controller));
+  write(folder / "loop_test.c", lqg::emit::unit_test(controller));
+  const std::string program = (folder / "program").string();
+  const Outcome compiled = run(as_c + " -O3 " + fused + contract + options(controller, folder) + " -o " + program + " " +
+                               (folder / "loop_test.c").string() + " " LQG_UNITY_LIBRARY " -lm");
+  TEST_ASSERT_TRUE_MESSAGE(compiled.succeeded, compiled.output.c_str());
+  const Outcome outcome = run(program);
+  TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.c_str());
+}
+
+// sizeof(loop_t) is what the figures say.
+void test_ram_is_exactly_the_size_of_the_state() {
+  DesignText design = double_integrators(2);
+  design.D = Eigen::MatrixXd::Constant(2, 2, 0.5);
+  design.Swv = Eigen::MatrixXd::Constant(2, 2, 0.01);
+  for (const char* gain : {"steady", "online"})
+    for (const char* real : {"float", "double"}) {
+      design.gain = gain, design.real = real;
+      const Controller controller = controller_of(design);
+      const std::string size = run_with_header(controller, "#include <stdio.h>\n#include \"loop.h\"\n"
+                                                           "int main(void) { return printf(\"%d\", (int)sizeof(loop_t)) < 0; }\n");
+      TEST_ASSERT_EQUAL_STRING(std::to_string(controller.figures.ram).c_str(), size.c_str());
+    }
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(test_header_has_its_parts_in_the_order_of_the_contract);
+  RUN_TEST(test_every_function_carries_its_contract);
+  RUN_TEST(test_step_makes_its_calls_in_the_order_of_the_form);
+  RUN_TEST(test_what_a_controller_does_not_have_is_not_written);
+  RUN_TEST(test_the_gain_in_the_comment_is_that_of_the_design);
+  RUN_TEST(test_lines_are_not_much_longer_than_a_screen_is_wide);
+  RUN_TEST(test_the_same_design_gives_the_same_bytes_in_any_locale);
+  RUN_TEST(test_header_of_another_format_is_refused_with_what_to_do);
+  RUN_TEST(test_fast_math_is_refused);
+  RUN_TEST(test_compact_refuses_the_options_of_another_library);
+  RUN_TEST(test_unrolled_does_not_care_about_the_options_of_the_library);
+  RUN_TEST(test_contraction_around_the_header_changes_no_bit);
+  RUN_TEST(test_ram_is_exactly_the_size_of_the_state);
+  return UNITY_END();
+}
