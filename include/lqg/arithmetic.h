@@ -40,14 +40,15 @@ typedef float lqg_real;
  *     }
  *     LQG_STRICT_END                       after the last function
  *
- * Such functions must not be always_inline: they would take over the options of their caller.
+ * GCC's vectorizer is switched off with it: GCC 12 makes vfmaddsub and vfmsubadd of separate products and sums in
+ * spite of fp-contract=off. Such functions must not be always_inline: they would take over the options of their caller.
  */
 #if defined __clang__
 #define LQG_STRICT_BEGIN
 #define LQG_STRICT_BODY _Pragma("clang fp contract(off)")
 #define LQG_STRICT_END
 #elif defined __GNUC__
-#define LQG_STRICT_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize (\"fp-contract=off\")")
+#define LQG_STRICT_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize (\"fp-contract=off\", \"no-tree-vectorize\")")
 #define LQG_STRICT_BODY
 #define LQG_STRICT_END _Pragma("GCC pop_options")
 #else
