@@ -1,15 +1,10 @@
 // How far the closed loop is from instability, at the plant's inputs.
 #pragma once
 
-#include <optional>
-
 #include "design/open_loop.hpp"
+#include "design/solution.hpp"
 
 namespace lqg::design {
-
-struct Margins {
-  std::optional<double> gain_dB, phase_deg, disk;
-};
 
 // With T = L(I + L)⁻¹, which has the closed loop's poles, and t = T_ii (the other inputs' loops closed):
 //   gain   where t is real and < 0 or > 1: the factor 1 − 1/t makes the loop oscillate

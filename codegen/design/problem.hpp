@@ -1,10 +1,11 @@
 // A control problem as a design file states it: the doubles of the file, nothing computed yet.
 //
 // Shapes and finiteness hold when a Problem leaves `input`; what the file left out has its default here:
-// D = 0, G = I, N = 0, cross noise = 0, x0 = 0, P0 = I. A matrix with no rows or columns says "there is none".
+// D = 0, G = I, H = 0, N = 0, cross noise = 0, x0 = 0, P0 = I. A matrix with no rows or columns says "there is none".
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ struct Signal {
 
 enum class Domain { continuous, discrete };
 
-// ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + v.
+// ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
 struct Plant {
   Domain domain = Domain::continuous;
   double sample_time = 0;  // s
@@ -27,35 +28,84 @@ struct Plant {
   Eigen::MatrixXd C;       // ny × nx, ny may be 0: a regulator alone
   Eigen::MatrixXd D;       // ny × nu
   Eigen::MatrixXd G;       // nx × nw
+  Eigen::MatrixXd H;       // ny × nw
+  double delay = 0;        // s from sampling y to u taking effect; whole periods of a discrete plant
   std::vector<Signal> states, inputs, outputs;
+};
+
+// Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).
+struct WantedPoles {
+  std::vector<std::complex<double>> values;
+  bool continuous = false;
 };
 
 enum class Cost { sampled, discrete, continuous };
 
+// Largest acceptable values: Q = diag(1/x²) or Cᵀ diag(1/y²) C (with D: its cross terms too), R = rho diag(1/u²).
+struct Bryson {
+  Eigen::VectorXd states, outputs;  // one of them is empty
+  Eigen::VectorXd inputs;
+  double rho = 1;
+};
+
+// ξ⁺ = ξ + T (r − y) for these outputs; Q weighs ξ.
+struct Integral {
+  std::vector<int> outputs;
+  Eigen::MatrixXd Q;
+};
+
 // J = Σ xᵀQx + uᵀRu + 2xᵀNu, of the samples or of the continuous trajectory.
 struct Regulator {
-  Eigen::MatrixXd Q, R, N;
+  Eigen::MatrixXd Q, R, N;          // Q and R are empty where Q_output or bryson give them
+  Eigen::MatrixXd Q_output;         // ny × ny instead of Q, or empty: yᵀ Q_output y with y = Cx + Du
+  std::optional<Bryson> bryson;     // instead of Q and R
   Cost cost = Cost::sampled;
+  std::optional<double> decay;          // α: every closed-loop pole inside |z| < 1/α, or left of −α 1/s
+  std::optional<double> settling_time;  // s, to 1 %: α = 100^(T/ts), or ln(100)/ts
+  int horizon = 0;                  // 0: infinite
+  Eigen::MatrixXd Q_final;          // nx × nx, or empty: 0
+  Eigen::MatrixXd structure;        // nu × nx of 0 and 1, or empty: the entries of K that may differ from 0
+  std::optional<Integral> integral;
+  std::vector<int> track;           // outputs that follow r by feed-forward
+  Eigen::MatrixXd input_rate;       // nu × nu, or empty: the weight on Δu, a sample
+  std::optional<WantedPoles> poles; // [pole_placement]: K has these poles; no weight is there then
 };
 
 enum class Noise { discrete, continuous };
-enum class Gain { steady, online };
+enum class Gain { steady, schedule, online };
 enum class Form { filter, predictor };
 enum class Covariance { ud, plain };
 
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.
 struct Estimator {
   Eigen::MatrixXd W, V, Swv;
+  Eigen::VectorXd process_correlation_time, measurement_correlation_time;  // s, or empty: W and V are densities
   Noise noise = Noise::continuous;
   Gain gain = Gain::steady;
+  int horizon = 0;                  // of a schedule; 0: until converged
   Form form = Form::filter;
   Covariance covariance = Covariance::ud;
   Eigen::VectorXd x0;
   Eigen::MatrixXd P0;
+  double gate = 0;                  // σ; 0: none
+  Eigen::MatrixXd structure;        // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
+  std::optional<WantedPoles> poles; // [observer]: L has these poles; no noise is there then
 };
 
 struct Limits {
   Eigen::VectorXd u_min, u_max;  // −∞ or +∞ where there is none
+  Eigen::VectorXd u_rate;        // largest |u[k] − u[k−1]| / sample_time, or empty
+};
+
+// From step `from` on these replace the plant's, the weights' and the noises' own; an empty one does not.
+struct Stage {
+  int from = 0;
+  Eigen::MatrixXd A, B, C, D, G, Q, R, N, W, V;
+};
+
+// What the closed loop has to reach.
+struct Requirements {
+  std::optional<double> gain_margin_dB, phase_margin_deg, disk_margin, max_pole;
 };
 
 enum class Scalar { float32, float64 };
@@ -76,6 +126,8 @@ struct Problem {
   std::optional<Regulator> regulator;
   std::optional<Estimator> estimator;
   std::optional<Limits> limits;
+  std::vector<Stage> stages;  // by rising `from`
+  Requirements requirements;
   Code code;
 };
 

@@ -13,7 +13,8 @@ namespace lqg::design {
 
 using Poles = std::vector<std::complex<double>>;  // by falling |z|, then by falling imaginary part
 
-// The plant at the sample instants: x⁺ = A x + B u + G w, y = C x + D u + v.
+// The plant at the sample instants: x⁺ = A x + B u + G w, y = C x + D u + v. With a delay of q samples or a part of
+// them, the q inputs on their way are states after the plant's own, the oldest first, and D is part of C.
 struct SampledPlant {
   RealMatrix A, B, C, D, G;
 };
@@ -28,11 +29,30 @@ struct SampledCost {
   RealMatrix Q, R, N;
 };
 
-// u = −K x;  X: J = x₀ᵀXx₀.
+// How far a loop is from instability; empty where there is no such place.
+struct Margins {
+  std::optional<double> gain_dB, phase_deg, disk;
+};
+
+// What keeping only some entries of a gain costs.
+struct StructureReport {
+  RealMatrix full;         // the gain without structure
+  Poles full_poles;
+  double cost_ratio = 1;   // of the structured gain's cost to the full one's
+  Margins full_margins;    // at the plant's inputs
+};
+
+// u = −K z + Nbar r, z = [x; ξ of `integral`; u[k−1] with `input_rate`: then Δu is what the law gives];
+// X: J = z₀ᵀXz₀. Without a cost (placed poles) `cost` and X are empty.
 struct RegulatorSolution {
-  SampledCost cost;
-  RealMatrix K, X;
-  Poles poles;  // of A − BK
+  SampledCost cost;                    // over x and u; of a delayed plant over all of its states
+  RealMatrix Q_final;                  // nx × nx with a horizon, else empty
+  RealMatrix K, X;                     // with a horizon: the gain that is held at its end, and X of that step
+  Poles poles;                         // of z⁺ = A z + B u under u = −K z
+  std::vector<RealMatrix> K_schedule;  // with a horizon or stages: K of step 0, 1, …; K from its end on
+  RealMatrix X0;                       // the cost to go from step 0, with a schedule
+  RealMatrix Nx, Nu, Nbar;             // with `track`: the set point (x, u) of r; Nbar = Nu + Kx Nx, over all r
+  std::optional<StructureReport> structure;
 };
 
 // The steady filter: x̂ ← x̂ + L(y − Cx̂ − Du), L = P_prior Cᵀ S⁻¹, S = C P_prior Cᵀ + V;
@@ -42,6 +62,8 @@ struct EstimatorSolution {
   RealMatrix L, M, L_predictor;
   RealMatrix P_prior, P_posterior, S;
   Poles poles;  // of A − L_predictor C
+  std::vector<RealMatrix> L_schedule, M_schedule;  // of sample 0, 1, …; L and M from the end on
+  std::optional<StructureReport> structure;
 };
 
 // The same filter prepared for scalar updates with P carried on line: V = E⁻¹ diag(V) E⁻ᵀ is made diagonal by
@@ -60,14 +82,30 @@ struct OnlineSolution {
   RealVector D0;      // nx, ≥ 0
 };
 
+// From step `from` on: what replaces the plant, the noise and the online filter (if they are there).
+struct StageSolution {
+  int from = 0;
+  SampledPlant plant;
+  std::optional<SampledNoise> noise;
+  std::optional<SampledCost> cost;
+  std::optional<OnlineSolution> online;
+};
+
+// The loop with the controller's numbers as the target holds them, around the exact plant.
+struct RoundedLoop {
+  Poles poles;
+  std::optional<double> cost_per_sample;
+  Margins at_input, at_output;
+};
+
 // The closed loop of plant, filter and regulator.
 struct LoopSolution {
   Poles poles;
   std::optional<double> cost_per_sample;
   std::optional<double> cost_per_second;   // of the continuous cost
-  std::optional<double> gain_margin_dB;    // the smallest over the inputs, one opened at a time
-  std::optional<double> phase_margin_deg;  // likewise
-  std::optional<double> disk_margin;       // all inputs at once, symmetric disk (S − T)/2
+  Margins at_input;   // gain and phase: the smallest over the inputs, one opened at a time; disk: all at once,
+  Margins at_output;  // symmetric, (S − T)/2; likewise over the outputs that the filter uses
+  std::optional<RoundedLoop> rounded;
 };
 
 struct Numerics {
@@ -80,6 +118,7 @@ struct Solution {
   std::optional<RegulatorSolution> regulator;
   std::optional<EstimatorSolution> estimator;
   std::optional<OnlineSolution> online;  // with Gain::online only
+  std::vector<StageSolution> stages;     // by rising `from`
   LoopSolution loop;
   Numerics numerics;
 };

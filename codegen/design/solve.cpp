@@ -79,10 +79,7 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
   if (draft.cost_per_sample) solution.loop.cost_per_sample = to_double(*draft.cost_per_sample);
   if (draft.cost_per_second) solution.loop.cost_per_second = to_double(*draft.cost_per_second);
   if (solution.regulator) {
-    const Margins found = margins(open_loop(problem, solution), poles);
-    solution.loop.gain_margin_dB = found.gain_dB;
-    solution.loop.phase_margin_deg = found.phase_deg;
-    solution.loop.disk_margin = found.disk;
+    solution.loop.at_input = margins(open_loop(problem, solution), poles);
   }
   check_representable(solution, problem.code.real, findings);
 }

@@ -13,6 +13,7 @@ struct Bodies {
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
   std::string init, update, control, predict;
+  std::string reset;      // a function of its own, or nothing
 };
 
 Bodies unrolled_bodies(const Controller& controller);

@@ -9,9 +9,9 @@ namespace lqg::emit {
 
 namespace {
 
-// Estimates for a Cortex-M4F at -O2, fitted to what GCC 12 made of the designs in designs/ and of two_mass, dc_motor and
-// quadrotor with every filter and arithmetic; test/bench/run.sh prints estimate and truth. Its FPU computes floats; double
-// is computed by the C library.
+// Estimates for a Cortex-M4F at -O2, fitted to what GCC 12 made of the designs in designs/ and of two_mass,
+// dc_motor and quadrotor with every filter and arithmetic; test/bench/run.sh prints estimate and truth. The FPU
+// computes floats; double is left to the C library.
 struct Rates {
   long function, operation, constant, access, selection;  // bytes of straight-line code
   long numbers_in_software, division_in_software;         // bytes of the C library's routines
@@ -21,10 +21,12 @@ struct Rates {
 constexpr Rates rates_of_float = {-24, 4, 10, 5, 11, 0, 0, 1370, 2400, 2740, 144, 198, 214};
 constexpr Rates rates_of_double = {-60, 13, 20, 15, 12, 1780, 480, 3930, 5250, 5680, 200, 272, 308};
 
-// Of the FPU: a function may use the first half for nothing and saves on the stack what it uses of the other.
+// Of the FPU: half of them are free to use, what a function uses of the others it saves on the stack.
 constexpr long registers = 32;
 
-const Rates& rates(const Controller& controller) { return controller.is_double() ? rates_of_double : rates_of_float; }
+const Rates& rates(const Controller& controller) {
+  return controller.is_double() ? rates_of_double : rates_of_float;
+}
 
 long bytes_of_real(const Controller& controller) { return controller.is_double() ? 8 : 4; }
 
@@ -34,7 +36,8 @@ long state_bytes(const Controller& controller) {
   if (!controller.has_filter()) return 0;
   const long nx = controller.nx();
   const long reals = nx + (controller.filter() == step::Filter::steady ? 0 : triangle(nx)) +
-                     (controller.keeps_input() ? controller.nu() : 0) + (controller.keeps_innovation() ? controller.ny() : 0);
+                     (controller.keeps_input() ? controller.nu() : 0) +
+                     (controller.keeps_innovation() ? controller.ny() : 0);
   return reals * bytes_of_real(controller);
 }
 
@@ -48,8 +51,8 @@ bool is_number(const std::vector<trace::Node>& nodes, int i) {
 
 struct Numbers {
   long inputs = 0;
-  long at_once = 0;        // the most that wait for a later use; inputs are read first, the rest is computed in order
-  long with_constants = 0; // the same with the constants, each from its first use on
+  long at_once = 0;         // the most that wait for a later use; inputs are read first, the rest in order
+  long with_constants = 0;  // the same with the constants, each from its first use on
 };
 
 Numbers numbers_of(const TracedFunction& function, const trace::Printer& printer) {
@@ -101,7 +104,8 @@ void add_function(Figures& figures, const Controller& controller, const TracedFu
   figures.flash += bytes.function + bytes.operation * operations + bytes.constant * count.constants +
                    bytes.access * (numbers.inputs + static_cast<long>(function.stores.size())) +
                    bytes.selection * count.selections;
-  figures.stack = std::max(figures.stack, stack_of(controller, numbers, static_cast<long>(function.statuses.size())));
+  const long statuses = static_cast<long>(function.statuses.size());
+  figures.stack = std::max(figures.stack, stack_of(controller, numbers, statuses));
 }
 
 // ---- the library's loops
@@ -114,7 +118,8 @@ long filter_constants(const Controller& controller) {
   if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
   if (controller.filter() == step::Filter::steady) return numbers + nx * ny;
   const design::OnlineSolution& online = *controller.solution.online;
-  numbers += ny + triangle(nx) + (online.E.isIdentity(0) ? 0 : ny * ny) + (controller.keeps_innovation() ? nx * nx : 0);
+  numbers += ny + triangle(nx) + (online.E.isIdentity(0) ? 0 : ny * ny) +
+             (controller.keeps_innovation() ? nx * nx : 0);
   return numbers + (controller.filter() == step::Filter::plain ? triangle(nx) : (nx + 1) * online.G.cols());
 }
 

@@ -192,7 +192,7 @@ std::string header(const Controller& controller) {
   if (controller.has_filter()) out += index_enum(controller, "Y", plant.outputs) + state_type(controller);
   if (!bodies.constants.empty()) out += "\n" + bodies.constants;
   out += "\nLQG_STRICT_BEGIN\n" + bodies.options;
-  if (controller.has_filter()) out += init_function(controller, bodies) + update_function(controller, bodies);
+  if (controller.has_filter()) out += init_function(controller, bodies) + bodies.reset + update_function(controller, bodies);
   if (controller.has_regulator()) out += control_function(controller, bodies);
   if (controller.has_filter())
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller);

@@ -66,9 +66,9 @@ Json loop(const design::LoopSolution& solution) {
   const auto add = [&](const char* key, const std::optional<double>& value) {
     if (value) out[key] = *value;
   };
-  add("gain_margin_dB", solution.gain_margin_dB);
-  add("phase_margin_deg", solution.phase_margin_deg);
-  add("disk_margin", solution.disk_margin);
+  add("gain_margin_dB", solution.at_input.gain_dB);
+  add("phase_margin_deg", solution.at_input.phase_deg);
+  add("disk_margin", solution.at_input.disk);
   add("cost_per_sample", solution.cost_per_sample);
   add("cost_per_second", solution.cost_per_second);
   return out;

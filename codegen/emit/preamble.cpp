@@ -110,9 +110,9 @@ std::string loop(const Controller& controller) {
   const auto add = [&](const char* what, const std::optional<double>& value, const char* unit) {
     if (value) out += " *   " + std::string(what) + rounded(*value) + unit + "\n";
   };
-  add("gain margin         ", loop.gain_margin_dB, " dB");
-  add("phase margin        ", loop.phase_margin_deg, "°");
-  add("disk margin         ", loop.disk_margin, "");
+  add("gain margin         ", loop.at_input.gain_dB, " dB");
+  add("phase margin        ", loop.at_input.phase_deg, "°");
+  add("disk margin         ", loop.at_input.disk, "");
   add("cost per sample     ", loop.cost_per_sample, "");
   add("cost per second     ", loop.cost_per_second, "");
   return out.empty() ? "" : " *\n * Closed loop, opened at the plant's input:\n *\n" + out;

@@ -211,8 +211,9 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
   words["bits"] = "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n";
   if (controller.is_fused())
-    words["bits"] = std::string("#if defined ") + (controller.is_double() ? "FP_FAST_FMA" : "FP_FAST_FMAF") +
-                    " || defined __GLIBC__\n" + words["bits"] + "#endif\n";
+    words["bits"] = fill("#if defined FP_FAST_{FMA} || defined __FP_FAST_{FMA} || defined __GLIBC__\n",
+                         {{"FMA", controller.is_double() ? "FMA" : "FMAF"}}) +
+                    words["bits"] + "#endif\n";  // newlib's math.h lacks the first, GCC has the second built in
   words["bits"] = fill(words["bits"], words);
   return words;
 }

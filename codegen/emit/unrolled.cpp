@@ -20,12 +20,10 @@ std::string status(const Controller& controller, const TracedFunction& function,
   if (raised.empty()) raised = "LQG_OK";
   if (function.finite < 0) return "    return " + raised + ";\n";
   return fill(R"({status}
-    if (!({finite})) {
-        {name}_init(self);
-        status |= LQG_STATE_RESET;
-    }
+    if (!({finite}))
+        return {name}_reset(self, status);
     return status;
-)", {{"status", trace::wrap("    lqg_status status = " + raised + ";", 8)}, {"finite", printer.expression(function.finite)}, {"name", controller.problem.name}});
+)", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)}, {"finite", printer.expression(function.finite)}, {"name", controller.problem.name}});
 }
 
 // `parameters` that the body does not need are said to be unused.
@@ -69,6 +67,21 @@ std::string initial_state(const Controller& controller) {
 )", {{"name", controller.problem.name}, {"values", values}});
 }
 
+// Outside of the functions that call it, where it would cost every sample registers.
+std::string reset(const Controller& controller) {
+  return fill(R"(
+/* Begins anew: the state was not finite. */
+#ifdef __GNUC__
+__attribute__((noinline))
+#endif
+static lqg_status {name}_reset({name}_t *self, lqg_status status)
+{
+    {name}_init(self);
+    return status | LQG_STATE_RESET;
+}
+)", {{"name", controller.problem.name}});
+}
+
 }  // namespace
 
 Bodies unrolled_bodies(const Controller& controller) {
@@ -77,11 +90,12 @@ Bodies unrolled_bodies(const Controller& controller) {
   bodies.includes = std::string(controller.is_fused() ? "#include <math.h>\n\n" : "") +
                     "#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
   bodies.options = R"(#if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns")  /* in the order as written, few values wait in registers */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter")  /* as written: few values wait in registers */
 #endif
 )";
   if (controller.has_filter()) {
     bodies.init = initial_state(controller);
+    bodies.reset = reset(controller);
     bodies.update = body(controller, traced.update, {"self", "y"});
     bodies.predict = controller.nu() ? body(controller, traced.predict, {"self", "u"})
                                      : body(controller, traced.predict, {"self"});

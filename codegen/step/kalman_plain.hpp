@@ -54,8 +54,8 @@ auto update_plain(const Model<S>& model, State<S>& state, const Vector<S>& measu
   for (int i = 0; i < model.ny; ++i) usable.push_back(update_plain_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
   Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j));
-  return all_finite(total, listener);
+  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
+  return is_finite(total.sum);
 }
 
 // P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.
@@ -77,7 +77,7 @@ void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& 
       for (int k = 0; k < nx; ++k) sum = multiply_add(S(AP(k)), S(model.A_free(j, k)), sum);
       listener.name(sum, "prior", i, j);
       next[triangle(i, j)] = sum;
-      if (i == j) total.add(sum);  // what is not finite elsewhere is on the diagonal one sample later
+      if (i == j) total.add(sum, listener);  // what is not finite elsewhere is on the diagonal one sample later
     }
   }
   state.P = next;
@@ -88,7 +88,7 @@ auto predict_plain(const Model<S>& model, State<S>& state, const Vector<S>& u, L
   Total<S> total;
   predict_state(model, state, u, total, listener);
   predict_plain_covariance(model, state, total, listener);
-  return all_finite(total, listener);
+  return is_finite(total.sum);
 }
 
 }  // namespace lqg::step

@@ -26,17 +26,17 @@ auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, L
     for (int i = 0; i < model.ny; ++i) sum = multiply_add(S(model.L(j, i)), S(innovation(i)), sum);
     listener.name(sum, "posterior", j);
     state.x(j) = sum;
-    total.add(sum);
+    total.add(sum, listener);
   }
   if (model.M.cols()) state.innovation = innovation;
-  return all_finite(total, listener);
+  return is_finite(total.sum);
 }
 
 template <class S, class Listener>
 auto predict_steady(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   Total<S> total;
   predict_state(model, state, u, total, listener);
-  return all_finite(total, listener);
+  return is_finite(total.sum);
 }
 
 }  // namespace lqg::step

@@ -75,8 +75,8 @@ auto update_ud(const Model<S>& model, State<S>& state, const Vector<S>& measured
   for (int i = 0; i < model.ny; ++i) usable.push_back(update_ud_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
   Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j));
-  return all_finite(total, listener);
+  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
+  return is_finite(total.sum);
 }
 
 // [A U | G], the rows that Thornton makes orthogonal under the weights diag(D, w).
@@ -117,7 +117,7 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& tot
     for (int k = 1; k < nt; ++k) diagonal = multiply_add(S(T(i, k)), S(v(k)), diagonal);
     listener.name(diagonal, "prior_D", i);
     state.D[i] = diagonal;
-    total.add(diagonal);
+    total.add(diagonal, listener);
     S reciprocal = S(1) / diagonal;  // not finite when the variance of a state has died out: nothing depends on it then
     listener.name(reciprocal, "inverse", i);
     reciprocal = select(is_finite(reciprocal), reciprocal, S(0));
@@ -128,7 +128,7 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& tot
       S entry = sum * reciprocal;
       listener.name(entry, "prior_U", j, i);
       state.U[strict_triangle(j, i)] = entry;
-      total.add(entry);
+      total.add(entry, listener);
       for (int k = 0; k < nt; ++k) {
         T(j, k) = multiply_subtract(entry, S(T(i, k)), S(T(j, k)));
         listener.name(T(j, k), "T", j, k);
@@ -142,7 +142,7 @@ auto predict_ud(const Model<S>& model, State<S>& state, const Vector<S>& u, List
   Total<S> total;
   predict_state(model, state, u, total, listener);
   predict_ud_covariance(model, state, total, listener);
-  return all_finite(total, listener);
+  return is_finite(total.sum);
 }
 
 }  // namespace lqg::step

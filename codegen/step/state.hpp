@@ -6,18 +6,16 @@
 namespace lqg::step {
 
 // The sum of all parts of a state is finite if and only if each is, short of an overflow that no honest state comes near.
-// Each part is added as it is found, so that none has to wait for the sum.
+// Each part is added as it is found, and each sum has a name, so that none has to wait for the last.
 template <class S>
 struct Total {
   S sum = S(0);
-  void add(const S& part) { sum = sum + part; }
+  template <class Listener>
+  void add(const S& part, Listener& listener) {
+    sum = sum + part;
+    listener.name(sum, "sum");
+  }
 };
-
-template <class S, class Listener>
-auto all_finite(const Total<S>& total, Listener& listener) {
-  listener.name(total.sum, "sum");
-  return is_finite(total.sum);
-}
 
 // y_i − C_i x − D_i u
 template <class S>
@@ -42,7 +40,7 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, T
     for (int j = 0; j < model.M.cols(); ++j) sum = multiply_add(S(model.M(i, j)), S(state.innovation(j)), sum);
     listener.name(sum, "next", i);
     next(i) = sum;
-    total.add(sum);
+    total.add(sum, listener);
   }
   state.x = next;
   if (model.D.cols()) state.u = u;

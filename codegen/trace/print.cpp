@@ -112,9 +112,13 @@ std::string Printer::print_multiply_add(const Node& node, int level) const {
   if (!graph_.target().is_fused)
     return bracketed(print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " +
                          print(node.b, unary), sum, level);
-  const std::string function = graph_.target().is_double ? "fma(" : "fmaf(";
-  return function + (subtracts ? "-" + print(node.a, unary + 1) : print(node.a, any)) + ", " + print(node.b, any) +
-         ", " + print(node.c, any) + ")";
+  // The sign goes to a factor that is no number: for -0.5f compilers load another constant beside 0.5f.
+  const bool second = subtracts && graph_.is_constant(node.a), first = subtracts && !second;
+  const auto factor = [&](int operand, bool has_sign) {
+    return has_sign ? "-" + print(operand, unary + 1) : print(operand, any);
+  };
+  return std::string(graph_.target().is_double ? "fma(" : "fmaf(") + factor(node.a, first) + ", " +
+         factor(node.b, second) + ", " + print(node.c, any) + ")";
 }
 
 std::string Printer::print_operation(int node, int level) const {
@@ -191,12 +195,13 @@ Operations Printer::operations() const {
   for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
     if (!needs(node)) continue;
     switch (graph_.nodes()[static_cast<std::size_t>(node)].op) {
-      case Op::add: case Op::subtract: case Op::negate: case Op::finite: ++count.additions; break;
+      case Op::add: case Op::subtract: case Op::finite: ++count.additions; break;
       case Op::multiply: ++count.multiplications; break;
       case Op::multiply_add: case Op::multiply_subtract: ++count.multiply_adds; break;
       case Op::divide: ++count.divisions; break;
       case Op::constant: ++count.constants; break;
       case Op::input: case Op::flag: break;
+      case Op::negate: break;  // part of the operation before or after it
       default: ++count.selections;
     }
   }

@@ -59,15 +59,15 @@ static void write_line(FILE *file, const char *colour, const double *values, int
 {
     fprintf(file, "<polyline fill=\"none\" stroke=\"%s\" points=\"", colour);
     for (int i = 0; i < count; i++)
-        fprintf(file, "%.1f,%.1f ", MARGIN + (double)WIDTH * i / count,
-                top + HEIGHT * (range.high - values[i]) / (range.high - range.low));
+        fprintf(file, "%.1f,%.1f ", (double)MARGIN + (double)WIDTH * i / count,
+                top + (double)HEIGHT * (range.high - values[i]) / (range.high - range.low));
     fprintf(file, "\"/>\n");
 }
 
 static void write_curve(FILE *file, const chart_curve_t *curve, int count, double sample_time, int top)
 {
     const range_t range = range_of(curve, count);
-    const double zero = top + HEIGHT * range.high / (range.high - range.low);
+    const double zero = top + (double)HEIGHT * range.high / (range.high - range.low);
 
     fprintf(file, "<text x=\"%d\" y=\"%d\">%s</text>\n", MARGIN, top - 8, curve->title);
     fprintf(file, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"#bbb\"/>\n", MARGIN, top, WIDTH, HEIGHT);

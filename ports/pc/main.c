@@ -104,7 +104,7 @@ int main(int argc, char **argv)
     const int shown = show(argc > 1 ? argv[1] : NULL);
 
     printf("  After %.0f s the robot %s: pitch %.2f degrees, %.1f cm from where it began.\n",
-           SAMPLES * (double)BALANCING_ROBOT_SAMPLE_TIME, stands ? "stands" : "HAS FALLEN", end.pitch * DEGREES,
-           end.wheel * 4.0);
+           (double)SAMPLES * (double)BALANCING_ROBOT_SAMPLE_TIME, stands ? "stands" : "HAS FALLEN",
+           end.pitch * DEGREES, end.wheel * 4.0);
     return stands && shown == 0 ? 0 : 1;
 }

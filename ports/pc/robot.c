@@ -68,5 +68,5 @@ void robot_run(robot_t *robot, double voltage, double push, double seconds)
     enum { STEPS = 8 }; /* the fastest mode, of the motor, takes 4 ms */
 
     for (int i = 0; i < STEPS; i++)
-        runge_kutta(robot, voltage, push, seconds / STEPS);
+        runge_kutta(robot, voltage, push, seconds / (double)STEPS);
 }

@@ -37,11 +37,22 @@ Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const M
   const bool continuous = domain == Domain::continuous;
   Problem problem;
   problem.name = "problem";
-  problem.plant = {domain, sample_time, A, B, C, MatrixXd::Zero(ny, nu), MatrixXd::Identity(nx, nx),
-                   {},     {},          {}};
+  Plant& plant = problem.plant;
+  plant.domain = domain;
+  plant.sample_time = sample_time;
+  plant.A = A;
+  plant.B = B;
+  plant.C = C;
+  plant.D = MatrixXd::Zero(ny, nu);
+  plant.G = MatrixXd::Identity(nx, nx);
+  plant.H = MatrixXd::Zero(ny, nx);
   for (Index i = 0; i < nx; ++i) problem.plant.states.push_back({"x" + std::to_string(i), ""});
-  problem.regulator = Regulator{MatrixXd::Identity(nx, nx), MatrixXd::Identity(nu, nu),
-                                MatrixXd::Zero(nx, nu), continuous ? Cost::sampled : Cost::discrete};
+  Regulator regulator;
+  regulator.Q = MatrixXd::Identity(nx, nx);
+  regulator.R = MatrixXd::Identity(nu, nu);
+  regulator.N = MatrixXd::Zero(nx, nu);
+  regulator.cost = continuous ? Cost::sampled : Cost::discrete;
+  problem.regulator = regulator;
   Estimator estimator;
   estimator.W = MatrixXd::Identity(nx, nx);
   estimator.V = MatrixXd::Identity(ny, ny);

@@ -99,9 +99,9 @@ void check(const Problem& problem) {
   const Solution found = solved(problem);
   const Loop loop = loop_of(problem, found);
   TEST_ASSERT_TRUE(radius(loop, 0, 1) < 1);
-  if (found.loop.gain_margin_dB) expect_gain_margin(loop, *found.loop.gain_margin_dB);
-  if (found.loop.phase_margin_deg) expect_phase_margin(loop, *found.loop.phase_margin_deg);
-  expect_disk_margin(loop, *found.loop.disk_margin);
+  if (found.loop.at_input.gain_dB) expect_gain_margin(loop, *found.loop.at_input.gain_dB);
+  if (found.loop.at_input.phase_deg) expect_phase_margin(loop, *found.loop.at_input.phase_deg);
+  expect_disk_margin(loop, *found.loop.at_input.disk);
 }
 
 void test_filter_form_with_one_input() { check(two_mass()); }
@@ -155,9 +155,9 @@ void test_integrator_has_its_closed_form() {
   const Solution found = solved(problem);
   const Digits scope(60);
   const Real k = (sqrt(Real(5)) - 1) / 2, degree = atan(Real(1)) / 45;
-  TEST_ASSERT_TRUE(*found.loop.gain_margin_dB == to_double(20 * log10(2 / k)));
-  TEST_ASSERT_TRUE(*found.loop.phase_margin_deg == to_double(90 - asin(k / 2) / degree));
-  TEST_ASSERT_TRUE(*found.loop.disk_margin == to_double(2 * (2 / k - 1) / (2 / k + 1)));
+  TEST_ASSERT_TRUE(*found.loop.at_input.gain_dB == to_double(20 * log10(2 / k)));
+  TEST_ASSERT_TRUE(*found.loop.at_input.phase_deg == to_double(90 - asin(k / 2) / degree));
+  TEST_ASSERT_TRUE(*found.loop.at_input.disk == to_double(2 * (2 / k - 1) / (2 / k + 1)));
 }
 
 // A plant that no feedback needs: nothing can make it oscillate, and there is no crossing to report.
@@ -166,16 +166,16 @@ void test_loop_without_crossings_has_no_gain_and_phase_margin() {
   Problem problem = problem_of(Domain::discrete, 1, 0 * one, one, one);
   problem.estimator.reset();
   const Solution found = solved(problem);
-  TEST_ASSERT_FALSE(found.loop.gain_margin_dB.has_value());
-  TEST_ASSERT_FALSE(found.loop.phase_margin_deg.has_value());
-  TEST_ASSERT_TRUE(*found.loop.disk_margin == 2);
+  TEST_ASSERT_FALSE(found.loop.at_input.gain_dB.has_value());
+  TEST_ASSERT_FALSE(found.loop.at_input.phase_deg.has_value());
+  TEST_ASSERT_TRUE(*found.loop.at_input.disk == 2);
 }
 
 void test_estimator_alone_has_no_margins() {
   Problem problem = two_mass();
   problem.regulator.reset();
   const LoopSolution loop = solved(problem).loop;
-  TEST_ASSERT_FALSE(loop.gain_margin_dB || loop.phase_margin_deg || loop.disk_margin || loop.cost_per_sample);
+  TEST_ASSERT_FALSE(loop.at_input.gain_dB || loop.at_input.phase_deg || loop.at_input.disk || loop.cost_per_sample);
   TEST_ASSERT_EQUAL(4, loop.poles.size());
 }
 

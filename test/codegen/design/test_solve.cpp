@@ -55,8 +55,8 @@ void test_same_problem_has_the_same_numbers_whatever_digits_are_in_force() {
   TEST_ASSERT_EQUAL(17, Real::default_precision());
   TEST_ASSERT_TRUE(same(first.regulator->X, second.regulator->X)
                    && same(first.estimator->L, second.estimator->L));
-  TEST_ASSERT_TRUE(*first.loop.phase_margin_deg == *second.loop.phase_margin_deg);
-  TEST_ASSERT_TRUE(*first.loop.disk_margin == *second.loop.disk_margin);
+  TEST_ASSERT_TRUE(*first.loop.at_input.phase_deg == *second.loop.at_input.phase_deg);
+  TEST_ASSERT_TRUE(*first.loop.at_input.disk == *second.loop.at_input.disk);
 }
 
 // e^100 in one period: the closed loop is the difference of numbers of 1e43.

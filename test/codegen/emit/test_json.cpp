@@ -86,9 +86,9 @@ void expect_all(const json& found, const Controller& controller) {
   if (solution.estimator) expect_estimator(found, *solution.estimator);
   if (solution.regulator) expect_regulator(found, *solution.regulator);
   expect_poles(found["loop"]["poles"], solution.loop.poles, "loop.poles");
-  expect_number(found["loop"], "gain_margin_dB", solution.loop.gain_margin_dB);
-  expect_number(found["loop"], "phase_margin_deg", solution.loop.phase_margin_deg);
-  expect_number(found["loop"], "disk_margin", solution.loop.disk_margin);
+  expect_number(found["loop"], "gain_margin_dB", solution.loop.at_input.gain_dB);
+  expect_number(found["loop"], "phase_margin_deg", solution.loop.at_input.phase_deg);
+  expect_number(found["loop"], "disk_margin", solution.loop.at_input.disk);
   expect_number(found["loop"], "cost_per_sample", solution.loop.cost_per_sample);
   expect_number(found["loop"], "cost_per_second", solution.loop.cost_per_second);
   expect_number(found["numerics"], "condition", solution.numerics.condition);
