@@ -10,6 +10,17 @@ Eigen::MatrixXd zero_or(const Values& values, const std::string& key, int rows, 
   return matrix != nullptr ? *matrix : Eigen::MatrixXd::Zero(rows, columns);
 }
 
+// 0 × 0 when there is none.
+Eigen::MatrixXd empty_or(const Values& values, const std::string& key) {
+  const Eigen::MatrixXd* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : Eigen::MatrixXd();
+}
+
+Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
+  const Eigen::MatrixXd* matrix = values.matrix(key);
+  return matrix != nullptr ? Eigen::VectorXd(matrix->col(0)) : Eigen::VectorXd();
+}
+
 Eigen::MatrixXd identity_or(const Values& values, const std::string& key, int size) {
   const Eigen::MatrixXd* matrix = values.matrix(key);
   return matrix != nullptr ? *matrix : Eigen::MatrixXd::Identity(size, size);
@@ -38,22 +49,71 @@ design::Plant plant(const Values& values) {
   result.C = zero_or(values, "plant.C", ny, nx);
   result.D = zero_or(values, "plant.D", ny, nu);
   result.G = identity_or(values, "plant.G", nx);
+  result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
+  result.delay = values.number("plant.delay", 0);
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
   return result;
 }
 
+std::optional<double> optional_number(const Values& values, const std::string& key) {
+  const auto found = values.numbers.find(key);
+  return found == values.numbers.end() ? std::nullopt : std::optional<double>(found->second);
+}
+
+std::vector<int> indices(const Values& values, const std::string& key) {
+  const auto found = values.indices.find(key);
+  return found == values.indices.end() ? std::vector<int>() : found->second;
+}
+
+int whole(const Values& values, const std::string& key) { return static_cast<int>(values.number(key, 0)); }
+
+design::Bryson bryson(const Values& values) {
+  design::Bryson result;
+  result.states = vector_or_empty(values, "lqr.bryson.states");
+  result.outputs = vector_or_empty(values, "lqr.bryson.outputs");
+  result.inputs = vector_or_empty(values, "lqr.bryson.inputs");
+  result.rho = values.number("lqr.bryson.rho", 1);
+  return result;
+}
+
 design::Regulator regulator(const Values& values, const design::Plant& plant) {
   design::Regulator result;
-  result.Q = *values.matrix("lqr.Q");
-  result.R = *values.matrix("lqr.R");
+  result.Q = empty_or(values, "lqr.Q");
+  result.R = empty_or(values, "lqr.R");
   result.N = zero_or(values, "lqr.N", static_cast<int>(plant.A.rows()), static_cast<int>(plant.B.cols()));
+  result.Q_output = empty_or(values, "lqr.Q_output");
+  if (values.has("lqr.bryson")) result.bryson = bryson(values);
   const std::string cost = values.text("lqr.cost");
   const bool discrete = cost.empty() ? plant.domain == design::Domain::discrete : cost == "discrete";
   result.cost = cost == "continuous" ? design::Cost::continuous
                 : discrete           ? design::Cost::discrete
                                      : design::Cost::sampled;
+  result.decay = optional_number(values, "lqr.decay");
+  result.settling_time = optional_number(values, "lqr.settling_time");
+  result.horizon = whole(values, "lqr.horizon");
+  result.Q_final = empty_or(values, "lqr.Q_final");
+  result.structure = empty_or(values, "lqr.structure");
+  if (values.has("lqr.integral"))
+    result.integral = design::Integral{indices(values, "lqr.integral.outputs"), *values.matrix("lqr.integral.Q")};
+  result.track = indices(values, "lqr.track");
+  result.input_rate = empty_or(values, "lqr.input_rate");
+  return result;
+}
+
+design::WantedPoles wanted_poles(const Values& values, const std::string& table) {
+  const auto sampled = values.poles.find(table + ".poles");
+  if (sampled != values.poles.end()) return {sampled->second, false};
+  return {values.poles.at(table + ".continuous_poles"), true};
+}
+
+// No weights, but poles.
+design::Regulator placed_regulator(const Values& values, const design::Plant& plant) {
+  design::Regulator result;
+  result.N = Eigen::MatrixXd::Zero(plant.A.rows(), plant.B.cols());
+  result.cost = design::Cost::discrete;
+  result.poles = wanted_poles(values, "pole_placement");
   return result;
 }
 
@@ -68,11 +128,30 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   const bool discrete = noise.empty() ? plant.domain == design::Domain::discrete : noise == "discrete";
   result.noise = discrete ? design::Noise::discrete : design::Noise::continuous;
   const auto says = [&](const char* key, const char* word) { return values.text(key) == word; };
-  result.gain = says("kalman.gain", "online") ? design::Gain::online : design::Gain::steady;
+  result.gain = says("kalman.gain", "online")     ? design::Gain::online
+                : says("kalman.gain", "schedule") ? design::Gain::schedule
+                                                  : design::Gain::steady;
+  result.horizon = whole(values, "kalman.horizon");
+  result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
+  result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");
+  result.gate = values.number("kalman.gate", 0);
+  result.structure = empty_or(values, "kalman.structure");
   result.form = says("kalman.form", "predictor") ? design::Form::predictor : design::Form::filter;
   result.covariance = says("kalman.covariance", "plain") ? design::Covariance::plain : design::Covariance::ud;
   result.x0 = zero_or(values, "kalman.initial_state", nx, 1).col(0);
   result.P0 = identity_or(values, "kalman.initial_covariance", nx);
+  return result;
+}
+
+// No noise, but poles.
+design::Estimator observer(const Values& values, const design::Plant& plant) {
+  const Eigen::Index nx = plant.A.rows();
+  design::Estimator result;
+  result.noise = design::Noise::discrete;
+  result.form = values.text("observer.form") == "filter" ? design::Form::filter : design::Form::predictor;
+  result.x0 = Eigen::VectorXd::Zero(nx);
+  result.P0 = Eigen::MatrixXd::Identity(nx, nx);
+  result.poles = wanted_poles(values, "observer");
   return result;
 }
 
@@ -84,6 +163,31 @@ design::Limits limits(const Values& values) {
   design::Limits result;
   result.u_min = lower != nullptr ? Eigen::VectorXd(lower->col(0)) : Eigen::VectorXd::Constant(nu, -infinity);
   result.u_max = upper != nullptr ? Eigen::VectorXd(upper->col(0)) : Eigen::VectorXd::Constant(nu, infinity);
+  result.u_rate = vector_or_empty(values, "limits.u_rate");
+  return result;
+}
+
+std::vector<design::Stage> stages(const Values& values) {
+  std::vector<design::Stage> result;
+  for (const std::string& table : values.tables_of("stage")) {
+    design::Stage stage;
+    stage.from = whole(values, table + ".from");
+    for (const auto& [key, matrix] :
+         {std::pair("A", &stage.A), std::pair("B", &stage.B), std::pair("C", &stage.C), std::pair("D", &stage.D),
+          std::pair("G", &stage.G), std::pair("Q", &stage.Q), std::pair("R", &stage.R), std::pair("N", &stage.N),
+          std::pair("process_noise", &stage.W), std::pair("measurement_noise", &stage.V)})
+      *matrix = empty_or(values, table + "." + key);
+    result.push_back(stage);
+  }
+  return result;
+}
+
+design::Requirements requirements(const Values& values) {
+  design::Requirements result;
+  result.gain_margin_dB = optional_number(values, "require.gain_margin_dB");
+  result.phase_margin_deg = optional_number(values, "require.phase_margin_deg");
+  result.disk_margin = optional_number(values, "require.disk_margin");
+  result.max_pole = optional_number(values, "require.max_pole");
   return result;
 }
 
@@ -94,8 +198,7 @@ design::Code code(const Values& values) {
   if (values.text("code.arithmetic") == "fused") result.arithmetic = design::Arithmetic::fused;
   if (style == "unrolled") result.style = design::Style::unrolled;
   if (style == "compact") result.style = design::Style::compact;
-  const auto flash = values.numbers.find("code.flash");
-  if (flash != values.numbers.end()) result.flash = static_cast<long>(flash->second);
+  result.flash = static_cast<long>(values.number("code.flash", static_cast<double>(result.flash)));
   return result;
 }
 
@@ -107,8 +210,12 @@ design::Problem assemble(const Values& values) {
   problem.brief = values.text("brief");
   problem.plant = plant(values);
   if (values.has("lqr")) problem.regulator = regulator(values, problem.plant);
+  if (values.has("pole_placement")) problem.regulator = placed_regulator(values, problem.plant);
   if (values.has("kalman")) problem.estimator = estimator(values, problem.plant);
+  if (values.has("observer")) problem.estimator = observer(values, problem.plant);
   if (values.has("limits")) problem.limits = limits(values);
+  problem.stages = stages(values);
+  problem.requirements = requirements(values);
   problem.code = code(values);
   return problem;
 }

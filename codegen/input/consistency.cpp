@@ -15,16 +15,92 @@ bool has_any(const Values& values, std::initializer_list<const char*> keys) {
 }
 
 void check_tables(const Values& values, Report& report) {
-  if (!has_any(values, {"lqr", "kalman", "observer", "pole_placement"}))
-    report.error("lqr", "expected [lqr], [kalman] or both, found neither");
-  if (values.has("limits") && !has_any(values, {"lqr", "pole_placement"}))
-    report.error("limits", "needs [lqr]");
+  const bool regulates = has_any(values, {"lqr", "pole_placement"});
+  const bool estimates = has_any(values, {"kalman", "observer"});
+  if (!regulates && !estimates) report.error("lqr", "expected [lqr], [kalman] or both, found neither");
+  if (values.has("limits") && !regulates) report.error("limits", "needs [lqr]");
+  if (values.has("require") && !regulates) report.error("require", "needs [lqr]");
+  if (values.has("lqr") && values.has("pole_placement"))
+    report.error("pole_placement", "expected [lqr] or [pole_placement], found both");
+  if (values.has("kalman") && values.has("observer"))
+    report.error("observer", "expected [kalman] or [observer], found both");
   if (values.tables.count("limits") != 0 &&
       !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate"}))
     report.error("limits", "expected u_min, u_max or both, found neither");
   if (values.tables.count("plant") == 0) return;
-  if (values.has("lqr") && !values.has("plant.B")) report.error("lqr", "needs plant.B");
-  if (values.has("kalman") && !values.has("plant.C")) report.error("kalman", "needs plant.C");
+  for (const char* key : {"lqr", "pole_placement"})
+    if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
+  for (const char* key : {"kalman", "observer", "lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"})
+    if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
+}
+
+// Of several ways to say the same thing exactly one; nothing is said of a table that is not there.
+void check_one_of(const Values& values, const std::string& table, const std::vector<std::string>& keys,
+                  Report& report) {
+  if (values.tables.count(table) == 0) return;
+  std::string first, list;
+  for (const std::string& key : keys) {
+    list += (list.empty() ? "" : key == keys.back() ? " or " : ", ") + key;
+    if (!values.has(table + "." + key)) continue;
+    if (!first.empty())
+      report.error(table + "." + key, "says again what " + table + "." + first + " says: expected one of the two");
+    first = key;
+  }
+  if (first.empty())
+    report.error(table + "." + keys.front(), keys.size() == 1 ? "missing" : "missing: expected " + list);
+}
+
+void check_alternatives(const Values& values, Report& report) {
+  check_one_of(values, "lqr", {"Q", "Q_output", "bryson"}, report);
+  if (values.has("lqr.bryson") && values.has("lqr.R"))
+    report.error("lqr.R", "says again what lqr.bryson says: expected one of the two");
+  else if (!values.has("lqr.bryson"))
+    check_one_of(values, "lqr", {"R"}, report);
+  check_one_of(values, "lqr.bryson", {"states", "outputs"}, report);
+  if (values.has("lqr.decay") && values.has("lqr.settling_time"))
+    report.error("lqr.settling_time", "says again what lqr.decay says: expected one of the two");
+  for (const char* table : {"observer", "pole_placement"})
+    check_one_of(values, table, {"poles", "continuous_poles"}, report);
+}
+
+// A key that means something only beside another one.
+void check_companions(const Values& values, Report& report) {
+  const auto needs = [&](const char* key, bool good, const char* what) {
+    if (values.has(key) && !good) report.error(key, std::string("needs ") + what);
+  };
+  const bool schedule = values.text("kalman.gain") == "schedule";
+  needs("lqr.Q_final", values.number("lqr.horizon", 0) > 0, "lqr.horizon > 0");
+  needs("kalman.horizon", schedule || values.number("kalman.horizon", 0) == 0, "kalman.gain = \"schedule\"");
+  const std::string gain = values.text("kalman.gain");
+  needs("kalman.structure", gain.empty() || gain == "steady", "kalman.gain = \"steady\"");
+  for (const std::string& stage : values.tables_of("stage")) {
+    for (const char* key : {".Q", ".R", ".N"}) needs((stage + key).c_str(), values.has("lqr"), "[lqr]");
+    for (const char* key : {".process_noise", ".measurement_noise"})
+      needs((stage + key).c_str(), values.has("kalman"), "[kalman]");
+  }
+  if (values.has("pole_placement")) needs("stage", false, "[lqr]: poles are placed for one plant");
+  if (values.has("observer")) needs("stage", false, "[kalman]: poles are placed for one plant");
+}
+
+void check_numbers(const Values& values, Report& report) {
+  const double decay = values.number("lqr.decay", 1);
+  if (decay < 1 && values.text("lqr.cost") != "continuous")
+    report.error("lqr.decay", "expected a number ≥ 1, found " + shown(decay));
+  const double periods = values.number("plant.delay", 0) / values.number("plant.sample_time", 1);
+  if (values.text("plant.domain") == "discrete" && std::abs(periods - std::round(periods)) > 1e-9 * periods)
+    report.error("plant.delay", "expected whole periods with a discrete plant, found " + shown(periods) + " periods");
+  const auto track = values.indices.find("lqr.track");
+  const int nu = values.sizes.at(Size::nu);
+  if (track != values.indices.end() && nu > 0 && static_cast<int>(track->second.size()) > nu)
+    report.error("lqr.track", "expected at most as many outputs as inputs (" + std::to_string(nu) + "), found " +
+                                  std::to_string(track->second.size()));
+  double before = 0;
+  for (const std::string& stage : values.tables_of("stage")) {
+    const double from = values.number(stage + ".from", before + 1);
+    if (from <= before)
+      report.error(stage + ".from", "expected more than " + shown(before) + ", found " + shown(from));
+    before = from;
+  }
 }
 
 void check_domain(const Values& values, Report& report) {
@@ -38,14 +114,27 @@ void check_domain(const Values& values, Report& report) {
     report.error("kalman.noise", "expected \"discrete\" with a discrete plant, found \"continuous\"");
 }
 
+// Correlation times make densities of variances.
+void check_correlation_times(const Values& values, Report& report) {
+  const char* const keys[] = {"kalman.process_correlation_time", "kalman.measurement_correlation_time"};
+  const std::string noise = values.text("kalman.noise");
+  const bool discrete = noise.empty() ? values.text("plant.domain") == "discrete" : noise == "discrete";
+  for (const char* key : keys)
+    if (values.has(key) && discrete) report.error(key, "needs kalman.noise = \"continuous\"");
+  if (values.has("kalman.cross_noise") && values.has(keys[0]) != values.has(keys[1]))
+    report.error("kalman.cross_noise", "needs both correlation times or none");
+}
+
 // Keys that stand in the file for nothing.
 void note_unused(const Values& values, Report& report) {
   const bool estimates = has_any(values, {"kalman", "observer"});
-  if (values.has("plant.C") && !estimates)
+  const bool sees = has_any(values, {"lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"});
+  if (values.has("plant.C") && !estimates && !sees)
     report.note("plant.C", "not used without [kalman]: u = −K x of the measured states");
-  if (values.has("plant.G") && !estimates) report.note("plant.G", "not used without [kalman]");
+  for (const char* key : {"plant.G", "plant.H"})
+    if (values.has(key) && !values.has("kalman")) report.note(key, "not used without [kalman]");
   if (values.text("kalman.covariance") == "plain" && values.text("kalman.gain") != "online")
-    report.note("kalman.covariance", "not used with gain = \"steady\"");
+    report.note("kalman.covariance", "not used without gain = \"online\"");
 }
 
 // False, and nothing reported, when there is no such matrix.
@@ -91,18 +180,29 @@ void check_joint(const Values& values, const std::string& first, const std::stri
 
 void check_definiteness(Values& values, Report& report) {
   const bool Q = check_weight(values, "lqr.Q", false, report);
-  const bool R = check_weight(values, "lqr.R", true, report);
+  const bool R = check_weight(values, "lqr.R", false, report);
   if (Q && R) check_joint(values, "lqr.Q", "lqr.N", "lqr.R", "[Q N; Nᵀ R]", report);
   const bool W = check_weight(values, "kalman.process_noise", false, report);
-  const bool V = check_weight(values, "kalman.measurement_noise", true, report);
+  const bool helped = values.has("plant.H");  // noise on every output may come from H, too
+  const bool V = check_weight(values, "kalman.measurement_noise", !helped, report);
   if (W && V)
     check_joint(values, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise",
                 "[W Swv; Swvᵀ V]", report);
-  check_weight(values, "kalman.initial_covariance", false, report);
+  for (const char* key : {"lqr.Q_output", "lqr.Q_final", "lqr.integral.Q", "lqr.input_rate", "kalman.initial_covariance"})
+    check_weight(values, key, false, report);
+  for (const std::string& stage : values.tables_of("stage")) {
+    for (const char* key : {".Q", ".R", ".process_noise"}) check_weight(values, stage + key, false, report);
+    check_weight(values, stage + ".measurement_noise", !helped, report);
+  }
 }
 
-// u_min < u_max in every entry, with −∞ and +∞ for a list that is absent.
+// u_min < u_max in every entry, with −∞ and +∞ for a list that is absent; u_rate > 0.
 void check_limits(const Values& values, Report& report) {
+  if (const Eigen::MatrixXd* rate = values.matrix("limits.u_rate"))
+    for (int i = 0; i < rate->rows(); ++i)
+      if (!((*rate)(i, 0) > 0))
+        report.error("limits.u_rate", "expected numbers > 0, found " + shown((*rate)(i, 0)) + " for input " +
+                                          std::to_string(i));
   const Eigen::MatrixXd* lower = values.matrix("limits.u_min");
   const Eigen::MatrixXd* upper = values.matrix("limits.u_max");
   const long count = lower != nullptr ? lower->rows() : upper != nullptr ? upper->rows() : 0;
@@ -122,7 +222,11 @@ void check_limits(const Values& values, Report& report) {
 
 void check_consistency(Values& values, Report& report) {
   check_tables(values, report);
+  check_alternatives(values, report);
+  check_companions(values, report);
+  check_numbers(values, report);
   check_domain(values, report);
+  check_correlation_times(values, report);
   check_definiteness(values, report);
   check_limits(values, report);
   note_unused(values, report);

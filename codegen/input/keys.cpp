@@ -11,6 +11,7 @@ constexpr auto nx = Size::nx;
 constexpr auto nu = Size::nu;
 constexpr auto ny = Size::ny;
 constexpr auto nw = Size::nw;
+constexpr auto integrals = Size::integrals;
 constexpr auto required = Need::required;
 constexpr auto optional = Need::optional;
 
@@ -26,61 +27,88 @@ const std::vector<KeyRule> rules = {
     {"plant.C", Type::matrix, ny, nx},
     {"plant.D", Type::matrix, ny, nu},
     {"plant.G", Type::matrix, nx, nw},
-    {"plant.H"},
-    {"plant.delay"},
+    {"plant.H", Type::matrix, ny, nw},
+    {"plant.delay", Type::not_negative},
     {"plant.states", Type::signals, nx},
     {"plant.inputs", Type::signals, nu},
     {"plant.outputs", Type::signals, ny},
 
     {"lqr", Type::table},
-    {"lqr.Q", Type::weight, nx, nx, required},
-    {"lqr.R", Type::weight, nu, nu, required},
+    {"lqr.Q", Type::weight, nx, nx},
+    {"lqr.Q_output", Type::weight, ny, ny},
+    {"lqr.R", Type::weight, nu, nu},
     {"lqr.N", Type::matrix, nx, nu},
+    {"lqr.bryson", Type::table},
+    {"lqr.bryson.states", Type::positives, nx},
+    {"lqr.bryson.outputs", Type::positives, ny},
+    {"lqr.bryson.inputs", Type::positives, nu, no, required},
+    {"lqr.bryson.rho", Type::positive},
     {"lqr.cost", Type::word, no, no, optional, {"sampled", "discrete", "continuous"}},
-    {"lqr.Q_output"},
-    {"lqr.bryson"}, {"lqr.bryson.states"}, {"lqr.bryson.outputs"}, {"lqr.bryson.inputs"}, {"lqr.bryson.rho"},
-    {"lqr.decay"},
-    {"lqr.settling_time"},
-    {"lqr.horizon"},
-    {"lqr.Q_final"},
-    {"lqr.structure"},
-    {"lqr.integral"}, {"lqr.integral.outputs"}, {"lqr.integral.Q"},
-    {"lqr.track"},
-    {"lqr.input_rate"},
+    {"lqr.decay", Type::not_negative},
+    {"lqr.settling_time", Type::positive},
+    {"lqr.horizon", Type::count},
+    {"lqr.Q_final", Type::weight, nx, nx},
+    {"lqr.structure", Type::mask, nu, nx},
+    {"lqr.integral", Type::table},
+    {"lqr.integral.outputs", Type::indices, ny, no, required},
+    {"lqr.integral.Q", Type::weight, integrals, integrals, required},
+    {"lqr.track", Type::indices, ny},
+    {"lqr.input_rate", Type::weight, nu, nu},
 
     {"kalman", Type::table},
     {"kalman.process_noise", Type::weight, nw, nw, required},
     {"kalman.measurement_noise", Type::weight, ny, ny, required},
     {"kalman.cross_noise", Type::matrix, nw, ny},
     {"kalman.noise", Type::word, no, no, optional, {"discrete", "continuous"}},
-    {"kalman.gain", Type::word, no, no, optional, {"steady", "online"}, {"schedule"}},
+    {"kalman.gain", Type::word, no, no, optional, {"steady", "schedule", "online"}},
     {"kalman.form", Type::word, no, no, optional, {"filter", "predictor"}},
     {"kalman.covariance", Type::word, no, no, optional, {"ud", "plain"}},
     {"kalman.initial_state", Type::vector, nx},
     {"kalman.initial_covariance", Type::weight, nx, nx},
-    {"kalman.process_correlation_time"},
-    {"kalman.measurement_correlation_time"},
-    {"kalman.horizon"},
-    {"kalman.structure"},
-    {"kalman.gate"},
+    {"kalman.process_correlation_time", Type::positives, nw},
+    {"kalman.measurement_correlation_time", Type::positives, ny},
+    {"kalman.horizon", Type::count},
+    {"kalman.structure", Type::mask, nx, ny},
+    {"kalman.gate", Type::not_negative},
+
+    {"observer", Type::table},
+    {"observer.poles", Type::poles},
+    {"observer.continuous_poles", Type::poles},
+    {"observer.form", Type::word, no, no, optional, {"predictor", "filter"}},
+
+    {"pole_placement", Type::table},
+    {"pole_placement.poles", Type::poles},
+    {"pole_placement.continuous_poles", Type::poles},
 
     {"limits", Type::table},
     {"limits.u_min", Type::bounds, nu},
     {"limits.u_max", Type::bounds, nu},
-    {"limits.u_rate"},
+    {"limits.u_rate", Type::bounds, nu},
+
+    {"stage", Type::tables},
+    {"stage.from", Type::whole, no, no, required},
+    {"stage.A", Type::matrix, nx, nx},
+    {"stage.B", Type::matrix, nx, nu},
+    {"stage.C", Type::matrix, ny, nx},
+    {"stage.D", Type::matrix, ny, nu},
+    {"stage.G", Type::matrix, nx, nw},
+    {"stage.Q", Type::weight, nx, nx},
+    {"stage.R", Type::weight, nu, nu},
+    {"stage.N", Type::matrix, nx, nu},
+    {"stage.process_noise", Type::weight, nw, nw},
+    {"stage.measurement_noise", Type::weight, ny, ny},
+
+    {"require", Type::table},
+    {"require.gain_margin_dB", Type::positive},
+    {"require.phase_margin_deg", Type::positive},
+    {"require.disk_margin", Type::positive},
+    {"require.max_pole", Type::positive},
 
     {"code", Type::table},
     {"code.real", Type::word, no, no, optional, {"float", "double"}},
     {"code.arithmetic", Type::word, no, no, optional, {"plain", "fused"}},
     {"code.style", Type::word, no, no, optional, {"auto", "unrolled", "compact"}},
     {"code.flash", Type::whole},
-
-    {"observer"}, {"observer.poles"}, {"observer.continuous_poles"}, {"observer.form"},
-    {"pole_placement"}, {"pole_placement.poles"}, {"pole_placement.continuous_poles"},
-    {"stage"}, {"stage.from"}, {"stage.A"}, {"stage.B"}, {"stage.C"}, {"stage.D"}, {"stage.G"}, {"stage.Q"},
-    {"stage.R"}, {"stage.N"}, {"stage.process_noise"}, {"stage.measurement_noise"},
-    {"require"}, {"require.gain_margin_dB"}, {"require.phase_margin_deg"}, {"require.disk_margin"},
-    {"require.max_pole"},
 };
 
 std::string name_of(const std::string& path) {
@@ -134,14 +162,11 @@ const KeyRule* nearest(const std::string& parent, const std::string& name) {
   return best;
 }
 
-// The same name in another table; one that works already rather than one that comes later.
+// The same name in another table.
 const KeyRule* elsewhere(const std::string& name) {
-  const KeyRule* found = nullptr;
   for (const KeyRule& rule : rules)
-    if (name_of(rule.path) == name &&
-        (found == nullptr || (found->type == Type::later && rule.type != Type::later)))
-      found = &rule;
-  return found;
+    if (name_of(rule.path) == name) return &rule;
+  return nullptr;
 }
 
 std::string home_of(const KeyRule& rule) {
@@ -154,6 +179,17 @@ std::string home_of(const KeyRule& rule) {
 }  // namespace
 
 const std::vector<KeyRule>& key_rules() { return rules; }
+
+std::string rule_path(const std::string& path) {
+  std::string out;
+  bool inside = false;
+  for (const char c : path) {
+    inside = inside || c == '[';
+    if (!inside) out += c;
+    inside = inside && c != ']';
+  }
+  return out;
+}
 
 const KeyRule* find_rule(const std::string& path) {
   for (const KeyRule& rule : rules)

@@ -8,35 +8,43 @@ namespace lqg::input {
 
 enum class Type {
   table,       // its keys have rows of their own
+  tables,      // an array of such tables: [[stage]]
   identifier,  // the design's name
   line,        // text of one line
   word,        // one of `words`
   positive,    // a number > 0
+  not_negative,
   whole,       // a whole number ≥ 1
+  count,       // a whole number ≥ 0
   matrix,      // an array of rows
   weight,      // a square symmetric matrix, or the array of its diagonal
+  mask,        // a matrix of 0 and 1
   vector,      // an array of numbers
+  positives,   // the same, all > 0
   bounds,      // the same, infinite ones too
-  signals,     // an array of "name [unit]"
-  later        // on the page, not in the program yet
+  indices,     // an array of different whole numbers from 0 to below `rows`
+  poles,       // an array of numbers and of [re, im], conjugates in pairs
+  signals      // an array of "name [unit]"
 };
 
-// The dimensions that shapes are given in: states, inputs, outputs, process noises.
-enum class Size { none, nx, nu, ny, nw };
+// The dimensions that shapes are given in: states, inputs, outputs, process noises, integrated outputs.
+enum class Size { none, nx, nu, ny, nw, integrals };
 
 enum class Need { optional, required };  // of a table's key: required where the table is there
 
 struct KeyRule {
   std::string path;  // "lqr.Q"
-  Type type = Type::later;
+  Type type;
   Size rows = Size::none;
   Size columns = Size::none;
   Need need = Need::optional;
-  std::vector<std::string> words = {};        // the first is the default, unless the domain decides
-  std::vector<std::string> later_words = {};  // on the page, not in the program yet
+  std::vector<std::string> words = {};  // the first is the default, unless the domain decides
 };
 
 const std::vector<KeyRule>& key_rules();
+
+// "stage.A" of "stage[3].A": tables of one array share their rows.
+std::string rule_path(const std::string& path);
 
 // nullptr for a path that is not on the page.
 const KeyRule* find_rule(const std::string& path);

@@ -39,7 +39,7 @@ class MatrixReader {
 
   std::optional<Eigen::MatrixXd> read(const Node& node) const {
     if (!is_array(node) || node.items.empty()) return fail("found " + describe(node));
-    if (rule_.type == Type::vector || rule_.type == Type::bounds) return read_list(node);
+    if (is_list()) return read_list(node);
     if (rule_.type == Type::weight && !is_array(node.items[0])) {
       const auto diagonal = read_list(node);
       if (!diagonal || diagonal->rows() > most_signals) return {};
@@ -50,6 +50,10 @@ class MatrixReader {
   }
 
  private:
+  bool is_list() const {
+    return rule_.type == Type::vector || rule_.type == Type::positives || rule_.type == Type::bounds;
+  }
+
   std::nullopt_t fail(const std::string& found) const {
     report_.error(rule_.path, expected() + ", " + found);
     return std::nullopt;
@@ -61,7 +65,7 @@ class MatrixReader {
   }
 
   std::string expected() const {
-    if (rule_.type == Type::vector || rule_.type == Type::bounds)
+    if (is_list())
       return "expected an array of " + sized(rows_, rule_.rows, "number");
     const std::string diagonal = rule_.type == Type::weight ? ", or the array of its diagonal" : "";
     return "expected an array of " + sized(rows_, rule_.rows, "row") + " of " +
@@ -117,6 +121,10 @@ class MatrixReader {
         wrong = "expected a number, found " + describe(item);
       else if (std::isnan(item.number) || (std::isinf(item.number) && rule_.type != Type::bounds))
         wrong = "expected a finite number, found " + shown(item.number);
+      else if (rule_.type == Type::positives && !(item.number > 0))
+        wrong = "expected a number > 0, found " + shown(item.number);
+      else if (rule_.type == Type::mask && item.number != 0 && item.number != 1)
+        wrong = "expected 0 or 1, found " + shown(item.number);
       if (!wrong.empty()) {
         report_.error(indexed(key, j), item.where, wrong);
         return false;
@@ -161,6 +169,7 @@ std::string name_of(Size size) {
     case Size::nu: return "nu";
     case Size::ny: return "ny";
     case Size::nw: return "nw";
+    case Size::integrals: return "integrated outputs";
     case Size::none: break;
   }
   return "1";
@@ -177,6 +186,8 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
   sizes[Size::nx] = limited(nx == columns ? nx : -1);
   sizes[Size::nu] = limited(shape("plant.B", 0).second);
   sizes[Size::ny] = limited(shape("plant.C", 0).first);
+  const auto integrated = nodes.find("lqr.integral.outputs");
+  sizes[Size::integrals] = integrated == nodes.end() ? 0 : limited(static_cast<int>(integrated->second->items.size()));
   sizes[Size::nw] = limited(shape("plant.G", sizes[Size::nx]).second);
   return sizes;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "input/lists.hpp"
 #include "input/matrices.hpp"
 #include "input/names.hpp"
 #include "input/text.hpp"
@@ -37,20 +38,19 @@ class Collector {
  public:
   Collector(Nodes& nodes, Values& values, Report& report) : nodes_(nodes), values_(values), report_(report) {}
 
-  // `later`: inside of a table that is not supported yet, of which only unknown keys are worth a word.
-  void walk(const Node& table, const std::string& parent, bool later) {
+  void walk(const Node& table, const std::string& parent) {
     values_.tables.insert(parent);
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
       const std::string path = joined(parent, table.keys[i].name);
-      const KeyRule* rule = find_rule(path);
+      const KeyRule* rule = find_rule(rule_path(path));
       report_.place(path, table.items[i].where);
       values_.present.insert(path);
       if (rule == nullptr)
         report_unknown(table.keys[i], table.items[i], parent, path);
-      else if (rule->type == Type::later)
-        report_later(table.keys[i], table.items[i], path, later);
       else if (rule->type == Type::table)
         enter(table.items[i], path);
+      else if (rule->type == Type::tables)
+        enter_all(table.items[i], path);
       else
         nodes_[path] = &table.items[i];
     }
@@ -58,23 +58,26 @@ class Collector {
 
  private:
   void report_unknown(const Key& key, const Node& node, const std::string& parent, const std::string& path) {
-    const Suggestion suggestion = suggest(parent, key.name);
+    const Suggestion suggestion = suggest(rule_path(parent), key.name);
     values_.present.insert(suggestion.path);
     report_.error(path, start_of(key, node), suggestion.message);
   }
 
-  void report_later(const Key& key, const Node& node, const std::string& path, bool later) {
-    if (!later) report_.error(path, start_of(key, node), "not supported yet");
-    if (node.kind == Kind::table) walk(node, path, true);
-    for (const Node& item : node.items)
-      if (node.kind == Kind::array && item.kind == Kind::table) walk(item, path, true);
-  }
-
   void enter(const Node& node, const std::string& path) {
     if (node.kind == Kind::table)
-      walk(node, path, false);
+      walk(node, path);
     else
       report_.error(path, "expected a table, found " + describe(node));
+  }
+
+  void enter_all(const Node& node, const std::string& path) {
+    if (node.kind != Kind::array || node.items.empty())
+      return report_.error(path, "expected tables [[" + path + "]], found " + describe(node));
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const std::string item = path + "[" + std::to_string(i) + "]";
+      report_.place(item, node.items[i].where);
+      enter(node.items[i], item);
+    }
   }
 
   Nodes& nodes_;
@@ -93,6 +96,12 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// "stage[0].from" of the table "stage[0]" and the rule of "stage.from".
+std::string joined_rule(const std::string& table, const KeyRule& rule) {
+  const std::string parent = parent_of(rule.path);
+  return parent.empty() ? rule.path : table + rule.path.substr(parent.size());
+}
+
 // Reads one key after the other into `values`.
 class ValueReader {
  public:
@@ -104,18 +113,28 @@ class ValueReader {
       case Type::identifier: read_text(rule, node, check_design_name); break;
       case Type::line: read_text(rule, node, check_comment_text); break;
       case Type::word: read_word(rule, node); break;
-      case Type::positive: read_positive(rule, node); break;
-      case Type::whole: read_whole(rule, node); break;
+      case Type::positive: read_number(rule, node, "a number > 0", [](double x) { return x > 0; }); break;
+      case Type::not_negative: read_number(rule, node, "a number ≥ 0", [](double x) { return x >= 0; }); break;
+      case Type::whole: read_whole(rule, node, 1); break;
+      case Type::count: read_whole(rule, node, 0); break;
       case Type::signals: read_signals(rule, node); break;
+      case Type::indices:
+        if (auto indices = read_indices(rule, node, values_.sizes, report_)) values_.indices[rule.path] = *indices;
+        break;
+      case Type::poles:
+        if (auto poles = read_poles(rule.path, node, report_)) values_.poles[rule.path] = *poles;
+        break;
       case Type::matrix:
       case Type::weight:
+      case Type::mask:
       case Type::vector:
+      case Type::positives:
       case Type::bounds:
         if (auto matrix = read_matrix(rule, node, values_.sizes, report_))
           values_.matrices[rule.path] = *matrix;
         break;
       case Type::table:
-      case Type::later: break;
+      case Type::tables: break;
     }
   }
 
@@ -141,25 +160,22 @@ class ValueReader {
 
   void read_word(const KeyRule& rule, const Node& node) {
     if (node.kind != Kind::text) return expected(rule, listed(rule.words), describe(node));
-    if (contains(rule.later_words, node.text))
-      report_.error(rule.path, in_quotes(node.text) + " is not supported yet, expected " + listed(rule.words));
-    else if (!contains(rule.words, node.text))
+    if (!contains(rule.words, node.text))
       expected(rule, listed(rule.words), in_quotes(node.text));
     else
       values_.texts[rule.path] = node.text;
   }
 
-  void read_positive(const KeyRule& rule, const Node& node) {
-    if (node.kind != Kind::number) return expected(rule, "a number > 0", describe(node));
-    if (!(node.number > 0) || std::isinf(node.number))
-      return expected(rule, "a number > 0", shown(node.number));
+  void read_number(const KeyRule& rule, const Node& node, const char* wanted, bool (*is_good)(double)) {
+    if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
+    if (!is_good(node.number) || std::isinf(node.number)) return expected(rule, wanted, shown(node.number));
     values_.numbers[rule.path] = node.number;
   }
 
-  void read_whole(const KeyRule& rule, const Node& node) {
-    const char* wanted = "a whole number from 1 to 2147483647";
+  void read_whole(const KeyRule& rule, const Node& node, int least) {
+    const std::string wanted = "a whole number from " + std::to_string(least) + " to 2147483647";
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
-    const bool good = node.number >= 1 && node.number <= 2147483647 && node.number == std::floor(node.number);
+    const bool good = node.number >= least && node.number <= 2147483647 && node.number == std::floor(node.number);
     if (!good) return expected(rule, wanted, shown(node.number));
     values_.numbers[rule.path] = node.number;
   }
@@ -206,10 +222,12 @@ class ValueReader {
 };
 
 void report_missing(const Values& values, Report& report) {
-  const bool other_Q = values.has("lqr.Q_output") || values.has("lqr.bryson");
   for (const KeyRule& rule : key_rules()) {
-    if (rule.need == Need::optional || values.has(rule.path) || (rule.path == "lqr.Q" && other_Q)) continue;
-    if (values.tables.count(parent_of(rule.path)) != 0) report.error(rule.path, "missing");
+    if (rule.need == Need::optional) continue;
+    for (const std::string& table : values.tables) {
+      const std::string path = joined_rule(table, rule);
+      if (rule_path(table) == parent_of(rule.path) && !values.has(path)) report.error(path, "missing");
+    }
   }
 }
 
@@ -230,14 +248,32 @@ std::string Values::text(const std::string& key) const {
   return found == texts.end() ? "" : found->second;
 }
 
+double Values::number(const std::string& key, double absent) const {
+  const auto found = numbers.find(key);
+  return found == numbers.end() ? absent : found->second;
+}
+
+std::vector<std::string> Values::tables_of(const std::string& key) const {
+  std::vector<std::string> found;
+  for (int i = 0; tables.count(key + "[" + std::to_string(i) + "]") != 0; ++i)
+    found.push_back(key + "[" + std::to_string(i) + "]");
+  return found;
+}
+
 Values read_values(const Node& document, Report& report) {
   Values values;
   Nodes nodes;
-  Collector(nodes, values, report).walk(document, "", false);
+  Collector(nodes, values, report).walk(document, "");
   values.sizes = measure(nodes);
   ValueReader reader(values, report);
-  for (const KeyRule& rule : key_rules())
-    if (const auto node = nodes.find(rule.path); node != nodes.end()) reader.read(rule, *node->second);
+  for (const KeyRule& rule : key_rules()) {
+    for (const std::string& table : values.tables) {
+      if (rule_path(table) != parent_of(rule.path)) continue;
+      KeyRule instance = rule;
+      instance.path = joined_rule(table, rule);
+      if (const auto node = nodes.find(instance.path); node != nodes.end()) reader.read(instance, *node->second);
+    }
+  }
   report_missing(values, report);
   return values;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <map>
 #include <set>
 #include <string>
@@ -14,13 +15,15 @@
 
 namespace lqg::input {
 
-// Each map holds what could be read, by its key. Vectors are n × 1, weights given as a diagonal are full
+// Each map holds what could be read, by its key: "lqr.Q", "stage[0].Q". Vectors are n × 1, weights given as a diagonal are full
 // matrices.
 struct Values {
   std::map<std::string, Eigen::MatrixXd> matrices;
   std::map<std::string, std::string> texts;
   std::map<std::string, double> numbers;
   std::map<std::string, std::vector<design::Signal>> signals;
+  std::map<std::string, std::vector<int>> indices;
+  std::map<std::string, std::vector<std::complex<double>>> poles;  // conjugates side by side, +j first
   std::map<Size, int> sizes;  // 0: there are none; −1: not known, because what tells them is wrong
   std::set<std::string>
       present;  // keys in the file, right or wrong, and those that an unknown key seems to mean
@@ -29,6 +32,8 @@ struct Values {
   bool has(const std::string& key) const { return present.count(key) != 0; }
   const Eigen::MatrixXd* matrix(const std::string& key) const;  // nullptr: absent or wrong
   std::string text(const std::string& key) const;               // "": absent or wrong
+  double number(const std::string& key, double absent) const;
+  std::vector<std::string> tables_of(const std::string& key) const;  // "stage[0]", "stage[1]", …
 };
 
 // Reads all that can be read and reports all that is wrong with single keys.

@@ -55,6 +55,62 @@ style = "compact"
 flash = 1024
 )";
 
+const std::string more = R"(name = "more"
+[plant]
+domain = "continuous"
+sample_time = 0.5
+delay = 0.75
+A = [[0, 1], [-0.5, -0.25]]
+B = [[0, 3], [1, 4]]
+C = [[1, 0.5], [0, 1]]
+G = [[1], [2]]
+H = [[0.5], [0.25]]
+[lqr]
+bryson = { outputs = [2, 4], inputs = [0.5, 8], rho = 3 }
+settling_time = 2
+horizon = 12
+Q_final = [1, 2]
+structure = [[1, 0], [0, 1]]
+integral = { outputs = [1, 0], Q = [[2, 0.5], [0.5, 3]] }
+track = [1]
+input_rate = [5, 6]
+[kalman]
+process_noise = [7]
+measurement_noise = [0, 0]
+process_correlation_time = [0.1]
+measurement_correlation_time = [0.2, 0.3]
+gain = "schedule"
+horizon = 9
+gate = 3
+[limits]
+u_rate = [10, inf]
+[[stage]]
+from = 4
+A = [[0, 2], [-0.5, -0.25]]
+R = [1, 2]
+[[stage]]
+from = 8
+process_noise = [9]
+[require]
+gain_margin_dB = 6
+phase_margin_deg = 30
+disk_margin = 0.4
+max_pole = 0.98
+)";
+
+const std::string placed = R"(name = "placed"
+[plant]
+domain = "discrete"
+sample_time = 1
+A = [[0, 1], [1, 0]]
+B = [[0], [1]]
+C = [[1, 0]]
+[pole_placement]
+continuous_poles = [[-1, -2], [-1, 2]]
+[observer]
+poles = [0.5, 0.25]
+)";
+
 const std::string least =
     "name = \"a\"\nplant = { domain = \"continuous\", sample_time = 1, A = [[0]], B = [[1]], C = [[1]] }\n";
 const std::string lqr = "[lqr]\nQ = [1]\nR = [1]\n";
@@ -135,6 +191,55 @@ void test_estimator_and_code_have_what_the_file_says() {
   TEST_ASSERT_EQUAL_INT(1024, p.code.flash);
 }
 
+void test_rarer_keys_of_plant_and_regulator_are_read() {
+  const Problem p = problem(more);
+  TEST_ASSERT_EQUAL_DOUBLE(0.75, p.plant.delay);
+  expect_matrix({0.5, 0.25}, p.plant.H);
+  const design::Regulator& regulator = *p.regulator;
+  TEST_ASSERT_TRUE(regulator.Q.size() == 0 && regulator.R.size() == 0 && regulator.bryson->states.size() == 0 && !regulator.decay);
+  expect_matrix({2, 4}, regulator.bryson->outputs);
+  expect_matrix({0.5, 8}, regulator.bryson->inputs);
+  TEST_ASSERT_EQUAL_DOUBLE(3, regulator.bryson->rho);
+  TEST_ASSERT_EQUAL_DOUBLE(2, *regulator.settling_time);
+  TEST_ASSERT_EQUAL_INT(12, regulator.horizon);
+  expect_matrix({1, 0, 0, 2}, regulator.Q_final);
+  expect_matrix({1, 0, 0, 1}, regulator.structure);
+  TEST_ASSERT_TRUE(regulator.integral->outputs == std::vector<int>({1, 0}) && regulator.track == std::vector<int>({1}));
+  expect_matrix({2, 0.5, 0.5, 3}, regulator.integral->Q);
+  expect_matrix({5, 0, 0, 6}, regulator.input_rate);
+}
+
+void test_rarer_keys_of_the_estimator_and_the_rest_are_read() {
+  const Problem p = problem(more);
+  const design::Estimator& estimator = *p.estimator;
+  expect_matrix({0, 0, 0, 0}, estimator.V);
+  expect_matrix({0.1}, estimator.process_correlation_time);
+  expect_matrix({0.2, 0.3}, estimator.measurement_correlation_time);
+  TEST_ASSERT_TRUE(estimator.gain == design::Gain::schedule && estimator.horizon == 9 && estimator.gate == 3);
+  TEST_ASSERT_EQUAL_DOUBLE(10, p.limits->u_rate(0));
+  TEST_ASSERT_TRUE(std::isinf(p.limits->u_rate(1)));
+  TEST_ASSERT_EQUAL_INT(2, p.stages.size());
+  TEST_ASSERT_TRUE(p.stages[0].from == 4 && p.stages[1].from == 8 && p.stages[1].A.size() == 0);
+  expect_matrix({0, 2, -0.5, -0.25}, p.stages[0].A);
+  expect_matrix({1, 0, 0, 2}, p.stages[0].R);
+  expect_matrix({9}, p.stages[1].W);
+  TEST_ASSERT_EQUAL_DOUBLE(6, *p.requirements.gain_margin_dB);
+  TEST_ASSERT_EQUAL_DOUBLE(30, *p.requirements.phase_margin_deg);
+  TEST_ASSERT_EQUAL_DOUBLE(0.4, *p.requirements.disk_margin);
+  TEST_ASSERT_EQUAL_DOUBLE(0.98, *p.requirements.max_pole);
+}
+
+void test_wanted_poles_stand_beside_their_conjugates() {
+  const Problem p = problem(placed);
+  const design::WantedPoles& regulator = *p.regulator->poles;
+  const design::WantedPoles& observer = *p.estimator->poles;
+  TEST_ASSERT_TRUE(regulator.continuous && !observer.continuous && regulator.values.size() == 2);
+  TEST_ASSERT_TRUE(regulator.values[0] == std::complex<double>(-1, 2));
+  TEST_ASSERT_TRUE(regulator.values[1] == std::complex<double>(-1, -2));
+  TEST_ASSERT_TRUE(observer.values[0] == 0.5 && observer.values[1] == 0.25);
+  TEST_ASSERT_TRUE(p.estimator->form == design::Form::predictor && p.regulator->Q.size() == 0);
+}
+
 void test_what_is_left_out_has_its_default() {
   const Problem p = problem(least + lqr + kalman);
   expect_matrix({0}, p.plant.D);
@@ -142,6 +247,9 @@ void test_what_is_left_out_has_its_default() {
   expect_signal("x0", "", p.plant.states[0]);
   expect_signal("u0", "", p.plant.inputs[0]);
   expect_signal("y0", "", p.plant.outputs[0]);
+  expect_matrix({0}, p.plant.H);
+  TEST_ASSERT_TRUE(p.plant.delay == 0 && p.stages.empty() && !p.requirements.max_pole);
+  TEST_ASSERT_TRUE(p.regulator->horizon == 0 && !p.regulator->integral && p.regulator->track.empty());
   expect_matrix({0}, p.regulator->N);
   expect_matrix({0}, p.estimator->Swv);
   expect_matrix({0}, p.estimator->x0);
@@ -195,7 +303,7 @@ void test_regulator_alone_says_what_it_does_not_use() {
 }
 
 void test_covariance_of_a_steady_gain_is_said_to_be_unused() {
-  expect_lines("d.toml:9:14: note: kalman.covariance: not used with gain = \"steady\"\n",
+  expect_lines("d.toml:9:14: note: kalman.covariance: not used without gain = \"online\"\n",
                least + lqr + kalman + "covariance = \"plain\"\n");
 }
 
@@ -316,6 +424,9 @@ int main() {
   RUN_TEST(test_plant_has_what_the_file_says);
   RUN_TEST(test_regulator_and_limits_have_what_the_file_says);
   RUN_TEST(test_estimator_and_code_have_what_the_file_says);
+  RUN_TEST(test_rarer_keys_of_plant_and_regulator_are_read);
+  RUN_TEST(test_rarer_keys_of_the_estimator_and_the_rest_are_read);
+  RUN_TEST(test_wanted_poles_stand_beside_their_conjugates);
   RUN_TEST(test_what_is_left_out_has_its_default);
   RUN_TEST(test_cost_and_noise_follow_the_domain);
   RUN_TEST(test_domain_that_is_left_out_is_said_to_be_continuous);

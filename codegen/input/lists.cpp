@@ -1,0 +1,102 @@
+#include "input/lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/matrices.hpp"
+#include "input/values.hpp"
+
+namespace lqg::input {
+namespace {
+
+using Pole = std::complex<double>;
+
+std::string item_of(const std::string& key, std::size_t index) {
+  return key + "[" + std::to_string(index) + "]";
+}
+
+bool is_finite_number(const Node& node) { return node.kind == Kind::number && std::isfinite(node.number); }
+
+std::optional<Pole> read_pole(const Node& node) {
+  if (is_finite_number(node)) return Pole(node.number, 0);
+  const bool is_pair = node.kind == Kind::array && node.items.size() == 2 && is_finite_number(node.items[0]) &&
+                       is_finite_number(node.items[1]);
+  if (!is_pair) return {};
+  return Pole(node.items[0].number, node.items[1].number);
+}
+
+std::string shown_pole(const Pole& pole) { return "[" + shown(pole.real()) + ", " + shown(pole.imag()) + "]"; }
+
+// Takes the conjugate of `pole` out of `poles`.
+bool take_conjugate(std::vector<Pole>& poles, const Pole& pole) {
+  const auto found = std::find(poles.begin(), poles.end(), std::conj(pole));
+  if (found == poles.end()) return false;
+  poles.erase(found);
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node,
+                                             const std::map<Size, int>& sizes, Report& report) {
+  const int size = sizes.at(rule.rows);
+  const std::string wanted = size > 0 ? "a whole number from 0 to " + std::to_string(size - 1) + " (" +
+                                            name_of(rule.rows) + " − 1)"
+                                      : "a whole number ≥ 0";
+  if (node.kind != Kind::array || node.items.empty()) {
+    report.error(rule.path, "expected an array of indices, found " + describe(node));
+    return {};
+  }
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const Node& item = node.items[i];
+    const bool is_number = item.kind == Kind::number;
+    const bool good = is_number && item.number >= 0 && item.number == std::floor(item.number) &&
+                      item.number < (size > 0 ? size : most_signals);
+    std::string wrong;
+    if (!good)
+      wrong = "expected " + wanted + ", found " + (is_number ? shown(item.number) : describe(item));
+    else if (std::find(indices.begin(), indices.end(), static_cast<int>(item.number)) != indices.end())
+      wrong = "expected every index once, found " + shown(item.number) + " again";
+    if (!wrong.empty()) {
+      report.error(item_of(rule.path, i), item.where, wrong);
+      return {};
+    }
+    indices.push_back(static_cast<int>(item.number));
+  }
+  return indices;
+}
+
+std::optional<std::vector<Pole>> read_poles(const std::string& key, const Node& node, Report& report) {
+  if (node.kind != Kind::array || node.items.empty()) {
+    report.error(key, "expected an array of poles, found " + describe(node));
+    return {};
+  }
+  std::vector<Pole> left;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const std::optional<Pole> pole = read_pole(node.items[i]);
+    if (!pole) {
+      report.error(item_of(key, i), node.items[i].where,
+                   "expected a finite number or [re, im], found " + describe(node.items[i]));
+      return {};
+    }
+    left.push_back(*pole);
+  }
+  std::vector<Pole> poles;
+  while (!left.empty()) {
+    const Pole pole = left.front();
+    left.erase(left.begin());
+    if (pole.imag() == 0) {
+      poles.push_back(pole);
+    } else if (take_conjugate(left, pole)) {
+      const Pole upper = pole.imag() > 0 ? pole : std::conj(pole);
+      poles.insert(poles.end(), {upper, std::conj(upper)});
+    } else {
+      report.error(key, "expected the conjugate of " + shown_pole(pole) + ", too");
+      return {};
+    }
+  }
+  return poles;
+}
+
+}  // namespace lqg::input

@@ -1,0 +1,25 @@
+// Lists of a design file that are no vectors: indices, and poles.
+#pragma once
+
+#include <complex>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "input/document.hpp"
+#include "input/keys.hpp"
+#include "input/report.hpp"
+
+namespace lqg::input {
+
+// Different whole numbers from 0 to below the size of the rule's rows; nothing, and what is wrong reported,
+// when they cannot be had.
+std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node,
+                                             const std::map<Size, int>& sizes, Report& report);
+
+// Numbers, and [re, im] with their conjugates somewhere in the list; in the result these stand side by side,
+// the positive imaginary part first.
+std::optional<std::vector<std::complex<double>>> read_poles(const std::string& key, const Node& node,
+                                                            Report& report);
+
+}  // namespace lqg::input
