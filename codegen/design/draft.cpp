@@ -29,7 +29,10 @@ void draft_regulator(const Problem& problem, const Samples& samples, const Draft
   if (found.failure != RiccatiFailure::none) result.may_want_digits = true;
   if (found.failure != RiccatiFailure::none) return;
   take_condition(result.solution, found);
-  result.solution.regulator = RegulatorSolution{*samples.cost, found.K, found.X, {}};
+  RegulatorSolution& regulator = result.solution.regulator.emplace();
+  regulator.cost = *samples.cost;
+  regulator.K = found.K;
+  regulator.X = found.X;
   result.regulator_poles = eigenvalues(found.closed);
   for (const ComplexReal& pole : result.regulator_poles)
     if (!(hypot(pole.re, pole.im) < 1) && problem.regulator->cost == Cost::continuous)
