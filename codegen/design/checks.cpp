@@ -85,11 +85,11 @@ std::vector<ComplexReal> rough_poles(const Plant& plant) {
   return eigenvalues(real(plant.A));
 }
 
-// Unstable modes that B reaches in continuous time and does not in the samples. With the numbers of a file no
+// Unstable modes (or all) that B reaches in continuous time and does not in the samples. With the numbers of a file no
 // two poles become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is
 // one more pole at s = 0.
 std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B,
-                                         bool is_held) {
+                                         bool is_held, bool every_mode) {
   const Real weak = 1e-6;
   std::vector<ComplexReal> merged, poles = rough_poles(plant);
   const std::size_t count = poles.size();
@@ -104,7 +104,7 @@ std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A
   const RealMatrix reach = B.unaryExpr([&](const Real& b) { return abs(b) > weak * usual ? b : Real(0); });
   for (const Mode& mode : unreached_sampled_modes(A, reach, weak).modes)
     for (const ComplexReal& z : merged)
-      if (on_or_outside_circle(z)
+      if ((every_mode || on_or_outside_circle(z))
           && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
         lost.push_back({z, mode.states});
         break;
@@ -156,18 +156,20 @@ struct Pair {
 
 struct Words {
   std::string key, none, weak, lost;
+  bool every_mode = false;
 };
 
-// Errors for unstable modes that B does not reach, or that it reaches no more by sampling. False when the
+// Errors for unstable modes (or all) that B does not reach, or that it reaches no more by sampling. False when the
 // digits in force see another number of modes than there are exactly.
 bool check_pair(const Plant& plant, const Pair& pair, const Words& words, Findings& findings) {
   const Unreached unreached = unreached_modes_of(plant, pair.A, pair.B);
   const bool certain = unreached.dimension == pair.A.rows() - reached_dimension(pair.A, pair.B);
   for (const Mode& mode : unreached.modes)
-    if (is_unstable(plant, mode))
+    if (words.every_mode || is_unstable(plant, mode))
       add_once(findings, words.key, name_mode(plant, mode, true) + (certain ? words.none : words.weak));
   if (!certain || has_error(findings) || plant.domain == Domain::discrete) return certain;
-  for (const Mode& mode : modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held))
+  for (const Mode& mode :
+       modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held, words.every_mode))
     add_once(findings, "plant.sample_time", name_mode(plant, mode, false) + words.lost);
   return true;
 }
@@ -184,32 +186,32 @@ void add_note(Findings& findings, const std::string& key, const std::string& mes
 
 void check_kinds(const Problem& problem, Findings& findings) {
   if (problem.plant.domain == Domain::continuous) return;
-  if (problem.regulator && problem.regulator->cost != Cost::discrete)
+  if (has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete)
     add_error(findings, "lqr.cost", "expected \"discrete\": the plant is given at its samples only");
-  if (problem.estimator && problem.estimator->noise != Noise::discrete)
+  if (has_noise(problem.estimator) && problem.estimator->noise != Noise::discrete)
     add_error(findings, "kalman.noise", "expected \"discrete\": the plant is given at its samples only");
 }
 
 void check_symmetry(const Problem& problem, Findings& findings) {
-  if (problem.regulator) {
+  if (has_cost(problem.regulator)) {
     check_symmetric(problem.regulator->Q, "lqr.Q", findings);
     check_symmetric(problem.regulator->R, "lqr.R", findings);
   }
-  if (!problem.estimator) return;
+  if (!has_noise(problem.estimator)) return;
   check_symmetric(problem.estimator->W, "kalman.process_noise", findings);
   check_symmetric(problem.estimator->V, "kalman.measurement_noise", findings);
   check_symmetric(problem.estimator->P0, "kalman.initial_covariance", findings);
 }
 
 void check_definiteness(const Problem& problem, Findings& findings) {
-  if (problem.regulator) {
+  if (has_cost(problem.regulator)) {
     const Regulator& lqr = *problem.regulator;
     check_joint(lqr.Q, lqr.N, lqr.R, "lqr.Q", "lqr.N", "lqr.R", findings);
     if (lqr.cost == Cost::continuous && !positive_definite(real(lqr.R)))
       add_error(findings, "lqr.R",
                 "expected a positive definite matrix: the continuous gain needs its inverse");
   }
-  if (!problem.estimator) return;
+  if (!has_noise(problem.estimator)) return;
   const Estimator& kalman = *problem.estimator;
   check_joint(kalman.W, kalman.Swv, kalman.V, "kalman.process_noise", "kalman.cross_noise",
               "kalman.measurement_noise", findings);
@@ -240,6 +242,35 @@ bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findi
                      " is seen too weakly in the outputs: the plant is hardly detectable",
                      " can be seen, but not at these samples: the sample time matches its oscillation"},
                     findings);
+}
+
+bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
+  const Plant& plant = problem.plant;
+  const bool certain =
+      check_pair(plant, {plant.A, plant.B, sampled.A, sampled.B, true},
+                 {"plant.B", " is reached by no input: its pole cannot be moved",
+                  " is reached too weakly by the inputs: its pole can hardly be moved",
+                  " cannot be moved with inputs held that long: the sample time matches its oscillation", true},
+                 findings);
+  if (has_error(findings)) return certain;
+  for (const Mode& mode : unreached_sampled_modes(sampled.A, sampled.B).modes)
+    add_once(findings, "plant.B", name_mode(plant, mode, false) + " is reached by no input: its pole cannot be moved");
+  return certain;
+}
+
+bool check_observable(const Problem& problem, const SampledPlant& sampled, const RealMatrix& seen,
+                      Findings& findings) {
+  const Plant& plant = problem.plant;
+  const bool certain =
+      check_pair(plant, {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(), false},
+                 {"plant.C", " is seen in no output: its pole cannot be moved",
+                  " is seen too weakly in the outputs: its pole can hardly be moved",
+                  " cannot be seen at these samples: the sample time matches its oscillation", true},
+                 findings);
+  if (has_error(findings)) return certain;
+  for (const Mode& mode : unreached_sampled_modes(sampled.A.transpose(), seen.transpose()).modes)
+    add_once(findings, "plant.C", name_mode(plant, mode, false) + " is not seen in time: its pole cannot be moved");
+  return certain;
 }
 
 // The modes of (A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ) that are not observable: with R > 0 the only ones that cost nothing.

@@ -24,6 +24,12 @@ void check_definiteness(const Problem& problem, Findings& findings);
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 
+// The same of every mode, stable or not: poles are to be placed. `seen` is what of the state an observer's error
+// shows: C, or CA in filter form.
+bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
+bool check_observable(const Problem& problem, const SampledPlant& sampled, const RealMatrix& seen,
+                      Findings& findings);
+
 // A mode on the stability limit that carries no weight, or that no process noise drives, has no stabilising
 // solution.
 void check_weights_on_limit(const Problem& problem, const Samples& samples, Findings& findings);

@@ -6,6 +6,7 @@
 #include "design/checks.hpp"
 #include "design/cost.hpp"
 #include "design/estimator.hpp"
+#include "design/placed.hpp"
 #include "design/regulator.hpp"
 #include "design/representable.hpp"
 #include "design/rounding.hpp"
@@ -41,6 +42,27 @@ void draft_regulator(const Problem& problem, const Samples& samples, const Draft
           "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");
 }
 
+void draft_placed_regulator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
+  const PlacedGain placed = place_regulator(problem, samples.plant,
+                                            coarser ? &*coarser->regulator_choice : nullptr, result.findings);
+  result.may_want_digits = placed.may_want_digits;
+  if (has_error(result.findings)) return;
+  result.regulator_choice = placed.choice;
+  result.regulator_poles = placed.poles;
+  result.solution.regulator.emplace();
+  result.solution.regulator->K = placed.gain;
+}
+
+void draft_placed_estimator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
+  const PlacedGain placed = place_observer(problem, samples.plant,
+                                           coarser ? &*coarser->estimator_choice : nullptr, result.findings);
+  result.may_want_digits = result.may_want_digits || placed.may_want_digits;
+  if (has_error(result.findings)) return;
+  result.estimator_choice = placed.choice;
+  result.estimator_poles = placed.poles;
+  result.solution.estimator = observer_of(samples.plant, problem.estimator->form, placed.gain);
+}
+
 void draft_estimator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
   if (!check_detectable(problem, samples.plant, result.findings)) result.may_want_digits = true;
   check_noise_on_limit(problem, samples, result.findings);
@@ -66,9 +88,11 @@ Draft draft(const Problem& problem, const Draft* coarser) {
   check_representable(result.solution, problem.code.real, result.findings);
   if (has_error(result.findings)) return result;
   result.findings.clear();  // the notes come at the end, with the others
-  if (problem.regulator) draft_regulator(problem, samples, coarser, result);
-  if (problem.estimator) draft_estimator(problem, samples, coarser, result);
-  if (has_error(result.findings) || !problem.regulator || !problem.estimator) return result;
+  if (problem.regulator)
+    (has_cost(problem.regulator) ? draft_regulator : draft_placed_regulator)(problem, samples, coarser, result);
+  if (problem.estimator)
+    (has_noise(problem.estimator) ? draft_estimator : draft_placed_estimator)(problem, samples, coarser, result);
+  if (has_error(result.findings) || !has_cost(problem.regulator) || !has_noise(problem.estimator)) return result;
   const SteadyCost cost = steady_cost(problem, samples, result.solution);
   result.cost_per_sample = cost.per_sample;
   result.cost_per_second = cost.per_second;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "design/linear_algebra.hpp"
+#include "design/placement.hpp"
 #include "design/solution.hpp"
 
 namespace lqg::design {
@@ -10,6 +11,7 @@ namespace lqg::design {
 struct Draft {
   Solution solution;
   std::vector<ComplexReal> regulator_poles, estimator_poles;
+  std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
   std::optional<Real> cost_per_sample, cost_per_second;
   Findings findings;             // with an error: the rest is not complete
   bool may_want_digits = false;  // the error may be one of too few digits

@@ -71,6 +71,9 @@ struct Regulator {
   std::optional<WantedPoles> poles; // [pole_placement]: K has these poles; no weight is there then
 };
 
+// Placed poles need no weights.
+inline bool has_cost(const std::optional<Regulator>& regulator) { return regulator && !regulator->poles; }
+
 enum class Noise { discrete, continuous };
 enum class Gain { steady, schedule, online };
 enum class Form { filter, predictor };
@@ -91,6 +94,9 @@ struct Estimator {
   Eigen::MatrixXd structure;        // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
   std::optional<WantedPoles> poles; // [observer]: L has these poles; no noise is there then
 };
+
+// Placed poles need no noise.
+inline bool has_noise(const std::optional<Estimator>& estimator) { return estimator && !estimator->poles; }
 
 struct Limits {
   Eigen::VectorXd u_min, u_max;  // −∞ or +∞ where there is none

@@ -7,16 +7,16 @@ namespace lqg::design {
 namespace {
 
 bool noise_is_sampled(const Problem& problem) {
-  return problem.estimator && problem.estimator->noise == Noise::continuous;
+  return has_noise(problem.estimator) && problem.estimator->noise == Noise::continuous;
 }
 
 bool cost_is_integral(const Problem& problem) {
-  return problem.regulator && problem.regulator->cost != Cost::discrete;
+  return has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete;
 }
 
 // Does the integral see w as an input that is held: noise of that kind, or the part of it that v tells.
 bool cost_sees_held_noise(const Problem& problem) {
-  return problem.estimator && cost_is_integral(problem)
+  return has_noise(problem.estimator) && cost_is_integral(problem)
          && (!noise_is_sampled(problem) || !problem.estimator->Swv.isZero(0));
 }
 
@@ -92,8 +92,8 @@ Samples sample(const Problem& problem) {
     samples = continuous_samples(problem);
   else
     samples.plant = {real(plant.A), real(plant.B), real(plant.C), real(plant.D), real(plant.G)};
-  if (problem.regulator && !samples.cost) samples.cost = weights_of(*problem.regulator);
-  if (problem.estimator && !samples.noise)
+  if (has_cost(problem.regulator) && !samples.cost) samples.cost = weights_of(*problem.regulator);
+  if (has_noise(problem.estimator) && !samples.noise)
     samples.noise =
         SampledNoise{real(problem.estimator->W), real(problem.estimator->V), real(problem.estimator->Swv)};
   return samples;

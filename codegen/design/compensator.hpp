@@ -1,0 +1,38 @@
+// The controller as one linear system, and the loops that it closes around a plant.
+#pragma once
+
+#include "design/linear_algebra.hpp"
+#include "design/problem.hpp"
+#include "design/solution.hpp"
+
+namespace lqg::design {
+
+// s⁺ = A s + B y, u = C s + D y with r = 0 and no limits; s = [x̂⁻; ξ; u[k−1]], each where the design has it.
+// Without a filter the state itself is measured: y = x.
+struct Compensator {
+  RealMatrix A, B, C, D;
+};
+
+// What the controller sees of the plant: x⁺ = A x + B u + G w, y = C x + D u + v. In filter form y is sampled
+// while the last u acts, so that with D that u is a state too; in predictor form the controller's D is 0:
+// (controller's D)(plant's D) = 0 always.
+struct MeasuredPlant {
+  RealMatrix A, B, C, D, G;
+};
+
+// Of the numbers in `solution`, which may be those that the target holds:
+//   e = y − C x̂ − D u,  x̂ ← x̂ + L e,  u = −K [x̂; ξ; u[k−1]] (a Δu with `input_rate`),
+//   x̂ ← A x̂ + B u + M e,  ξ ← ξ − T y;  in predictor form u comes before e, and is made of x̂ without it.
+// `solution` has a regulator.
+Compensator compensator(const Problem& problem, const Solution& solution);
+
+MeasuredPlant measured_plant(const Problem& problem, const SampledPlant& plant);
+
+// [x; s]⁺ of plant and controller, A; what [w; v] adds to it, B. The plant's input is u = C [x; s] + D [w; v].
+struct ClosedLoop {
+  RealMatrix A, B, C, D;
+};
+
+ClosedLoop closed_loop(const MeasuredPlant& plant, const Compensator& controller);
+
+}  // namespace lqg::design
