@@ -37,7 +37,8 @@ static lqg_real symmetric_row_product(const lqg_real P[], unsigned j, unsigned n
 
 /* Takes output i, y_i, into x̂ and P, or leaves it out and says why. f[nx] is scratch. */
 static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lqg_real x[], lqg_real P[],
-                                const lqg_real u_applied[], lqg_real y_i, lqg_real f[])
+                                const lqg_real u_applied[], lqg_real y_i, const lqg_watch_t *watch,
+                                lqg_real f[])
 {
     LQG_STRICT_BODY
     const unsigned nx = kalman->plant.nx;
@@ -49,7 +50,11 @@ static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lq
     const lqg_real s = add_row_product(kalman->V[i], c, 0, nx, f);
 
     const lqg_real innovation = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
-    const int finite = is_finite(innovation), positive = s > 0, usable = finite && positive;
+    const lqg_status left_out = !is_finite(innovation) ? LQG_OUTPUT_NOT_FINITE
+                                : !(s > 0)             ? LQG_INNOVATION_NOT_POSITIVE
+                                                       : LQG_OK;
+    const lqg_status watched = lqg_watch_output(watch, i, innovation, s);
+    const int usable = !left_out && !watched;
     const lqg_real nu = usable ? innovation : 0;
     const lqg_real inverse = usable ? 1 / s : 0;
 
@@ -60,27 +65,49 @@ static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lq
         for (unsigned l = 0; l <= j; l++)
             P[LQG_TRIANGLE(j) + l] = multiply_subtract(gain, f[l], P[LQG_TRIANGLE(j) + l]);
     }
-    return !finite ? LQG_OUTPUT_NOT_FINITE : !positive ? LQG_INNOVATION_NOT_POSITIVE : LQG_OK;
+    return left_out ? left_out : watched;
 }
 
 lqg_status lqg_kalman_plain_update(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
                                    lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
                                    lqg_real work[])
 {
+    return lqg_kalman_plain_update_watched(kalman, x, P, u_applied, innovation, y, NULL, work);
+}
+
+lqg_status lqg_kalman_plain_update_watched(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
+                                           lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
+                                           const lqg_watch_t *watch, lqg_real work[])
+{
     const lqg_plant_t *plant = &kalman->plant;
-    const lqg_real *outputs = lqg_plant_decorrelate(plant, kalman->E, y, work + plant->nx);
+    const lqg_real *outputs = lqg_plant_decorrelate(plant, kalman->E, y, watch, work + plant->nx);
     lqg_status status = LQG_OK;
 
     for (unsigned i = 0; i < plant->ny; i++) {
-        const lqg_status left_out = update_output(kalman, i, x, P, u_applied, outputs[i], work);
+        const int used = lqg_watch_uses(watch, i);
+        const lqg_status left_out =
+            used ? update_output(kalman, i, x, P, u_applied, outputs[i], watch, work) : LQG_OK;
         status |= left_out;
         if (kalman->M)
-            innovation[i] = left_out ? 0 : 1;
+            innovation[i] = used && !left_out ? 1 : 0;
     }
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);
 
     return status | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, P, u_applied, innovation);
+}
+
+lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
+                                          lqg_real u_applied[], lqg_real innovation[], unsigned i,
+                                          lqg_real y_i, const lqg_watch_t *watch, lqg_real work[])
+{
+    const lqg_plant_t *plant = &kalman->plant;
+    const lqg_real alone = lqg_plant_decorrelate_alone(plant, kalman->E, i, y_i);
+
+    const lqg_status left_out = update_output(kalman, i, x, P, u_applied, alone, watch, work);
+    if (kalman->M)
+        innovation[i] = left_out ? 0 : lqg_plant_innovation(plant, i, x, u_applied, alone);
+    return left_out | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, P, u_applied, innovation);
 }
 
 /* P ← A P Aᵀ + W. AP[nx × nx] is scratch. */

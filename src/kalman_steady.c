@@ -21,33 +21,54 @@ static lqg_status reset_unless_finite(const lqg_kalman_steady_t *kalman, lqg_rea
     return LQG_STATE_RESET;
 }
 
-/* innovation = y − C x̂ − D u, 0 where that is not finite: such an output counts as one that came as expected
- * */
-static lqg_status innovate(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[],
-                           const lqg_real y[], lqg_real innovation[])
+/* y_i − C_i x̂ − D_i u, 0 where output i is left out: it counts as one that came as expected. */
+static lqg_real innovate(const lqg_plant_t *plant, unsigned i, const lqg_real x[], const lqg_real u_applied[],
+                         lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch, lqg_status *status)
 {
-    lqg_status status = LQG_OK;
+    const lqg_real nu = lqg_plant_innovation(plant, i, x, u_applied, y_i);
+    const lqg_status left_out = (is_finite(nu) ? LQG_OK : LQG_OUTPUT_NOT_FINITE) |
+                                (s ? lqg_watch_output(watch, i, nu, s[i]) : LQG_OK);
 
-    for (unsigned i = 0; i < plant->ny; i++) {
-        const lqg_real nu = lqg_plant_innovation(plant, i, x, u_applied, y[i]);
-        const int usable = is_finite(nu);
-        status |= usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
-        innovation[i] = usable ? nu : 0;
-    }
-    return status;
+    *status |= left_out;
+    return left_out ? 0 : nu;
 }
 
 lqg_status lqg_kalman_steady_update(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
                                     lqg_real innovation[], const lqg_real y[], lqg_real work[])
 {
+    return lqg_kalman_steady_update_watched(kalman, x, u_applied, innovation, y, NULL, NULL, work);
+}
+
+lqg_status lqg_kalman_steady_update_watched(const lqg_kalman_steady_t *kalman, lqg_real x[],
+                                            lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
+                                            const lqg_real s[], const lqg_watch_t *watch, lqg_real work[])
+{
     const lqg_plant_t *plant = &kalman->plant;
     lqg_real *nu = kalman->M ? innovation : work; /* predict needs them only for M */
+    lqg_status status = LQG_OK;
 
-    const lqg_status status = innovate(plant, x, u_applied, y, nu);
+    for (unsigned i = 0; i < plant->ny; i++)
+        nu[i] = lqg_watch_uses(watch, i) ? innovate(plant, i, x, u_applied, y[i], s, watch, &status) : 0;
 
     /* x̂ ← x̂ + L innovation */
     for (unsigned j = 0; j < plant->nx; j++)
         x[j] = add_row_product(x[j], kalman->L, j, plant->ny, nu);
+
+    return status | reset_unless_finite(kalman, x, u_applied, innovation);
+}
+
+lqg_status lqg_kalman_steady_update_output(const lqg_kalman_steady_t *kalman, lqg_real x[],
+                                           lqg_real u_applied[], lqg_real innovation[], unsigned i,
+                                           lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch)
+{
+    const lqg_plant_t *plant = &kalman->plant;
+    lqg_status status = LQG_OK;
+    const lqg_real nu = innovate(plant, i, x, u_applied, y_i, s, watch, &status);
+
+    for (unsigned j = 0; j < plant->nx; j++)
+        x[j] = multiply_add(kalman->L[j * plant->ny + i], nu, x[j]);
+    if (kalman->M)
+        innovation[i] = nu;
 
     return status | reset_unless_finite(kalman, x, u_applied, innovation);
 }

@@ -1,5 +1,7 @@
 #include "plant.h"
 
+#include <math.h>
+
 #include "kernel.h"
 
 LQG_STRICT_BEGIN
@@ -20,7 +22,7 @@ lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_re
 }
 
 const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], const lqg_real y[],
-                                      lqg_real work[])
+                                      const lqg_watch_t *watch, lqg_real work[])
 {
     const unsigned ny = plant->ny;
     if (!E)
@@ -30,9 +32,19 @@ const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E
         work[i] = y[i];
         for (unsigned j = 0; j < i; j++)
             if (E[i * ny + j] != 0)
-                work[i] = multiply_add(E[i * ny + j], y[j], work[i]);
+                work[i] =
+                    multiply_add(E[i * ny + j], lqg_watch_uses(watch, j) ? y[j] : (lqg_real)NAN, work[i]);
     }
     return work;
+}
+
+lqg_real lqg_plant_decorrelate_alone(const lqg_plant_t *plant, const lqg_real E[], unsigned i, lqg_real y_i)
+{
+    int alone = 1;
+
+    for (unsigned j = 0; E && j < i; j++)
+        alone &= E[i * plant->ny + j] == 0;
+    return alone ? y_i : (lqg_real)NAN;
 }
 
 void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[],
@@ -58,6 +70,29 @@ void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[
     if (u_applied)
         copy(u_applied, u, nu);
     begin(innovation, NULL, ny);
+}
+
+int lqg_watch_uses(const lqg_watch_t *watch, unsigned i)
+{
+    return !watch || !watch->used || watch->used[i];
+}
+
+lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s)
+{
+    LQG_STRICT_BODY
+    if (!watch)
+        return LQG_OK;
+
+    /* |ν| > gate √s */
+    const lqg_real nu = is_finite(innovation) ? innovation : 0;
+    const int gated = watch->gate > 0 && nu * nu > watch->gate * watch->gate * s;
+    if (watch->nu)
+        watch->nu[i] = nu;
+    if (watch->s)
+        watch->s[i] = s;
+    if (watch->gated)
+        watch->gated[i] += gated ? 1 : 0;
+    return gated ? LQG_OUTPUT_GATED : LQG_OK;
 }
 
 LQG_STRICT_END

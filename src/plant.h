@@ -1,4 +1,4 @@
-/* What all filters do with the plant. Not for firmware. */
+/* What all filters do with the plant and with a watch, which MAY be NULL. Not for firmware. */
 #ifndef LQG_PLANT_H
 #define LQG_PLANT_H
 
@@ -7,8 +7,11 @@
 #define lqg_plant_begin LQG_VARIANT(lqg_plant_begin)
 #define lqg_plant_innovation LQG_VARIANT(lqg_plant_innovation)
 #define lqg_plant_decorrelate LQG_VARIANT(lqg_plant_decorrelate)
+#define lqg_plant_decorrelate_alone LQG_VARIANT(lqg_plant_decorrelate_alone)
 #define lqg_plant_keep_residuals LQG_VARIANT(lqg_plant_keep_residuals)
 #define lqg_plant_predict LQG_VARIANT(lqg_plant_predict)
+#define lqg_watch_uses LQG_VARIANT(lqg_watch_uses)
+#define lqg_watch_output LQG_VARIANT(lqg_watch_output)
 
 /* x = x0 (NULL: 0), u_applied = 0, innovation = 0; the latter two where there are any. */
 void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
@@ -19,9 +22,12 @@ lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_re
                               const lqg_real u_applied[], lqg_real y_i);
 
 /* y' = E y, written to work[ny], or y itself when E is NULL. Zeros of E keep the NaN of one output out of the
- * others. */
+ * others; what needs an output that is not used is NaN. */
 const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], const lqg_real y[],
-                                      lqg_real work[]);
+                                      const lqg_watch_t *watch, lqg_real work[]);
+
+/* y'_i of y_i alone: y_i itself, or NaN where row i of E (MAY be NULL) needs other outputs. */
+lqg_real lqg_plant_decorrelate_alone(const lqg_plant_t *plant, const lqg_real E[], unsigned i, lqg_real y_i);
 
 /* innovation_i ← y'_i − C_i x − D_i u where innovation_i is 1 (output i was used); it stays 0 elsewhere. */
 void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[],
@@ -30,5 +36,12 @@ void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], cons
 /* x ← A x + B u + M innovation (M may be NULL),  u_applied ← u,  innovation ← 0. work[nx] is scratch. */
 void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[], lqg_real u_applied[],
                        lqg_real innovation[], const lqg_real u[], lqg_real work[]);
+
+/* Output i is to be used. */
+int lqg_watch_uses(const lqg_watch_t *watch, unsigned i);
+
+/* Writes down the innovation of output i and its variance s. LQG_OUTPUT_GATED when the gate leaves it out,
+ * which is counted; an innovation that is not finite passes. */
+lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s);
 
 #endif

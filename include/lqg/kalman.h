@@ -2,7 +2,8 @@
  *
  *     x⁺ = A x + B u + w,    y = C x + D u + v
  *
- * Three filters, each with init, update and predict:
+ * Three filters, each with init, predict, and the update in three shapes: of all outputs; watched, of some of
+ * them, with a gate and a look inside; of one output alone:
  *
  *   lqg_kalman_steady_*   The gain L is constant and was found beforehand: the cheapest.
  *   lqg_kalman_plain_*    The covariance P of the estimate's error is carried along: a gain for every sample.
@@ -16,6 +17,11 @@
  *   innovation[ny]  what `predict` has yet to hear of the last update, for M; MAY be NULL when M is NULL
  *
  * A reset (LQG_STATE_RESET) is an init: it restores all of them.
+ *
+ * Sensors of several rates: `predict` is called once a period, an update whenever there is something to
+ * update with: any number of predictions may lie between two updates. Plants that vary: the description is
+ * read afresh in every call, so another one of the same dimensions, or one with other matrices, MAY be passed
+ * in each.
  */
 #ifndef LQG_KALMAN_H
 #define LQG_KALMAN_H
@@ -46,17 +52,28 @@ typedef struct {
     const lqg_real *D;  /* ny × nu; NULL: 0 */
 } lqg_plant_t;
 
+/* What an update is told beyond the outputs, and what it tells. Every field MAY be 0 or NULL. */
+typedef struct {
+    const unsigned char *used; /* ny, 0: the output is left out, and not reported; NULL: all are used */
+    lqg_real gate;             /* σ, > 0: an output with |ν| > gate √s is left out; 0: no gate */
+    unsigned long *gated;      /* ny, in and out: how often the gate left the output out */
+    lqg_real *nu; /* ny, out: the innovation of each output that is used, 0 when it is not finite */
+    lqg_real *s;  /* ny, out: its variance */
+} lqg_watch_t;
+
 /* ------------------------------------------------------------------------------------------ constant gain */
 
 #define lqg_kalman_steady_init LQG_VARIANT(lqg_kalman_steady_init)
 #define lqg_kalman_steady_update LQG_VARIANT(lqg_kalman_steady_update)
+#define lqg_kalman_steady_update_watched LQG_VARIANT(lqg_kalman_steady_update_watched)
+#define lqg_kalman_steady_update_output LQG_VARIANT(lqg_kalman_steady_update_output)
 #define lqg_kalman_steady_predict LQG_VARIANT(lqg_kalman_steady_predict)
 
 typedef struct {
     lqg_plant_t plant;
     const lqg_real *L;   /* nx × ny, filter gain P Cᵀ S⁻¹, P prior, S = C P Cᵀ + V */
     const lqg_real *M;   /* nx × ny, E[w vᵀ] S⁻¹; NULL: w and v are uncorrelated */
-    const lqg_real *x0;  /* nx, first estimate; NULL: 0 */
+    const lqg_real *x0; /* nx, first estimate; NULL: 0 */
 } lqg_kalman_steady_t;
 
 /* Length of work[]. */
@@ -75,6 +92,28 @@ void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg
 lqg_status lqg_kalman_steady_update(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
                                     lqg_real innovation[], const lqg_real y[], lqg_real work[]);
 
+/* The same, of some outputs, with a gate: an output left out counts as one that came as expected.
+ *
+ * y[ny]  in: outputs that are not used are not looked at
+ * s[ny]  in: variances of the innovations, the diagonal of S; MAY be NULL without a gate
+ * watch  MAY be NULL; its s is a copy of this one
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+lqg_status lqg_kalman_steady_update_watched(const lqg_kalman_steady_t *kalman, lqg_real x[],
+                                            lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
+                                            const lqg_real s[], const lqg_watch_t *watch, lqg_real work[]);
+
+/* x̂ ← x̂ + L_i (y_i − C_i x̂ − D_i u), L_i column i of L. An approximation: L_i is the best gain in the company
+ * of the other outputs only. Calls for several outputs of one sample are not their common update either: that
+ * is `watched`.
+ *
+ * s, watch  as above; watch->used is not looked at
+ *
+ * Status: as above. Cost: 2·nx multiply-adds, with D nu more. */
+lqg_status lqg_kalman_steady_update_output(const lqg_kalman_steady_t *kalman, lqg_real x[],
+                                           lqg_real u_applied[], lqg_real innovation[], unsigned i,
+                                           lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch);
+
 /* x̂ ← A x̂ + B u + M (innovation of the last update)
  *
  * u[nu]  in: what was applied; MAY be u_applied itself, or NULL when nu is 0
@@ -88,6 +127,8 @@ lqg_status lqg_kalman_steady_predict(const lqg_kalman_steady_t *kalman, lqg_real
 
 #define lqg_kalman_plain_init LQG_VARIANT(lqg_kalman_plain_init)
 #define lqg_kalman_plain_update LQG_VARIANT(lqg_kalman_plain_update)
+#define lqg_kalman_plain_update_watched LQG_VARIANT(lqg_kalman_plain_update_watched)
+#define lqg_kalman_plain_update_output LQG_VARIANT(lqg_kalman_plain_update_output)
 #define lqg_kalman_plain_predict LQG_VARIANT(lqg_kalman_plain_predict)
 
 /* Outputs are taken one after the other, which needs noises that are uncorrelated among themselves. Where the
@@ -100,7 +141,7 @@ typedef struct {
     const lqg_real *W;       /* lower triangle nx × nx: E[w wᵀ] − M diag(V) Mᵀ */
     const lqg_real *M;       /* nx × ny, E[w v'ᵀ] diag(V)⁻¹; NULL: w and v are uncorrelated */
     const lqg_real *A_free;  /* nx × nx, A − M C; NULL when M is NULL */
-    const lqg_real *x0;      /* nx, first estimate; NULL: 0 */
+    const lqg_real *x0;     /* nx, first estimate; NULL: 0 */
     const lqg_real *P0;      /* lower triangle nx × nx, its covariance */
 } lqg_kalman_plain_t;
 
@@ -125,6 +166,29 @@ lqg_status lqg_kalman_plain_update(const lqg_kalman_plain_t *kalman, lqg_real x[
                                    lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
                                    lqg_real work[]);
 
+/* The same, of some outputs, with a gate: exact, as if those left out were not there in this sample. The
+ * innovation of an output and its variance are those given the outputs before it.
+ *
+ * y[ny]  in: outputs that are not used are not looked at
+ * watch  MAY be NULL
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE (also when E asks for an output that is not used), LQG_OUTPUT_GATED,
+ * LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET. */
+lqg_status lqg_kalman_plain_update_watched(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
+                                           lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
+                                           const lqg_watch_t *watch, lqg_real work[]);
+
+/* The same, of output i alone. Calls for all outputs one after the other are the update of all of them, to
+ * the bit, when E and M are NULL. With E, y_i is left out unless row i of E is that of an identity; with M
+ * there MUST be at most one call between two predictions.
+ *
+ * watch  MAY be NULL; watch->used is not looked at
+ *
+ * Status: as above. */
+lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
+                                          lqg_real u_applied[], lqg_real innovation[], unsigned i,
+                                          lqg_real y_i, const lqg_watch_t *watch, lqg_real work[]);
+
 /* x̂ ← A x̂ + B u + M (y' − C x̂ − D u after the last update),   P ← A_free P A_freeᵀ + W
  *
  * u[nu]  in: what was applied; MAY be u_applied itself, or NULL when nu is 0
@@ -139,6 +203,8 @@ lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x
 
 #define lqg_kalman_ud_init LQG_VARIANT(lqg_kalman_ud_init)
 #define lqg_kalman_ud_update LQG_VARIANT(lqg_kalman_ud_update)
+#define lqg_kalman_ud_update_watched LQG_VARIANT(lqg_kalman_ud_update_watched)
+#define lqg_kalman_ud_update_output LQG_VARIANT(lqg_kalman_ud_update_output)
 #define lqg_kalman_ud_predict LQG_VARIANT(lqg_kalman_ud_predict)
 
 typedef struct {
@@ -150,7 +216,7 @@ typedef struct {
     const lqg_real *w;       /* nq, their variances, ≥ 0 */
     const lqg_real *M;       /* nx × ny, E[w v'ᵀ] diag(V)⁻¹; NULL: w and v are uncorrelated */
     const lqg_real *A_free;  /* nx × nx, A − M C; NULL when M is NULL */
-    const lqg_real *x0;      /* nx, first estimate; NULL: 0 */
+    const lqg_real *x0;     /* nx, first estimate; NULL: 0 */
     const lqg_real *U0;      /* strict upper triangle nx × nx; its covariance is U0 diag(d0) U0ᵀ */
     const lqg_real *d0;      /* nx, ≥ 0 */
 } lqg_kalman_ud_t;
@@ -163,7 +229,8 @@ typedef struct {
 void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],
                         lqg_real u_applied[], lqg_real innovation[]);
 
-/* The update of lqg_kalman_plain_update, in the factors of P (Bierman 1977). Whatever the rounding, d stays ≥ 0.
+/* The update of lqg_kalman_plain_update, in the factors of P (Bierman 1977). Whatever the rounding, d stays ≥
+ * 0.
  *
  * y[ny]  in: what the sensors say; an output that is not finite is left out
  *
@@ -173,6 +240,29 @@ void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[
 lqg_status lqg_kalman_ud_update(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],
                                 lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
                                 lqg_real work[]);
+
+/* The same, of some outputs, with a gate: exact, as if those left out were not there in this sample. The
+ * innovation of an output and its variance are those given the outputs before it.
+ *
+ * y[ny]  in: outputs that are not used are not looked at
+ * watch  MAY be NULL
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE (also when E asks for an output that is not used), LQG_OUTPUT_GATED,
+ * LQG_STATE_RESET. Cost: with a watch ny·nx multiply-adds more. */
+lqg_status lqg_kalman_ud_update_watched(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[],
+                                        lqg_real d[], lqg_real u_applied[], lqg_real innovation[],
+                                        const lqg_real y[], const lqg_watch_t *watch, lqg_real work[]);
+
+/* The same, of output i alone. Calls for all outputs one after the other are the update of all of them, to
+ * the bit, when E and M are NULL. With E, y_i is left out unless row i of E is that of an identity; with M
+ * there MUST be at most one call between two predictions.
+ *
+ * watch  MAY be NULL; watch->used is not looked at
+ *
+ * Status: as above. */
+lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[],
+                                       lqg_real d[], lqg_real u_applied[], lqg_real innovation[], unsigned i,
+                                       lqg_real y_i, const lqg_watch_t *watch, lqg_real work[]);
 
 /* The prediction of lqg_kalman_plain_predict, in the factors of P (Thornton 1976).
  *

@@ -27,8 +27,10 @@
 #define LQG_LQG_H
 
 #include "lqg/arithmetic.h"
+#include "lqg/ekf.h"
 #include "lqg/kalman.h"
 #include "lqg/lqr.h"
+#include "lqg/rls.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 

@@ -29,6 +29,9 @@ static const lqg_lqg_steady_t steady = {{PLANT, L, M, x0}, REGULATOR, LQG_FILTER
 static const lqg_lqg_plain_t plain = {{PLANT, E, V, W, M, A_free, x0, P0}, REGULATOR, LQG_FILTER_FORM};
 static const lqg_lqg_ud_t ud = {{PLANT, E, V, 2, G, w, M, A_free, x0, U0, d0}, REGULATOR, LQG_PREDICTOR_FORM};
 
+static const lqg_real P_limits[3] = {2, 3, 4};
+static const lqg_rls_t rls = {NX, 0.93f, 0.7f, x0, d0, P_limits};
+
 typedef struct {
     lqg_real x[NX], P[LQG_TRIANGLE(NX)], U[LQG_STRICT_TRIANGLE(NX)], d[NX];
     lqg_real u_applied[NU], innovation[NY], u[NU];
@@ -52,7 +55,7 @@ static lqg_real draw(unsigned long *seed)
 
 static unsigned long long hash_of_all_filters(void)
 {
-    static state_t s, p, f; /* zeros: every byte is hashed */
+    static state_t s, p, f, e; /* zeros: every byte is hashed */
     lqg_real y[NY], work[LQG_KALMAN_UD_WORK(NX, NY, 2)];
     unsigned long long hash = 14695981039346656037ull;
     unsigned long seed = 1;
@@ -60,15 +63,18 @@ static unsigned long long hash_of_all_filters(void)
     lqg_kalman_steady_init(&steady.kalman, s.x, s.u_applied, s.innovation);
     lqg_kalman_plain_init(&plain.kalman, p.x, p.P, p.u_applied, p.innovation);
     lqg_kalman_ud_init(&ud.kalman, f.x, f.U, f.d, f.u_applied, f.innovation);
+    lqg_rls_init(&rls, e.x, e.U, e.d);
     for (unsigned sample = 0; sample < 1000; sample++) {
         y[0] = draw(&seed);
         y[1] = draw(&seed);
         lqg_lqg_steady_step(&steady, s.x, s.u_applied, s.innovation, y, s.u, work);
         lqg_lqg_plain_step(&plain, p.x, p.P, p.u_applied, p.innovation, y, p.u, work);
         lqg_lqg_ud_step(&ud, f.x, f.U, f.d, f.u_applied, f.innovation, y, f.u, work);
+        lqg_rls_update(&rls, e.x, e.U, e.d, f.x, y[0], work);
         hash = hash_bytes(hash, &s, sizeof s);
         hash = hash_bytes(hash, &p, sizeof p);
         hash = hash_bytes(hash, &f, sizeof f);
+        hash = hash_bytes(hash, &e, sizeof e);
     }
     return hash;
 }

@@ -1,0 +1,69 @@
+/* TinyLQG: recursive least squares, for parameters of a plant that are found while it runs. Conventions:
+ * lqg/lqg.h. Derivations: src/README.md.
+ *
+ *     y = φᵀ θ + v
+ *
+ * θ are the parameters, φ is what they multiply: known numbers of this sample, such as earlier outputs and
+ * inputs. After N samples θ is the minimiser of
+ *
+ *     Σ_k λ^(N−k) (y_k − φ_kᵀ θ)²/V  +  λ^N (θ − θ0)ᵀ P0⁻¹ (θ − θ0)
+ *
+ * and P is the inverse of its curvature: with λ = 1 the covariance of the error of θ. P is carried as U
+ * diag(d) Uᵀ and cannot lose its definiteness.
+ *
+ * The state is three arrays of the caller: theta[ntheta], U[LQG_RLS_U(ntheta)], d[ntheta]. A reset
+ * (LQG_STATE_RESET) is an init.
+ */
+#ifndef LQG_RLS_H
+#define LQG_RLS_H
+
+#include "lqg/arithmetic.h"
+#include "lqg/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define lqg_rls_init LQG_VARIANT(lqg_rls_init)
+#define lqg_rls_update LQG_VARIANT(lqg_rls_update)
+
+/* What to estimate, constant: may lie in flash. */
+typedef struct {
+    unsigned ntheta;             /* parameters, ≥ 1 */
+    lqg_real forgetting;         /* λ, 0 < λ ≤ 1: a sample counts 1/(1 − λ) samples long; 1: for ever */
+    lqg_real V;                  /* variance of v, > 0; where it is not known 1, and P is in units of it */
+    const lqg_real *theta0;      /* ntheta, first guess; NULL: 0 */
+    const lqg_real *P0_diagonal; /* ntheta, ≥ 0, variances of its errors; 0: known */
+    const lqg_real *P_limits;    /* ntheta, > 0, no P_ii grows beyond; NULL: no limits */
+} lqg_rls_t;
+
+/* Lengths of U[] (NULL when 0) and of work[]. */
+#define LQG_RLS_U(ntheta) ((ntheta) * ((ntheta)-1) / 2)
+#define LQG_RLS_WORK(ntheta) (ntheta)
+
+/* θ = θ0, P = P0, within its limits. */
+void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[]);
+
+/* s = λV + φᵀ P φ,   θ ← θ + P φ/s (y − φᵀ θ),   P ← (P − P φ φᵀ P/s)/λ,   then P_ii within their limits
+ *
+ * Where a parameter is not excited, forgetting lets its P_ii grow by 1/λ a sample. Beyond its limit, row and
+ * column i are scaled, P ← Σ P Σ with Σ_ii = 2/(1 + P_ii/limit_i) ≤ √(limit_i/P_ii): correlations and
+ * definiteness stay, and so does what is known of the other parameters. P_ii comes to rest within a share (1
+ * − λ)² of its limit.
+ *
+ * phi[ntheta]  in
+ * y            in; where it or φ is not finite, or too large, the sample is left out and nothing changes
+ * work         MUST NOT overlap
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET.
+ * Cost, n = ntheta: 2 n² + 8 n multiply-adds, 2 n + 1 divisions; with limits n² + n multiply-adds and
+ * (n² + n)/2 divisions more.
+ * Source: Bierman (1977), chapter V; Åström, Wittenmark: Adaptive Control, 2nd edition (1995), chapter 2. */
+lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[],
+                          const lqg_real phi[], lqg_real y, lqg_real work[]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

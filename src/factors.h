@@ -1,0 +1,32 @@
+/* P = U diag(d) Uᵀ, U unit upper triangular: what all filters do that carry their covariance so. Not for
+ * firmware. */
+#ifndef LQG_FACTORS_H
+#define LQG_FACTORS_H
+
+#include "kernel.h"
+#include "lqg/kalman.h"
+
+#define lqg_factors_project LQG_VARIANT(lqg_factors_project)
+#define lqg_factors_variance LQG_VARIANT(lqg_factors_variance)
+#define lqg_factors_update LQG_VARIANT(lqg_factors_update)
+#define lqg_factors_predict LQG_VARIANT(lqg_factors_predict)
+#define lqg_factors_sum LQG_VARIANT(lqg_factors_sum)
+
+/* f = Uᵀ cᵀ, or 0 where the output is not usable. */
+void lqg_factors_project(const lqg_real U[], unsigned nx, const lqg_real c[], int usable, lqg_real f[]);
+
+/* s = v + Σ_j d_j f_j² = c P cᵀ + v: rounded like the s of lqg_factors_update. */
+lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real v);
+
+/* Bierman's update of U and d by an output with f = Uᵀ cᵀ and noise variance v > 0. f = 0 leaves all as it
+ * is, to the bit. Returns 1/s, s = c P cᵀ + v; f becomes P cᵀ of the prior P: the gain is f/s. */
+lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real v);
+
+/* U diag(d) Uᵀ ← A U diag(d) Uᵀ Aᵀ + G diag(w) Gᵀ, G nx × nq (Thornton). Scratch: work[(nx + 2)(nx + nq)]. */
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nq,
+                         const lqg_real G[], const lqg_real w[], lqg_real work[]);
+
+/* sum + all of U and d. */
+lqg_real lqg_factors_sum(lqg_real sum, const lqg_real U[], const lqg_real d[], unsigned nx);
+
+#endif

@@ -1,0 +1,78 @@
+/* Recursive least squares with P = U diag(d) Uᵀ. */
+#include "lqg/rls.h"
+
+#include "factors.h"
+
+LQG_STRICT_BEGIN
+
+void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+{
+    begin(theta, rls->theta0, rls->ntheta);
+    begin(U, NULL, LQG_STRICT_TRIANGLE(rls->ntheta));
+    for (unsigned i = 0; i < rls->ntheta; i++) {
+        const lqg_real wanted = rls->P0_diagonal[i];
+        d[i] = rls->P_limits && wanted > rls->P_limits[i] ? rls->P_limits[i] : wanted;
+    }
+}
+
+/* P_ii = d_i + Σ_{j>i} d_j U_ij² */
+static lqg_real variance_of(const lqg_real U[], const lqg_real d[], unsigned ntheta, unsigned i)
+{
+    LQG_STRICT_BODY
+    lqg_real sum = d[i];
+    for (unsigned j = i + 1; j < ntheta; j++) {
+        const lqg_real U_ij = U[LQG_STRICT_TRIANGLE(j) + i];
+        sum = multiply_add(d[j] * U_ij, U_ij, sum);
+    }
+    return sum;
+}
+
+/* U diag(d) Uᵀ ← Σ U diag(d) Uᵀ Σ: U_ij ← U_ij Σ_i/Σ_j, d_i ← d_i Σ_i², with Σ_i = 2/(1 + P_ii/limit_i) where
+ * P_ii is above its limit and otherwise 1; where not wanted, Σ = I. scale[ntheta] is scratch. */
+static void limit_variances(const lqg_rls_t *rls, lqg_real U[], lqg_real d[], int wanted, lqg_real scale[])
+{
+    LQG_STRICT_BODY
+    for (unsigned i = 0; i < rls->ntheta; i++) {
+        const lqg_real P_ii = variance_of(U, d, rls->ntheta, i), limit = rls->P_limits[i];
+        const lqg_real within = 2 * limit / (limit + P_ii);
+        scale[i] = wanted && P_ii > limit ? within : 1;
+    }
+    for (unsigned j = 0; j < rls->ntheta; j++) {
+        d[j] = d[j] * (scale[j] * scale[j]);
+        for (unsigned i = 0; i < j; i++)
+            U[LQG_STRICT_TRIANGLE(j) + i] *= scale[i] / scale[j];
+    }
+}
+
+lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[],
+                          const lqg_real phi[], lqg_real y, lqg_real work[])
+{
+    LQG_STRICT_BODY
+    const unsigned ntheta = rls->ntheta;
+    const lqg_real v = rls->forgetting * rls->V;
+    lqg_real *f = work;
+
+    /* f = Uᵀ φ,  s = λV + φᵀ P φ; with f = 0 the sample is left out */
+    lqg_factors_project(U, ntheta, phi, 1, f);
+    const lqg_real error = subtract_row_product(y, phi, 0, ntheta, theta);
+    const int usable = is_finite(error) && is_finite(lqg_factors_variance(d, ntheta, f, v));
+    const lqg_real nu = usable ? error : 0, lambda = usable ? rls->forgetting : 1;
+    lqg_factors_project(U, ntheta, phi, usable, f);
+
+    /* gain = P φ/s,  θ ← θ + gain (y − φᵀ θ),  P ← (P − gain (P φ)ᵀ)/λ */
+    const lqg_real inverse = lqg_factors_update(U, d, ntheta, f, v);
+    for (unsigned i = 0; i < ntheta; i++) {
+        theta[i] = multiply_add(f[i] * inverse, nu, theta[i]);
+        d[i] = d[i] / lambda;
+    }
+    if (rls->P_limits)
+        limit_variances(rls, U, d, usable, work);
+
+    const lqg_status status = usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    if (is_finite(lqg_factors_sum(add_all(0, theta, ntheta), U, d, ntheta)))
+        return status;
+    lqg_rls_init(rls, theta, U, d);
+    return status | LQG_STATE_RESET;
+}
+
+LQG_STRICT_END
