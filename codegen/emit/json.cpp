@@ -50,27 +50,103 @@ Json plant(const Controller& controller) {
           {"outputs", names(stated.outputs)}};
 }
 
+Json schedule(const std::vector<design::RealMatrix>& gains) {
+  Json out = Json::array();
+  for (const design::RealMatrix& gain : gains) out.push_back(rows(gain));
+  return out;
+}
+
+// What does not exist in a design is left out.
+void add(Json& out, const char* key, const design::RealMatrix& matrix) {
+  if (matrix.size() > 0) out[key] = rows(matrix);
+}
+void add(Json& out, const char* key, const std::vector<design::RealMatrix>& gains) {
+  if (!gains.empty()) out[key] = schedule(gains);
+}
+void add(Json& out, const char* key, const std::optional<double>& value) {
+  if (value) out[key] = *value;
+}
+
+void add_margins(Json& out, const design::Margins& margins) {
+  add(out, "gain_margin_dB", margins.gain_dB);
+  add(out, "phase_margin_deg", margins.phase_deg);
+  add(out, "disk_margin", margins.disk);
+}
+
+Json structure(const design::StructureReport& report) {
+  Json out = {{"full", rows(report.full)}, {"full_poles", poles(report.full_poles)}, {"cost_ratio", report.cost_ratio}};
+  add_margins(out, report.full_margins);
+  return out;
+}
+
+Json noise(const design::SampledNoise& noise) {
+  return {{"W", rows(noise.W)}, {"V", rows(noise.V)}, {"cross", rows(noise.Swv)}};
+}
+
+Json cost(const design::SampledCost& cost) {
+  return {{"Q", rows(cost.Q)}, {"R", rows(cost.R)}, {"N", rows(cost.N)}};
+}
+
+Json lqr(const design::RegulatorSolution& regulator) {
+  Json out = {{"K", rows(regulator.K)}};
+  add(out, "X", regulator.X);
+  out["poles"] = poles(regulator.poles);
+  add(out, "schedule", regulator.K_schedule);
+  add(out, "cost_to_go", regulator.X0);
+  add(out, "Nx", regulator.Nx);
+  add(out, "Nu", regulator.Nu);
+  add(out, "Nbar", regulator.Nbar);
+  if (regulator.structure) out["structure"] = structure(*regulator.structure);
+  return out;
+}
+
 Json kalman(const Controller& controller) {
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
-  return {{"form", controller.is_predictor() ? "predictor" : "filter"},
-          {"L", rows(estimator.L)},
-          {"L_predictor", rows(estimator.L_predictor)},
-          {"P_prior", rows(estimator.P_prior)},
-          {"P_posterior", rows(estimator.P_posterior)},
-          {"S", rows(estimator.S)},
-          {"poles", poles(estimator.poles)}};
+  Json out = {{"form", controller.is_predictor() ? "predictor" : "filter"},
+              {"L", rows(estimator.L)},
+              {"L_predictor", rows(estimator.L_predictor)}};
+  add(out, "P_prior", estimator.P_prior);
+  add(out, "P_posterior", estimator.P_posterior);
+  add(out, "S", estimator.S);
+  out["poles"] = poles(estimator.poles);
+  add(out, "schedule", estimator.L_schedule);
+  if (estimator.structure) out["structure"] = structure(*estimator.structure);
+  return out;
+}
+
+Json rounded(const design::RoundedLoop& loop) {
+  Json out = {{"poles", poles(loop.poles)}};
+  add_margins(out, loop.at_input);
+  add(out, "cost_per_sample", loop.cost_per_sample);
+  return out;
 }
 
 Json loop(const design::LoopSolution& solution) {
   Json out = {{"poles", poles(solution.poles)}};
-  const auto add = [&](const char* key, const std::optional<double>& value) {
-    if (value) out[key] = *value;
-  };
-  add("gain_margin_dB", solution.at_input.gain_dB);
-  add("phase_margin_deg", solution.at_input.phase_deg);
-  add("disk_margin", solution.at_input.disk);
-  add("cost_per_sample", solution.cost_per_sample);
-  add("cost_per_second", solution.cost_per_second);
+  add_margins(out, solution.at_input);
+  Json at_output = Json::object();
+  add_margins(at_output, solution.at_output);
+  if (!at_output.empty()) out["at_output"] = at_output;
+  add(out, "cost_per_sample", solution.cost_per_sample);
+  add(out, "cost_per_second", solution.cost_per_second);
+  if (solution.rounded) out["rounded"] = rounded(*solution.rounded);
+  return out;
+}
+
+Json stages(const std::vector<design::StageSolution>& stages) {
+  Json out = Json::array();
+  for (const design::StageSolution& stage : stages) {
+    Json one = {{"from", stage.from},
+                {"plant",
+                 {{"A", rows(stage.plant.A)},
+                  {"B", rows(stage.plant.B)},
+                  {"C", rows(stage.plant.C)},
+                  {"D", rows(stage.plant.D)},
+                  {"G", rows(stage.plant.G)}}}};
+    if (stage.noise) one["noise"] = noise(*stage.noise);
+    if (stage.cost) one["cost"] = cost(*stage.cost);
+    out.push_back(one);
+  }
   return out;
 }
 
@@ -93,16 +169,17 @@ std::string json(const Controller& controller) {
               {"lqgen", version()},
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
-  if (solution.estimator) {
-    const design::SampledNoise& noise = solution.estimator->noise;
-    out["noise"] = {{"W", rows(noise.W)}, {"V", rows(noise.V)}, {"cross", rows(noise.Swv)}};
-  }
+  if (solution.estimator && solution.estimator->noise.V.size() > 0) out["noise"] = noise(solution.estimator->noise);
   if (solution.regulator) {
     const design::RegulatorSolution& regulator = *solution.regulator;
-    out["cost"] = {{"Q", rows(regulator.cost.Q)}, {"R", rows(regulator.cost.R)}, {"N", rows(regulator.cost.N)}};
-    out["lqr"] = {{"K", rows(regulator.K)}, {"X", rows(regulator.X)}, {"poles", poles(regulator.poles)}};
+    if (regulator.cost.R.size() > 0) {
+      out["cost"] = cost(regulator.cost);
+      add(out["cost"], "Q_final", regulator.Q_final);
+    }
+    out["lqr"] = lqr(regulator);
   }
   if (solution.estimator) out["kalman"] = kalman(controller);
+  if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
   out["loop"] = loop(solution.loop);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
   out["code"] = code(controller);
