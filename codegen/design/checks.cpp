@@ -2,10 +2,13 @@
 
 #include <cstdio>
 
+#include "design/augmentation.hpp"
 #include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"
+#include "design/noise.hpp"
 #include "design/rounding.hpp"
+#include "design/weights.hpp"
 
 namespace lqg::design {
 
@@ -61,9 +64,34 @@ std::string name_mode(const Plant& plant, const Mode& mode, bool is_continuous) 
          + states + ")";
 }
 
-bool is_unstable(const Plant& plant, const Mode& mode) {
-  if (plant.domain == Domain::discrete) return on_or_outside_circle(mode.value);
-  return on_or_right_of_axis(mode.value, norm(real(plant.A)));
+// How fast the modes have to be: |z| < 1/alpha, Re s < −rate.
+struct Decay {
+  Real alpha = 1, rate = 0;
+};
+
+Decay decay_per_mode(const Problem& problem) {
+  const Real value = decay_of(problem), T = problem.plant.sample_time;
+  if (problem.regulator->cost == Cost::continuous) return {exp(value * T), value};
+  return {value, log(value) / T};
+}
+
+// The plant's own mode of one of the equation with the pincer's α.
+Mode without_decay(const Problem& problem, Mode mode) {
+  const Real decay = decay_of(problem);
+  if (problem.regulator->cost == Cost::continuous) {
+    mode.value.re -= decay;
+  } else {
+    mode.value.re /= decay;
+    mode.value.im /= decay;
+  }
+  return mode;
+}
+
+bool is_too_slow(const Plant& plant, const Mode& mode, const Decay& decay) {
+  const ComplexReal& value = mode.value;
+  if (plant.domain == Domain::discrete)
+    return on_or_outside_circle({decay.alpha * value.re, decay.alpha * value.im});
+  return on_or_right_of_axis({value.re + decay.rate, value.im}, norm(real(plant.A)) + decay.rate);
 }
 
 Unreached unreached_modes_of(const Plant& plant, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
@@ -89,7 +117,7 @@ std::vector<ComplexReal> rough_poles(const Plant& plant) {
 // two poles become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is
 // one more pole at s = 0.
 std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B,
-                                         bool is_held, bool every_mode) {
+                                         bool is_held, bool every_mode, const Real& alpha) {
   const Real weak = 1e-6;
   std::vector<ComplexReal> merged, poles = rough_poles(plant);
   const std::size_t count = poles.size();
@@ -104,7 +132,7 @@ std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A
   const RealMatrix reach = B.unaryExpr([&](const Real& b) { return abs(b) > weak * usual ? b : Real(0); });
   for (const Mode& mode : unreached_sampled_modes(A, reach, weak).modes)
     for (const ComplexReal& z : merged)
-      if ((every_mode || on_or_outside_circle(z))
+      if ((every_mode || on_or_outside_circle({alpha * z.re, alpha * z.im}))
           && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
         lost.push_back({z, mode.states});
         break;
@@ -123,8 +151,8 @@ bool is_indefinite(const RealMatrix& weight) {
   return !positive_definite(weight) && least_scaled_eigenvalue(weight) < -1e-9;
 }
 
-RealMatrix joint(const Eigen::MatrixXd& a, const Eigen::MatrixXd& cross, const Eigen::MatrixXd& b) {
-  return above(beside(real(a), real(cross)), beside(real(cross.transpose()), real(b)));
+RealMatrix joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b) {
+  return above(beside(a, cross), beside(cross.transpose(), b));
 }
 
 void check_symmetric(const Eigen::MatrixXd& a, const std::string& key, Findings& findings) {
@@ -132,15 +160,15 @@ void check_symmetric(const Eigen::MatrixXd& a, const std::string& key, Findings&
 }
 
 // Errors at `key_a` or `key_b` for one alone, at `key_cross` when only the two together are indefinite.
-void check_joint(const Eigen::MatrixXd& a, const Eigen::MatrixXd& cross, const Eigen::MatrixXd& b,
+void check_joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b,
                  const std::string& key_a, const std::string& key_cross, const std::string& key_b,
                  Findings& findings) {
   const std::string expected = "expected a positive semidefinite matrix, found the eigenvalue ";
   const std::size_t before = findings.size();
   for (const auto& [matrix, key] : {std::make_pair(&a, &key_a), std::make_pair(&b, &key_b)})
-    if (is_indefinite(real(*matrix))) {
+    if (is_indefinite(*matrix)) {
       Real least;
-      for (const ComplexReal& value : eigenvalues(real(*matrix))) least = std::min<Real>(least, value.re);
+      for (const ComplexReal& value : eigenvalues(*matrix)) least = std::min<Real>(least, value.re);
       add_error(findings, *key, expected + short_number(to_double(least)));
     }
   if (findings.size() == before && is_indefinite(joint(a, cross, b)))
@@ -161,15 +189,16 @@ struct Words {
 
 // Errors for unstable modes (or all) that B does not reach, or that it reaches no more by sampling. False when the
 // digits in force see another number of modes than there are exactly.
-bool check_pair(const Plant& plant, const Pair& pair, const Words& words, Findings& findings) {
+bool check_pair(const Plant& plant, const Pair& pair, const Decay& decay, const Words& words,
+                Findings& findings) {
   const Unreached unreached = unreached_modes_of(plant, pair.A, pair.B);
   const bool certain = unreached.dimension == pair.A.rows() - reached_dimension(pair.A, pair.B);
   for (const Mode& mode : unreached.modes)
-    if (words.every_mode || is_unstable(plant, mode))
+    if (words.every_mode || is_too_slow(plant, mode, decay))
       add_once(findings, words.key, name_mode(plant, mode, true) + (certain ? words.none : words.weak));
   if (!certain || has_error(findings) || plant.domain == Domain::discrete) return certain;
-  for (const Mode& mode :
-       modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held, words.every_mode))
+  for (const Mode& mode : modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held,
+                                                 words.every_mode, decay.alpha))
     add_once(findings, "plant.sample_time", name_mode(plant, mode, false) + words.lost);
   return true;
 }
@@ -184,18 +213,57 @@ void add_note(Findings& findings, const std::string& key, const std::string& mes
   findings.push_back({Severity::note, key, message});
 }
 
-void check_kinds(const Problem& problem, Findings& findings) {
-  if (problem.plant.domain == Domain::continuous) return;
-  if (has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete)
-    add_error(findings, "lqr.cost", "expected \"discrete\": the plant is given at its samples only");
+namespace {
+
+void check_discrete_plant(const Problem& problem, Findings& findings) {
+  const std::string expected = "expected \"discrete\": the plant is given at its samples only";
+  if (has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete) add_error(findings, "lqr.cost", expected);
   if (has_noise(problem.estimator) && problem.estimator->noise != Noise::discrete)
-    add_error(findings, "kalman.noise", "expected \"discrete\": the plant is given at its samples only");
+    add_error(findings, "kalman.noise", expected);
+  if (!delay_of(problem.plant).is_whole)
+    add_error(findings, "plant.delay", "expected whole periods: the plant is given at its samples only");
+}
+
+void check_continuous_cost(const Problem& problem, Findings& findings) {
+  if (problem.plant.delay > 0)
+    add_error(findings, "lqr.cost",
+              "the continuous Riccati equation knows no delay: expected \"sampled\" or \"discrete\"");
+  if (problem.regulator->input_rate.size() > 0)
+    add_error(findings, "lqr.input_rate",
+              "a continuous trajectory has no Δu: expected cost = \"sampled\" or \"discrete\"");
+}
+
+void check_correlation_times(const Estimator& kalman, Findings& findings) {
+  const bool of_process = kalman.process_correlation_time.size() > 0;
+  const bool of_measurement = kalman.measurement_correlation_time.size() > 0;
+  const std::string key =
+      of_process ? "kalman.process_correlation_time" : "kalman.measurement_correlation_time";
+  if (!of_process && !of_measurement) return;
+  if (kalman.noise == Noise::discrete)
+    add_error(findings, key, "expected noise = \"continuous\": samples have no correlation time");
+  if (of_process != of_measurement && !kalman.Swv.isZero(0))
+    add_error(findings, "kalman.cross_noise",
+              "needs both correlation times or none: it cannot be half a covariance and half a density");
+}
+
+}  // namespace
+
+void check_kinds(const Problem& problem, Findings& findings) {
+  if (problem.plant.domain == Domain::discrete) check_discrete_plant(problem, findings);
+  if (has_cost(problem.regulator) && problem.regulator->cost == Cost::continuous)
+    check_continuous_cost(problem, findings);
+  if (has_noise(problem.estimator)) check_correlation_times(*problem.estimator, findings);
 }
 
 void check_symmetry(const Problem& problem, Findings& findings) {
   if (has_cost(problem.regulator)) {
-    check_symmetric(problem.regulator->Q, "lqr.Q", findings);
-    check_symmetric(problem.regulator->R, "lqr.R", findings);
+    const Regulator& lqr = *problem.regulator;
+    check_symmetric(lqr.Q, "lqr.Q", findings);
+    check_symmetric(lqr.R, "lqr.R", findings);
+    check_symmetric(lqr.Q_output, "lqr.Q_output", findings);
+    check_symmetric(lqr.Q_final, "lqr.Q_final", findings);
+    check_symmetric(lqr.input_rate, "lqr.input_rate", findings);
+    if (lqr.integral) check_symmetric(lqr.integral->Q, "lqr.integral", findings);
   }
   if (!has_noise(problem.estimator)) return;
   check_symmetric(problem.estimator->W, "kalman.process_noise", findings);
@@ -203,29 +271,47 @@ void check_symmetry(const Problem& problem, Findings& findings) {
   check_symmetric(problem.estimator->P0, "kalman.initial_covariance", findings);
 }
 
-void check_definiteness(const Problem& problem, Findings& findings) {
-  if (has_cost(problem.regulator)) {
-    const Regulator& lqr = *problem.regulator;
-    check_joint(lqr.Q, lqr.N, lqr.R, "lqr.Q", "lqr.N", "lqr.R", findings);
-    if (lqr.cost == Cost::continuous && !positive_definite(real(lqr.R)))
-      add_error(findings, "lqr.R",
-                "expected a positive definite matrix: the continuous gain needs its inverse");
-  }
-  if (!has_noise(problem.estimator)) return;
+namespace {
+
+void check_semidefinite(const Eigen::MatrixXd& a, const std::string& key, Findings& findings) {
+  if (a.size() > 0 && is_indefinite(real(a)))
+    add_error(findings, key, "expected a positive semidefinite matrix");
+}
+
+void check_regulator_definiteness(const Problem& problem, Findings& findings) {
+  const Regulator& lqr = *problem.regulator;
+  const SampledCost weights = weights_of(problem);
+  check_joint(weights.Q, weights.N, weights.R, "lqr.Q", "lqr.N", "lqr.R", findings);
+  if (lqr.cost == Cost::continuous && !positive_definite(weights.R))
+    add_error(findings, "lqr.R", "expected a positive definite matrix: the continuous gain needs its inverse");
+  check_semidefinite(lqr.Q_output, "lqr.Q_output", findings);
+  check_semidefinite(lqr.Q_final, "lqr.Q_final", findings);
+  check_semidefinite(lqr.input_rate, "lqr.input_rate", findings);
+  if (lqr.integral) check_semidefinite(lqr.integral->Q, "lqr.integral", findings);
+}
+
+void check_estimator_definiteness(const Problem& problem, Findings& findings) {
   const Estimator& kalman = *problem.estimator;
-  check_joint(kalman.W, kalman.Swv, kalman.V, "kalman.process_noise", "kalman.cross_noise",
+  check_joint(real(kalman.W), real(kalman.Swv), real(kalman.V), "kalman.process_noise", "kalman.cross_noise",
               "kalman.measurement_noise", findings);
-  if (!has_error(findings) && !positive_definite(real(kalman.V)))
+  if (!has_error(findings) && !positive_definite(noise_of(problem).V))
     add_error(findings, "kalman.measurement_noise",
               "expected a positive definite matrix: every output needs some noise");
-  if (kalman.gain == Gain::online && is_indefinite(real(kalman.P0)))
-    add_error(findings, "kalman.initial_covariance", "expected a positive semidefinite matrix");
+  if (kalman.gain != Gain::steady)
+    check_semidefinite(kalman.P0, "kalman.initial_covariance", findings);
+}
+
+}  // namespace
+
+void check_definiteness(const Problem& problem, Findings& findings) {
+  if (has_cost(problem.regulator)) check_regulator_definiteness(problem, findings);
+  if (has_noise(problem.estimator)) check_estimator_definiteness(problem, findings);
 }
 
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
   const Pair pair = {plant.A, plant.B, sampled.A, sampled.B, true};
-  return check_pair(plant, pair,
+  return check_pair(plant, pair, decay_per_mode(problem),
                     {"plant.B", " is reached by no input: the plant is not stabilisable",
                      " is reached too weakly by the inputs: the plant is hardly stabilisable",
                      " can be stabilised, but not with inputs held that long: the sample time matches its "
@@ -237,7 +323,7 @@ bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findi
   const Plant& plant = problem.plant;
   const Pair pair = {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(),
                      false};
-  return check_pair(plant, pair,
+  return check_pair(plant, pair, Decay(),
                     {"plant.C", " is seen in no output: the plant is not detectable",
                      " is seen too weakly in the outputs: the plant is hardly detectable",
                      " can be seen, but not at these samples: the sample time matches its oscillation"},
@@ -247,7 +333,7 @@ bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findi
 bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
   const bool certain =
-      check_pair(plant, {plant.A, plant.B, sampled.A, sampled.B, true},
+      check_pair(plant, {plant.A, plant.B, sampled.A, sampled.B, true}, Decay(),
                  {"plant.B", " is reached by no input: its pole cannot be moved",
                   " is reached too weakly by the inputs: its pole can hardly be moved",
                   " cannot be moved with inputs held that long: the sample time matches its oscillation", true},
@@ -262,7 +348,7 @@ bool check_observable(const Problem& problem, const SampledPlant& sampled, const
                       Findings& findings) {
   const Plant& plant = problem.plant;
   const bool certain =
-      check_pair(plant, {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(), false},
+      check_pair(plant, {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(), false}, Decay(),
                  {"plant.C", " is seen in no output: its pole cannot be moved",
                   " is seen too weakly in the outputs: its pole can hardly be moved",
                   " cannot be seen at these samples: the sample time matches its oscillation", true},
@@ -274,30 +360,26 @@ bool check_observable(const Problem& problem, const SampledPlant& sampled, const
 }
 
 // The modes of (A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ) that are not observable: with R > 0 the only ones that cost nothing.
-void check_weights_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
-  const Plant& plant = problem.plant;
+void check_weights_on_limit(const Problem& problem, const RiccatiEquation& e, Findings& findings) {
   const bool is_continuous = problem.regulator->cost == Cost::continuous;
-  const SampledCost& cost = *samples.cost;
-  const RealMatrix A = is_continuous ? real(plant.A) : samples.plant.A;
-  const RealMatrix B = is_continuous ? real(plant.B) : samples.plant.B;
-  if (!positive_definite(cost.R)) return;
-  const RealMatrix weighed = *solve(cost.R, cost.N.transpose());
-  const RealMatrix free = A - multiply(B, weighed);
-  const RealMatrix weight = cost.Q - multiply(cost.N, weighed);
+  if (!positive_definite(e.R)) return;
+  const RealMatrix weighed = *solve(e.R, e.N.transpose());
+  const RealMatrix free = e.A - multiply(e.B, weighed);
+  const RealMatrix weight = e.Q - multiply(e.N, weighed);
   const Unreached unweighed = is_continuous ? unreached_modes(free.transpose(), weight)
                                             : unreached_sampled_modes(free.transpose(), weight);
   for (const Mode& mode : unweighed.modes) {
     const bool on_limit = is_continuous ? on_axis(mode.value, norm(free)) : on_circle(mode.value);
     if (on_limit)
       add_once(findings, "lqr.Q",
-               name_mode(plant, mode, is_continuous)
+               name_mode(problem.plant, without_decay(problem, mode), is_continuous)
                    + " is on the stability limit and carries no weight: no stabilising gain is optimal");
   }
 }
 
 // The modes of (A − G Swv V⁻¹C, G(W − Swv V⁻¹Swvᵀ)Gᵀ) that are not reached.
 void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
-  const SampledPlant& plant = samples.plant;
+  const SampledPlant plant = own_plant(samples);
   const SampledNoise& noise = *samples.noise;
   const RealMatrix told = *solve(noise.V, beside(plant.C, noise.Swv.transpose()));
   const Index nx = plant.A.rows(), nw = plant.G.cols();

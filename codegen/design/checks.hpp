@@ -5,6 +5,7 @@
 #include "design/finding.hpp"
 #include "design/linear_algebra.hpp"
 #include "design/problem.hpp"
+#include "design/riccati.hpp"
 #include "design/samples.hpp"
 
 namespace lqg::design {
@@ -19,8 +20,8 @@ void check_symmetry(const Problem& problem, Findings& findings);
 void check_definiteness(const Problem& problem, Findings& findings);
 
 // Stabilisable and detectable? Of a continuous plant that is asked of the continuous plant, whose numbers are
-// exact, and then whether sampling has lost it. False when the digits in force do not tell how many modes are
-// reached or seen.
+// exact, and then whether sampling has lost it. `sampled` is the plant without a delay. With a decay the modes must be
+// as fast as that asks for. False when the digits in force do not tell how many modes are reached or seen.
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 
@@ -31,8 +32,8 @@ bool check_observable(const Problem& problem, const SampledPlant& sampled, const
                       Findings& findings);
 
 // A mode on the stability limit that carries no weight, or that no process noise drives, has no stabilising
-// solution.
-void check_weights_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
+// solution. `equation` is the one that the gain solves.
+void check_weights_on_limit(const Problem& problem, const RiccatiEquation& equation, Findings& findings);
 void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
 
 }  // namespace lqg::design

@@ -1,5 +1,7 @@
 #include "design/compensator.hpp"
 
+#include "design/augmentation.hpp"
+
 namespace lqg::design {
 
 namespace {
@@ -13,12 +15,6 @@ bool has_rate(const Problem& problem) { return problem.regulator->input_rate.siz
 const std::vector<int>& integrated(const Problem& problem) {
   static const std::vector<int> none;
   return problem.regulator->integral ? problem.regulator->integral->outputs : none;
-}
-
-RealMatrix chosen_rows(const RealMatrix& from, const std::vector<int>& rows) {
-  RealMatrix chosen(static_cast<Index>(rows.size()), from.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) chosen.row(static_cast<Index>(i)) = from.row(rows[i]);
-  return chosen;
 }
 
 // Signals of a sample as matrices over [x̂⁻; ξ; u[k−1]; y]: those four, then what follows from them.
@@ -43,12 +39,13 @@ RealMatrix law(const Problem& problem, const RealMatrix& K, const Signals& s, co
 
 Compensator system(const Signals& s, const RealMatrix& next, const RealMatrix& u) {
   const Index ny = s.y.rows();
-  return {next.leftCols(s.states), next.rightCols(ny), u.leftCols(s.states), u.rightCols(ny)};
+  return {next.leftCols(s.states), next.rightCols(ny), u.leftCols(s.states), u.rightCols(ny),
+          s.estimate.rows(), s.integral.rows()};
 }
 
 // ξ⁺ = ξ − T y of the integrated outputs, and u is kept where it is needed again.
 RealMatrix next_memory(const Problem& problem, const Signals& s, const RealMatrix& outputs, const RealMatrix& u) {
-  const RealMatrix moved = Real(problem.plant.sample_time) * chosen_rows(outputs, integrated(problem));
+  const RealMatrix moved = Real(problem.plant.sample_time) * rows_of(outputs, integrated(problem));
   return above(s.integral - moved, s.last.rows() > 0 ? u : s.last);
 }
 

@@ -11,6 +11,7 @@ namespace lqg::design {
 // Without a filter the state itself is measured: y = x.
 struct Compensator {
   RealMatrix A, B, C, D;
+  Index estimates = 0, integrals = 0;  // of its states the first ones, and the ones after these
 };
 
 // What the controller sees of the plant: x⁺ = A x + B u + G w, y = C x + D u + v. In filter form y is sampled

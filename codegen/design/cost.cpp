@@ -1,51 +1,83 @@
 #include "design/cost.hpp"
 
+#include "design/augmentation.hpp"
+#include "design/noise.hpp"
 #include "design/riccati.hpp"
 
 namespace lqg::design {
 
 namespace {
 
-// The covariance of the estimate that u is made of. The innovations are white, so that
-//   filter:     Σ = FΣFᵀ + ΓSΓᵀ of x̂⁻ with F = A − BK, Γ = FL + M; x̂ = x̂⁻ + L innovation has Σ + LSLᵀ
-//   predictor:  the same of x̂⁻ with Γ = L_predictor
-RealMatrix estimate_covariance(const SampledPlant& plant, const RealMatrix& K,
-                               const EstimatorSolution& filter, Form form) {
-  const RealMatrix closed = plant.A - multiply(plant.B, K);
-  const bool filtered = form == Form::filter;
-  const RealMatrix drive = filtered ? RealMatrix(multiply(closed, filter.L) + filter.M) : filter.L_predictor;
-  const RealMatrix covariance = *solve_stein(closed.transpose(), congruence(drive, filter.S));
-  return filtered ? RealMatrix(covariance + congruence(filter.L, filter.S)) : covariance;
+// [z; v] with z = [x; ξ; u[k−1]] and v = u or Δu, of x and u as they are, and of the controller's states.
+RealMatrix regulated(const Problem& problem, const Compensator& controller, const RealMatrix& x,
+                     const RealMatrix& u, const RealMatrix& states) {
+  const RealMatrix z = above(x, states.middleRows(controller.estimates, controller.integrals));
+  if (problem.regulator->input_rate.size() == 0) return above(z, u);
+  const RealMatrix last = states.bottomRows(u.rows());
+  return above(above(z, last), u - last);
 }
 
-// u = −Kx̂ and x − x̂ is not correlated with x̂:  tr((Q − NK − KᵀNᵀ + KᵀRK) E[x̂x̂ᵀ]) + tr(Q P).
-Real cost_of(const SampledCost& cost, const RealMatrix& K, const RealMatrix& estimate,
-             const RealMatrix& error) {
-  const RealMatrix NK = multiply(cost.N, K);
-  const RealMatrix weight = cost.Q - (NK + NK.transpose()) + transpose_congruence(K, cost.R);
-  return trace_of_product(weight, estimate) + trace_of_product(cost.Q, error);
+RealMatrix together(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b) {
+  return above(beside(a, cross), beside(cross.transpose(), b));
+}
+
+// `covariance` of [z; v]; `error` of the part of x that v does not know.
+SteadyCost cost_of(const Problem& problem, const Samples& samples, const Compensator& controller,
+                   const RealMatrix& covariance, const RealMatrix& error) {
+  const SampledCost weights = regulated_cost(problem, samples.between ? samples.between->cost : *samples.cost);
+  const Index nx = samples.plant.A.rows();
+  SteadyCost cost;
+  cost.per_sample = trace_of_product(together(weights.Q, weights.N, weights.R), covariance)
+                    + trace_of_product(weights.Q.topLeftCorner(nx, nx), error);
+  if (!samples.between) return cost;
+  // E[w uᵀ] = Swv Dᵀ where the controller answers y at once; else u is older than v.
+  Real between = samples.between->noise_cost;
+  if (samples.between->u_noise.size() > 0)
+    between += 2
+               * trace_of_product(samples.between->u_noise,
+                                  multiply_transpose(noise_of(problem).Swv, controller.D));
+  cost.per_second = (cost.per_sample + between) / Real(problem.plant.sample_time);
+  return cost;
 }
 
 }  // namespace
 
-SteadyCost steady_cost(const Problem& problem, const Samples& samples, const Solution& solution) {
-  const EstimatorSolution& filter = *solution.estimator;
-  const RealMatrix& K = solution.regulator->K;
-  const Form form = problem.estimator->form;
-  const RealMatrix estimate = estimate_covariance(solution.plant, K, filter, form);
-  const RealMatrix& error = form == Form::filter ? filter.P_posterior : filter.P_prior;
-  const SampledCost& weights = samples.between ? samples.between->cost : *samples.cost;
-  SteadyCost cost;
-  cost.per_sample = cost_of(weights, K, estimate, error);
-  if (!samples.between) return cost;
-  // u holds −K L v, so that E[w uᵀ] = −Swv LᵀKᵀ; in predictor form u is older than v.
-  Real between = samples.between->noise_cost;
-  if (form == Form::filter && samples.between->u_noise.size() > 0)
-    between -= 2
-               * trace_of_product(samples.between->u_noise,
-                                  multiply(real(problem.estimator->Swv), multiply(K, filter.L).transpose()));
-  cost.per_second = (cost.per_sample + between) / Real(problem.plant.sample_time);
-  return cost;
+std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples,
+                                      const Compensator& controller) {
+  const SampledNoise& noise = *samples.noise;
+  const Index nx = samples.plant.A.rows();
+  const ClosedLoop loop = closed_loop(measured_plant(problem, samples.plant), controller);
+  const RealMatrix disturbance = together(noise.W, noise.Swv, noise.V);
+  const std::optional<RealMatrix> states = solve_stein(loop.A.transpose(), congruence(loop.B, disturbance));
+  if (!states) return std::nullopt;
+  const Index all = loop.A.rows(), none = loop.D.cols();
+  const auto seen = [&](const RealMatrix& one, const RealMatrix& u) {
+    return regulated(problem, controller, one.topRows(nx), u, one.bottomRows(controller.A.rows()));
+  };
+  const RealMatrix covariance = congruence(seen(identity(all), loop.C), *states)
+                                + congruence(seen(zeros(all, none), loop.D), disturbance);
+  return cost_of(problem, samples, controller, covariance, zeros(nx, nx));
+}
+
+// y = e + C x̂⁻ + D u with the input that acts, so that s⁺ = (A + B Y) s + B e; E[e eᵀ] = S.
+// x = x̂ + what is not correlated with anything that the controller knows.
+std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples,
+                                      const Compensator& controller, const EstimatorSolution& filter) {
+  const SampledPlant& plant = samples.plant;
+  const bool filtered = problem.estimator->form == Form::filter;
+  const Index nx = plant.A.rows(), nu = plant.B.cols(), ns = controller.A.rows(), ny = plant.C.rows();
+  const RealMatrix states = identity(ns);
+  RealMatrix Y = multiply(plant.C, states.topRows(nx));
+  if (!is_zero(plant.D)) Y += multiply(plant.D, filtered ? RealMatrix(states.bottomRows(nu)) : controller.C);
+  const RealMatrix next = controller.A + multiply(controller.B, Y);
+  const std::optional<RealMatrix> known = solve_stein(next.transpose(), congruence(controller.B, filter.S));
+  if (!known) return std::nullopt;
+  const RealMatrix none = zeros(ns, ny), corrected = filtered ? filter.L : zeros(nx, ny);
+  const RealMatrix of_states =
+      regulated(problem, controller, states.topRows(nx), controller.C + multiply(controller.D, Y), states);
+  const RealMatrix of_innovation = regulated(problem, controller, corrected, controller.D, none);
+  const RealMatrix covariance = congruence(of_states, *known) + congruence(of_innovation, filter.S);
+  return cost_of(problem, samples, controller, covariance, filtered ? filter.P_posterior : filter.P_prior);
 }
 
 }  // namespace lqg::design

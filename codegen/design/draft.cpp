@@ -20,26 +20,42 @@ void take_condition(Solution& solution, const RiccatiResult& result) {
   solution.numerics.condition = std::max(solution.numerics.condition, condition);
 }
 
+// The plant as if u took effect at once: what sampling does to its modes does not depend on the delay.
+SampledPlant plant_without_delay(const Problem& problem, const Samples& samples) {
+  return problem.plant.delay > 0 ? sample(problem, Delay()).plant : samples.plant;
+}
+
+bool is_stable(const std::vector<ComplexReal>& poles) {
+  return std::all_of(poles.begin(), poles.end(),
+                     [](const ComplexReal& pole) { return hypot(pole.re, pole.im) < 1; });
+}
+
+void check_regulator(const Problem& problem, const Samples& samples, Draft& result) {
+  result.may_want_digits =
+      !check_stabilisable(problem, plant_without_delay(problem, samples), result.findings);
+  if (problem.regulator->integral)
+    check_set_points(samples.plant, problem.regulator->integral->outputs, "lqr.integral", result.findings);
+  if (!has_error(result.findings))
+    check_weights_on_limit(problem, deciding_equation(problem, samples), result.findings);
+}
+
 void draft_regulator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
-  result.may_want_digits = !check_stabilisable(problem, samples.plant, result.findings);
-  check_weights_on_limit(problem, samples, result.findings);
+  check_regulator(problem, samples, result);
   if (has_error(result.findings)) return;
-  const RiccatiResult found =
+  const SteadyRegulator found =
       solve_regulator(problem, samples, coarser ? coarser->solution.regulator->X : RealMatrix());
-  explain_regulator(found.failure, result.findings);
-  if (found.failure != RiccatiFailure::none) result.may_want_digits = true;
-  if (found.failure != RiccatiFailure::none) return;
-  take_condition(result.solution, found);
+  explain_regulator(found.riccati.failure, result.findings);
+  if (found.riccati.failure != RiccatiFailure::none) result.may_want_digits = true;
+  if (found.riccati.failure != RiccatiFailure::none) return;
+  take_condition(result.solution, found.riccati);
   RegulatorSolution& regulator = result.solution.regulator.emplace();
   regulator.cost = *samples.cost;
-  regulator.K = found.K;
-  regulator.X = found.X;
-  result.regulator_poles = eigenvalues(found.closed);
-  for (const ComplexReal& pole : result.regulator_poles)
-    if (!(hypot(pole.re, pole.im) < 1) && problem.regulator->cost == Cost::continuous)
-      return add_error(
-          result.findings, "lqr.cost",
-          "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");
+  regulator.K = found.riccati.K;
+  regulator.X = found.riccati.X;
+  result.regulator_poles = found.poles;
+  if (problem.regulator->cost == Cost::continuous && !is_stable(found.poles))
+    add_error(result.findings, "lqr.cost",
+              "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");
 }
 
 void draft_placed_regulator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
@@ -64,7 +80,7 @@ void draft_placed_estimator(const Problem& problem, const Samples& samples, cons
 }
 
 void draft_estimator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
-  if (!check_detectable(problem, samples.plant, result.findings)) result.may_want_digits = true;
+  if (!check_detectable(problem, own_plant(samples), result.findings)) result.may_want_digits = true;
   check_noise_on_limit(problem, samples, result.findings);
   if (has_error(result.findings)) return;
   const RiccatiResult found =
@@ -75,6 +91,7 @@ void draft_estimator(const Problem& problem, const Samples& samples, const Draft
   take_condition(result.solution, found);
   result.solution.estimator = filter_of(samples, found.X);
   result.estimator_poles = eigenvalues(found.closed);
+  result.estimator_poles.resize(static_cast<std::size_t>(samples.plant.A.rows()), {Real(0), Real(0)});
   if (problem.estimator->gain == Gain::online)
     result.solution.online = online_filter(*problem.estimator, samples);
 }
@@ -93,9 +110,10 @@ Draft draft(const Problem& problem, const Draft* coarser) {
   if (problem.estimator)
     (has_noise(problem.estimator) ? draft_estimator : draft_placed_estimator)(problem, samples, coarser, result);
   if (has_error(result.findings) || !has_cost(problem.regulator) || !has_noise(problem.estimator)) return result;
-  const SteadyCost cost = steady_cost(problem, samples, result.solution);
-  result.cost_per_sample = cost.per_sample;
-  result.cost_per_second = cost.per_second;
+  const std::optional<SteadyCost> cost =
+      steady_cost(problem, samples, compensator(problem, result.solution), *result.solution.estimator);
+  if (cost) result.cost_per_sample = cost->per_sample;
+  if (cost) result.cost_per_second = cost->per_second;
   return result;
 }
 

@@ -5,12 +5,27 @@
 
 namespace lqg::design {
 
+namespace {
+
+// The inputs on their way are known: no error, no gain.
+RealMatrix with_known_inputs(const RealMatrix& own, Index rows, Index columns) {
+  RealMatrix result = zeros(rows, columns);
+  result.topLeftCorner(own.rows(), own.cols()) = own;
+  return result;
+}
+
+}  // namespace
+
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
-  const SampledPlant& plant = samples.plant;
+  const SampledPlant plant = own_plant(samples);
   const SampledNoise& noise = *samples.noise;
-  return solve_discrete_riccati({plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W),
-                                 noise.V, multiply(plant.G, noise.Swv)},
-                                start);
+  const Index nx = samples.own_states, all = samples.plant.A.rows();
+  RiccatiResult result = solve_discrete_riccati(
+      {plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W), noise.V,
+       multiply(plant.G, noise.Swv)},
+      start.size() > 0 ? RealMatrix(start.topLeftCorner(nx, nx)) : start);
+  if (result.failure == RiccatiFailure::none) result.X = with_known_inputs(result.X, all, all);
+  return result;
 }
 
 EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior) {
@@ -48,6 +63,11 @@ void factor_process_noise(OnlineSolution& online) {
 
 }  // namespace
 
+RealMatrix initial_covariance(const Estimator& estimator, const Samples& samples) {
+  const Index all = samples.plant.A.rows();
+  return with_known_inputs(real(estimator.P0), all, all);
+}
+
 OnlineSolution online_filter(const Estimator& estimator, const Samples& samples) {
   const SampledPlant& plant = samples.plant;
   const SampledNoise& noise = *samples.noise;
@@ -62,7 +82,7 @@ OnlineSolution online_filter(const Estimator& estimator, const Samples& samples)
   online.A_free = plant.A - multiply(online.M, online.C);
   online.W = congruence(plant.G, noise.W) - congruence(online.M, RealMatrix(online.V.asDiagonal()));
   factor_process_noise(online);
-  online.P0 = real(estimator.P0);
+  online.P0 = initial_covariance(estimator, samples);
   const Factors P0 = upper_factors(online.P0);
   online.U0 = P0.U;
   online.D0 = P0.d;

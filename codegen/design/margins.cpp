@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 
@@ -19,7 +21,8 @@ using Function = std::function<Real(const Real&)>;                    // of an a
 
 Real pi() { return atan(Real(1)) * 4; }
 
-// Angles in (0, π): as dense around every pole as it is close to the circle, 8 to an octave from both ends.
+// Angles in (0, π): as dense around every pole as it is close to the circle, 8 to an octave from both ends. These
+// begin far inside of the pole that is nearest to ±1, for zeros may be nearer.
 std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
   std::vector<Real> angles;
   const Real end = pi();
@@ -33,8 +36,8 @@ std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
     fastest = std::min<Real>(fastest, hypot(pole.re + 1, pole.im));
   }
   const Real ratio = pow(Real(2), Real(1) / 8);
-  for (Real angle = slowest / 16; angle < end / 2; angle *= ratio) angles.push_back(angle);
-  for (Real angle = fastest / 16; angle < end / 2; angle *= ratio) angles.push_back(end - angle);
+  for (Real angle = slowest / 4096; angle < end / 2; angle *= ratio) angles.push_back(angle);
+  for (Real angle = fastest / 4096; angle < end / 2; angle *= ratio) angles.push_back(end - angle);
   angles.erase(
       std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
       angles.end());
@@ -69,7 +72,14 @@ Function slope_of(const Function& f, const Real& step) {
 struct Fineness {
   double step, end_of_root, end_of_extremum;
 };
-const Fineness rough = {1e-4, 1e-7, 1e-3}, exact = {1e-14, 1e-14, 1e-10};
+const Fineness rough = {1e-4, 1e-7, 1e-3}, as_far_as_double_goes = {1e-4, 1e-10, 1e-6},
+               exact = {1e-14, 1e-14, 1e-10};
+
+// How the places of the search are refined.
+struct Refining {
+  Evaluate evaluate;
+  Fineness fineness;
+};
 
 struct Search {
   Evaluate evaluate;
@@ -125,12 +135,12 @@ std::vector<Place> crossings(const Search& search, const Value& value, const Val
 bool by_margin(const Place& a, const Place& b) { return a.margin < b.margin; }
 
 // The root of f at a place, in all digits: first looked for next to where it was found roughly.
-std::optional<Real> root_near(const Function& f, const Place& place) {
+std::optional<Real> root_near(const Function& f, const Place& place, const Fineness& fineness) {
   for (const double share : {1e-5, 1.0}) {
     const Real reach = share * (place.high - place.low);
     const Real low = std::max<Real>(place.low, place.angle - reach),
                high = std::min<Real>(place.high, place.angle + reach);
-    if ((f(low) < 0) != (f(high) < 0)) return root_between(f, low, high, exact.end_of_root);
+    if ((f(low) < 0) != (f(high) < 0)) return root_between(f, low, high, fineness.end_of_root);
   }
   return std::nullopt;
 }
@@ -142,7 +152,7 @@ struct Outcome {
 
 // The least margin of all inputs: the roots of `value`, the rough search's best ones refined, and what `ends`
 // has already.
-Outcome least_margin(const Search& search, const Evaluate& evaluate, const InputValue& value,
+Outcome least_margin(const Search& search, const Refining& refining, const InputValue& value,
                      const InputValue& margin, const std::optional<Real>& ends) {
   Outcome outcome;
   outcome.least = ends;
@@ -160,11 +170,11 @@ Outcome least_margin(const Search& search, const Evaluate& evaluate, const Input
   for (const Place& place : places) {
     if (place.margin > bound) continue;
     const Index input = place.input;
-    const Function f = [&, input](const Real& angle) { return value(evaluate(angle), input); };
-    const std::optional<Real> root = root_near(f, place);
+    const Function f = [&, input](const Real& angle) { return value(refining.evaluate(angle), input); };
+    const std::optional<Real> root = root_near(f, place, refining.fineness);
     outcome.as_expected = outcome.as_expected && root;
     if (!root) continue;
-    const Real found = margin(evaluate(*root), input);
+    const Real found = margin(refining.evaluate(*root), input);
     outcome.as_expected = outcome.as_expected && abs(found - place.margin) <= 1e-3 * found;
     if (!outcome.least || found < *outcome.least) outcome.least = found;
   }
@@ -195,14 +205,14 @@ std::optional<Real> gain_margin_at_ends(const Evaluate& evaluate) {
   return least;
 }
 
-Outcome least_gain(const Search& search, const Evaluate& evaluate) {
+Outcome least_gain(const Search& search, const Refining& refining) {
   const auto imaginary = [](const ComplexMatrix& T, Index input) { return T.im(input, input); };
-  return least_margin(search, evaluate, imaginary, gain_margin, gain_margin_at_ends(evaluate));
+  return least_margin(search, refining, imaginary, gain_margin, gain_margin_at_ends(refining.evaluate));
 }
 
-Outcome least_phase(const Search& search, const Evaluate& evaluate) {
+Outcome least_phase(const Search& search, const Refining& refining) {
   const auto from_half = [](const ComplexMatrix& T, Index input) { return Real(T.re(input, input) - 0.5); };
-  return least_margin(search, evaluate, from_half, phase_margin, std::nullopt);
+  return least_margin(search, refining, from_half, phase_margin, std::nullopt);
 }
 
 // [Re H, −Im H; Im H, Re H] with H = I/2 − T: the norm of the complex matrix is that of this real one.
@@ -240,48 +250,73 @@ std::vector<Place> disk_places(const Search& search) {
   return places;
 }
 
-Outcome least_disk(const Search& search, const Evaluate& evaluate) {
+Outcome least_disk(const Search& search, const Refining& refining) {
   Outcome outcome;
-  const Function f = at_angle(exact_disk, evaluate);
+  const Function f = at_angle(exact_disk, refining.evaluate);
   outcome.least = std::min<Real>(f(Real(0)), f(pi()));
   const std::vector<Place> places = disk_places(search);
   if (places.empty()) return outcome;
   const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.1;
   for (const Place& place : places) {
     if (place.margin > bound) continue;
-    const Function slope = slope_of(f, exact.step * (place.high - place.low));
+    const Function slope = slope_of(f, refining.fineness.step * (place.high - place.low));
     const bool has_minimum = slope(place.low) < 0 && slope(place.high) > 0;
     outcome.as_expected = outcome.as_expected && has_minimum;
     if (!has_minimum) continue;
     outcome.least =
-        std::min<Real>(*outcome.least, f(root_between(slope, place.low, place.high, exact.end_of_extremum)));
+        std::min<Real>(*outcome.least, f(root_between(slope, place.low, place.high, refining.fineness.end_of_extremum)));
   }
   return outcome;
+}
+
+// The margins, and whether the search saw all that the refined places show.
+std::pair<Margins, bool> least_margins(const Search& search, const Refining& refining) {
+  const Outcome gain = least_gain(search, refining), phase = least_phase(search, refining);
+  const Outcome disk = least_disk(search, refining);
+  Margins result;
+  if (gain.least) result.gain_dB = to_double(*gain.least);
+  if (phase.least) result.phase_deg = to_double(*phase.least);
+  result.disk = to_double(*disk.least);
+  return {result, gain.as_expected && phase.as_expected && disk.as_expected};
+}
+
+Evaluate roughly(const Response& response) {
+  return [&response](const Real& angle) {
+    const Digits few(20);
+    return response.roughly_at(angle);
+  };
+}
+
+Response closed_response(const OpenLoop& loop) {
+  return Response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C);
+}
+
+void keep_six_digits(std::optional<double>& value) {
+  if (!value) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", *value);
+  value = std::strtod(text, nullptr);
 }
 
 }  // namespace
 
 Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {
-  const Response response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C);
+  const Response response = closed_response(loop);
   const Digits enough(38);  // two limbs
   const Response in_few_digits = response.in_present_digits();
   const std::vector<Real> angles = search_angles(closed_loop_poles);
-  const Evaluate exactly = [&](const Real& angle) { return in_few_digits.at(angle); };
-  const Evaluate roughly = [&](const Real& angle) {
-    const Digits few(20);
-    return response.roughly_at(angle);
-  };
-  Margins result;
-  for (const Evaluate& evaluate : {roughly, exactly}) {
-    const Search search = search_with(evaluate, angles);
-    const Outcome gain = least_gain(search, exactly), phase = least_phase(search, exactly);
-    const Outcome disk = least_disk(search, exactly);
-    result = Margins();
-    if (gain.least) result.gain_dB = to_double(*gain.least);
-    if (phase.least) result.phase_deg = to_double(*phase.least);
-    result.disk = to_double(*disk.least);
-    if (gain.as_expected && phase.as_expected && disk.as_expected) break;
-  }
+  const Refining exactly = {[&](const Real& angle) { return in_few_digits.at(angle); }, exact};
+  const auto [result, is_certain] = least_margins(search_with(roughly(response), angles), exactly);
+  return is_certain ? result : least_margins(search_with(exactly.evaluate, angles), exactly).first;
+}
+
+Margins rough_margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {
+  const Digits enough(38);
+  const Response response = closed_response(loop);
+  const Evaluate evaluate = roughly(response);
+  const Search search = search_with(evaluate, search_angles(closed_loop_poles));
+  Margins result = least_margins(search, {evaluate, as_far_as_double_goes}).first;
+  for (std::optional<double>* value : {&result.gain_dB, &result.phase_deg, &result.disk}) keep_six_digits(*value);
   return result;
 }
 

@@ -22,12 +22,6 @@ bool is_finite(const RealMatrix& a) {
 
 int most_doublings() { return 4 * static_cast<int>(Real::default_precision()); }
 
-// The cost of one step under u = −Kx:  [I −Kᵀ] [Q N; Nᵀ R] [I; −K] = Q − NK − KᵀNᵀ + KᵀRK.
-RealMatrix step_cost(const RiccatiEquation& e, const RealMatrix& K) {
-  const RealMatrix NK = multiply(e.N, K);
-  return e.Q - (NK + NK.transpose()) + transpose_congruence(K, e.R);
-}
-
 // X by structure-preserving doubling (E. K. Chu, H. Y. Fan, W. W. Lin, C. S. Wang, International Journal of
 // Control 77 (2004), 767–788); the minimal X, not the stabilising one, where an unstable mode has no weight.
 // Empty when R or a step is singular.
@@ -188,6 +182,11 @@ std::optional<RealMatrix> solve_stein(const RealMatrix& A, const RealMatrix& Y) 
     power = multiply(power, power);
   }
   return std::nullopt;
+}
+
+RealMatrix step_cost(const RiccatiEquation& e, const RealMatrix& K) {
+  const RealMatrix NK = multiply(e.N, K);
+  return e.Q - (NK + NK.transpose()) + transpose_congruence(K, e.R);
 }
 
 std::optional<RealMatrix> gain_of(const RiccatiEquation& e, const RealMatrix& X) {

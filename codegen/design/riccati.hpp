@@ -32,6 +32,9 @@ struct RiccatiResult {
 // Mathematics 16 (1968), 198–201). Empty when the powers of A do not vanish: A is not strictly stable.
 std::optional<RealMatrix> solve_stein(const RealMatrix& A, const RealMatrix& Y);
 
+// The cost of one step under u = −Kx:  [I −Kᵀ] [Q N; Nᵀ R] [I; −K] = Q − NK − KᵀNᵀ + KᵀRK.
+RealMatrix step_cost(const RiccatiEquation& equation, const RealMatrix& K);
+
 // K of a given X, from the discrete equation. Empty when R + BᵀXB is not positive definite.
 std::optional<RealMatrix> gain_of(const RiccatiEquation& equation, const RealMatrix& X);
 

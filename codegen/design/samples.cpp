@@ -1,6 +1,8 @@
 #include "design/samples.hpp"
 
+#include "design/noise.hpp"
 #include "design/sampling.hpp"
+#include "design/weights.hpp"
 
 namespace lqg::design {
 
@@ -15,88 +17,161 @@ bool cost_is_integral(const Problem& problem) {
 }
 
 // Does the integral see w as an input that is held: noise of that kind, or the part of it that v tells.
-bool cost_sees_held_noise(const Problem& problem) {
+bool cost_sees_held_noise(const Problem& problem, const SampledNoise& noise) {
   return has_noise(problem.estimator) && cost_is_integral(problem)
-         && (!noise_is_sampled(problem) || !problem.estimator->Swv.isZero(0));
+         && (!noise_is_sampled(problem) || !noise.Swv.isZero(0));
 }
 
-SampledCost weights_of(const Regulator& regulator) {
-  return {real(regulator.Q), real(regulator.R), real(regulator.N)};
-}
-
-// [Q N 0; Nᵀ R 0; 0 0 0] over z = [x; held].
-RealMatrix cost_density(const Regulator& regulator, Index held) {
-  const Index nx = regulator.Q.rows(), nu = regulator.R.rows();
+// xᵀQx + uᵀRu + 2xᵀNu over z = [x; held] with u from row `at` on.
+RealMatrix cost_density(const SampledCost& weights, Index held, Index at) {
+  const Index nx = weights.Q.rows(), nu = weights.R.rows();
   RealMatrix cost = zeros(nx + held, nx + held);
-  cost.topLeftCorner(nx, nx) = real(regulator.Q);
-  cost.block(0, nx, nx, nu) = real(regulator.N);
-  cost.block(nx, 0, nu, nx) = real(regulator.N.transpose());
-  cost.block(nx, nx, nu, nu) = real(regulator.R);
+  cost.topLeftCorner(nx, nx) = weights.Q;
+  cost.block(0, at, nx, nu) = weights.N;
+  cost.block(at, 0, nu, nx) = weights.N.transpose();
+  cost.block(at, at, nu, nu) = weights.R;
   return cost;
 }
 
-SampledNoise sampled_noise(const Estimator& estimator, const RealMatrix& W, const RealMatrix& held_G,
-                           const Real& sample_time) {
-  const RealMatrix cross = multiply(held_G, real(estimator.Swv));
-  return {W, real(estimator.V) / sample_time, cross / sample_time};
+// The continuous plant whose held inputs are [old; new; w], one of the first two acting.
+struct Segments {
+  RealMatrix A, B, G;          // G is empty where w is not followed through the period
+  std::optional<SampledCost> cost;
+  RealMatrix noise;
+
+  SampledPeriod over(const Real& time, bool is_old) const {
+    const Index nx = A.rows(), nu = B.cols(), held = 2 * nu + G.cols(), at = is_old ? 0 : nu;
+    HeldPlant plant = {A, zeros(nx, held), RealMatrix(), noise};
+    plant.B.middleCols(at, nu) = B;
+    plant.B.rightCols(G.cols()) = G;
+    if (cost) plant.cost = cost_density(*cost, held, nx + at);
+    return sample(plant, time);
+  }
+};
+
+SampledPeriod period_of(const Segments& segments, const Delay& delay, const Real& T) {
+  if (delay.samples == 0) return segments.over(T, false);
+  const SampledPeriod first = segments.over(delay.part, true);
+  return delay.is_whole ? first : followed_by(first, segments.over(T - delay.part, false));
 }
 
-BetweenSamples between_samples(const Problem& problem, const SampledPeriod& period, bool held_noise) {
-  const Index nx = problem.plant.A.rows(), nu = problem.plant.B.cols(), nw = problem.plant.G.cols();
+// `cost` over [x; old; new; w], as one over [z; u; w].
+BetweenSamples between_samples(const Problem& problem, const SampledPeriod& period, const SampledNoise& noise,
+                               Index samples, Index held_noises) {
+  const Index nx = problem.plant.A.rows(), nu = problem.plant.B.cols(), nw = held_noises;
+  const Index nz = nx + samples * nu;
+  const RealMatrix select = acting_inputs(nx, nu, nw, samples);
+  const RealMatrix cost = transpose_congruence(select, period.cost);
   BetweenSamples between;
-  between.cost = {period.cost.topLeftCorner(nx, nx), period.cost.block(nx, nx, nu, nu),
-                  period.cost.block(0, nx, nx, nu)};
+  between.cost = {cost.topLeftCorner(nz, nz), cost.block(nz, nz, nu, nu), cost.block(0, nz, nz, nu)};
   between.noise_cost = period.noise_cost;
-  if (!held_noise) return between;
-  between.u_noise = period.cost.block(nx, nx + nu, nu, nw);
+  if (nw == 0) return between;
+  between.u_noise = cost.block(nz, nz + nu, nu, nw);
   if (noise_is_sampled(problem))
     between.u_noise /= Real(problem.plant.sample_time);
   else
-    between.noise_cost += trace_of_product(period.cost.bottomRightCorner(nw, nw), real(problem.estimator->W));
+    between.noise_cost += trace_of_product(cost.bottomRightCorner(nw, nw), noise.W);
   return between;
 }
 
-Samples continuous_samples(const Problem& problem) {
-  const Plant& plant = problem.plant;
-  const Index nu = plant.B.cols(), nw = plant.G.cols();
-  const bool held_noise = cost_sees_held_noise(problem);
-  const RealMatrix A = real(plant.A), B = real(plant.B), G = real(plant.G);
+// The file's weights of the samples, over [z; u]: of u what was decided at the sample, of y what was measured then.
+SampledCost weights_of_samples(const Problem& problem, Index samples) {
+  if (samples == 0) return weights_of(problem);
+  const SampledCost stated = stated_weights(problem), outputs = output_weights(problem);
+  const Index nx = stated.Q.rows(), nu = stated.R.rows(), nz = nx + samples * nu;
+  SampledCost cost = {zeros(nz, nz), stated.R, zeros(nz, nu)};
+  cost.Q.topLeftCorner(nx, nx) = stated.Q + outputs.Q;
+  cost.Q.block(0, nx, nx, nu) = outputs.N;
+  cost.Q.block(nx, 0, nu, nx) = outputs.N.transpose();
+  cost.Q.block(nx, nx, nu, nu) = outputs.R;
+  cost.N.topRows(nx) = stated.N;
+  return cost;
+}
 
-  HeldPlant held = {A, held_noise ? beside(B, G) : B, RealMatrix(), RealMatrix()};
-  if (cost_is_integral(problem)) held.cost = cost_density(*problem.regulator, held.B.cols());
-  if (noise_is_sampled(problem)) held.noise = congruence(G, real(problem.estimator->W));
-  const SampledPeriod period = sample(held, plant.sample_time);
-  RealMatrix held_G = period.B.rightCols(held_noise ? nw : 0);
-  if (!held_noise && !(noise_is_sampled(problem) && problem.estimator->Swv.isZero(0)))
-    held_G = sample(HeldPlant{A, G, RealMatrix(), RealMatrix()}, plant.sample_time).B;
-  if (held_G.cols() == 0) held_G = zeros(G.rows(), nw);  // times a cross noise that is zero
+// C and D of what is sampled: D u of the input that acts then.
+void add_outputs(const Plant& plant, Index samples, SampledPlant& sampled) {
+  const Index nx = plant.A.rows(), nu = plant.B.cols(), ny = plant.C.rows();
+  sampled.C = zeros(ny, nx + samples * nu);
+  sampled.C.leftCols(nx) = real(plant.C);
+  sampled.D = samples == 0 ? real(plant.D) : zeros(ny, nu);
+  if (samples > 0) sampled.C.middleCols(nx, nu) = real(plant.D);
+}
+
+void take_moves(const RealMatrix& moves, Index nu, Index samples, SampledPlant& sampled) {
+  const RealMatrix AB = with_inputs_on_their_way(moves, nu, samples);
+  sampled.A = AB.leftCols(AB.rows());
+  sampled.B = AB.rightCols(nu);
+}
+
+RealMatrix padded(const RealMatrix& G, Index rows) {
+  return above(G, zeros(rows - G.rows(), G.cols()));
+}
+
+SampledNoise of_samples(const SampledNoise& density, const RealMatrix& W, const RealMatrix& held_G,
+                        const Real& sample_time) {
+  return {W, density.V / sample_time, multiply(held_G, density.Swv) / sample_time};
+}
+
+// G of noise that is held over a period, or zeros where nothing needs it.
+RealMatrix held_noise_input(const Problem& problem, const SampledNoise& noise, const RealMatrix& A,
+                            const RealMatrix& G) {
+  if (noise_is_sampled(problem) && noise.Swv.isZero(0)) return zeros(G.rows(), G.cols());
+  return sample(HeldPlant{A, G, RealMatrix(), RealMatrix()}, Real(problem.plant.sample_time)).B;
+}
+
+Samples continuous_samples(const Problem& problem, const Delay& delay) {
+  const Plant& plant = problem.plant;
+  const Index nx = plant.A.rows(), nu = plant.B.cols(), nw = plant.G.cols();
+  const Real T = plant.sample_time;
+  const SampledNoise noise = has_noise(problem.estimator) ? noise_of(problem) : SampledNoise();
+  const bool held_noise = cost_sees_held_noise(problem, noise);
+  const RealMatrix G = real(plant.G);
+  Segments segments = {real(plant.A), real(plant.B), held_noise ? G : zeros(nx, 0), std::nullopt, RealMatrix()};
+  if (cost_is_integral(problem)) segments.cost = weights_of(problem);
+  if (noise_is_sampled(problem)) segments.noise = congruence(G, noise.W);
+  const SampledPeriod period = period_of(segments, delay, T);
 
   Samples samples;
-  samples.plant = {period.A, period.B.leftCols(nu), real(plant.C), real(plant.D),
-                   noise_is_sampled(problem) ? identity(A.rows()) : held_G};
-  if (noise_is_sampled(problem))
-    samples.noise = sampled_noise(*problem.estimator, period.noise, held_G, plant.sample_time);
-  if (cost_is_integral(problem)) {
-    samples.between = between_samples(problem, period, held_noise);
-    if (problem.regulator->cost == Cost::sampled) samples.cost = samples.between->cost;
-  }
+  take_moves(beside(period.A, period.B.leftCols(2 * nu)), nu, delay.samples, samples.plant);
+  const RealMatrix held_G =
+      held_noise ? RealMatrix(period.B.rightCols(nw)) : held_noise_input(problem, noise, segments.A, G);
+  samples.plant.G = padded(noise_is_sampled(problem) ? identity(nx) : held_G, samples.plant.A.rows());
+  if (noise_is_sampled(problem)) samples.noise = of_samples(noise, period.noise, held_G, T);
+  if (!cost_is_integral(problem)) return samples;
+  samples.between = between_samples(problem, period, noise, delay.samples, held_noise ? nw : 0);
+  if (problem.regulator->cost == Cost::sampled) samples.cost = samples.between->cost;
+  return samples;
+}
+
+Samples discrete_samples(const Plant& plant, const Delay& delay) {
+  const Index nx = plant.A.rows(), nu = plant.B.cols();
+  const RealMatrix none = zeros(nx, nu), B = real(plant.B);
+  Samples samples;
+  const RealMatrix inputs = delay.samples == 0 ? beside(none, B) : beside(B, none);
+  take_moves(beside(real(plant.A), inputs), nu, delay.samples, samples.plant);
+  samples.plant.G = padded(real(plant.G), samples.plant.A.rows());
   return samples;
 }
 
 }  // namespace
 
-Samples sample(const Problem& problem) {
+Samples sample(const Problem& problem) { return sample(problem, delay_of(problem.plant)); }
+
+Samples sample(const Problem& problem, const Delay& delay) {
   const Plant& plant = problem.plant;
-  Samples samples;
-  if (plant.domain == Domain::continuous)
-    samples = continuous_samples(problem);
-  else
-    samples.plant = {real(plant.A), real(plant.B), real(plant.C), real(plant.D), real(plant.G)};
-  if (has_cost(problem.regulator) && !samples.cost) samples.cost = weights_of(*problem.regulator);
-  if (has_noise(problem.estimator) && !samples.noise)
-    samples.noise =
-        SampledNoise{real(problem.estimator->W), real(problem.estimator->V), real(problem.estimator->Swv)};
+  Samples samples = plant.domain == Domain::continuous ? continuous_samples(problem, delay)
+                                                       : discrete_samples(plant, delay);
+  samples.own_states = plant.A.rows();
+  add_outputs(plant, delay.samples, samples.plant);
+  if (has_cost(problem.regulator) && !samples.cost) samples.cost = weights_of_samples(problem, delay.samples);
+  if (has_noise(problem.estimator) && !samples.noise) samples.noise = noise_of(problem);
   return samples;
+}
+
+SampledPlant own_plant(const Samples& samples) {
+  const Index nx = samples.own_states;
+  const SampledPlant& plant = samples.plant;
+  return {plant.A.topLeftCorner(nx, nx), RealMatrix(), plant.C.leftCols(nx), RealMatrix(), plant.G.topRows(nx)};
 }
 
 }  // namespace lqg::design

@@ -112,18 +112,31 @@ void double_period(Period& period, Index nx) {
 
 }  // namespace
 
-SampledPeriod sample(const HeldPlant& plant, double sample_time) {
+SampledPeriod sample(const HeldPlant& plant, const Real& sample_time) {
   const Index nx = plant.A.rows(), held = plant.B.cols();
   const RealMatrix F = extended(plant);
   // ‖A‖ h ≤ 1/1024: a doubling less costs more than the orders it saves.
   const Real size = norm(plant.A) * sample_time * 1024;
   int doublings = 0;
   for (Real reach = 1; reach < size; reach *= 2) ++doublings;
-  const Real h = ldexp(Real(sample_time), -doublings);
+  const Real h = ldexp(sample_time, -doublings);
   Period period = short_period(plant, F, h);
   for (int i = 0; i < doublings; ++i) double_period(period, nx);
   return {period.transition.topLeftCorner(nx, nx), period.transition.topRightCorner(nx, held), period.cost,
           period.noise_cost, period.noise};
+}
+
+SampledPeriod followed_by(const SampledPeriod& first, const SampledPeriod& second) {
+  const Index nx = first.A.rows(), held = first.B.cols();
+  SampledPeriod both = {multiply(second.A, first.A), multiply(second.A, first.B) + second.B, RealMatrix(),
+                        first.noise_cost + second.noise_cost, RealMatrix()};
+  if (first.noise.size() > 0) both.noise = congruence(second.A, first.noise) + second.noise;
+  if (first.cost.size() == 0) return both;
+  const RealMatrix moves = above(beside(first.A, first.B), beside(zeros(held, nx), identity(held)));
+  both.cost = first.cost + transpose_congruence(moves, second.cost);
+  if (first.noise.size() > 0)
+    both.noise_cost += trace_of_product(second.cost.topLeftCorner(nx, nx), first.noise);
+  return both;
 }
 
 }  // namespace lqg::design

@@ -24,6 +24,9 @@ struct SampledPeriod {
 // One period of `sample_time` seconds, by series for a short time that is then doubled: C. F. Van Loan,
 // "Computing integrals involving the matrix exponential", IEEE Transactions on Automatic Control 23 (1978),
 // 395–404, without its block exponential, which holds e^(−At) and overflows on stiff plants.
-SampledPeriod sample(const HeldPlant& plant, double sample_time);
+SampledPeriod sample(const HeldPlant& plant, const Real& sample_time);
+
+// A period and, with the same h, another one after it.
+SampledPeriod followed_by(const SampledPeriod& first, const SampledPeriod& second);
 
 }  // namespace lqg::design

@@ -3,6 +3,7 @@
 
 #include "design/checks.hpp"
 #include "design/draft.hpp"
+#include "design/compensator.hpp"
 #include "design/margins.hpp"
 #include "design/numbers.hpp"
 #include "design/representable.hpp"
@@ -79,7 +80,10 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
   if (draft.cost_per_sample) solution.loop.cost_per_sample = to_double(*draft.cost_per_sample);
   if (draft.cost_per_second) solution.loop.cost_per_second = to_double(*draft.cost_per_second);
   if (solution.regulator) {
-    solution.loop.at_input = margins(open_loop(problem, solution), poles);
+    const MeasuredPlant plant = measured_plant(problem, solution.plant);
+    const Compensator controller = compensator(problem, solution);
+    solution.loop.at_input = margins(open_at_inputs(plant, controller), poles);
+    if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), poles);
   }
   check_representable(solution, problem.code.real, findings);
 }

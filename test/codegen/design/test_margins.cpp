@@ -32,9 +32,17 @@ struct Loop {
   MatrixXcd A, B, C;
 };
 
-Loop loop_of(const Problem& problem, const Solution& solution) {
+enum class At { inputs, outputs };
+
+OpenLoop open_loop(const Problem& problem, const Solution& solution, At place) {
+  const MeasuredPlant plant = measured_plant(problem, solution.plant);
+  const Compensator controller = compensator(problem, solution);
+  return (place == At::inputs ? open_at_inputs : open_at_outputs)(plant, controller);
+}
+
+Loop loop_of(const Problem& problem, const Solution& solution, At place) {
   const Digits scope(60);
-  const OpenLoop loop = open_loop(problem, solution);
+  const OpenLoop loop = open_loop(problem, solution, place);
   return {in_double(loop.A), in_double(loop.B), in_double(loop.C)};
 }
 
@@ -46,31 +54,32 @@ double radius(const Loop& loop, Index input, Complex factor) {
   return solver.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// Eigenvalues in double of a loop that is not normal; the loops here leave this much.
-const double rounding = 1e-8;
+// Of eigenvalues in double: those of a loop that is not normal, and what a loop with so small a disk makes of every
+// rounding.
+double rounding(double disk) { return 1e-8 + 1e-14 / disk; }
 
-void expect_gain_margin(const Loop& loop, double dB) {
+void expect_gain_margin(const Loop& loop, double dB, double tolerance) {
   double worst = 0;
   for (Index i = 0; i < loop.B.cols(); ++i) {
     for (const double sign : {-1.0, 1.0})
       worst = std::max(worst, radius(loop, i, std::pow(10, sign * dB / 20)));
     for (int k = -9; k <= 9; ++k)
-      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + rounding,
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + tolerance,
                                "unstable inside");
   }
-  TEST_ASSERT_DOUBLE_WITHIN(rounding, 1, worst);
+  TEST_ASSERT_DOUBLE_WITHIN(tolerance, 1, worst);
 }
 
-void expect_phase_margin(const Loop& loop, double degrees) {
+void expect_phase_margin(const Loop& loop, double degrees, double tolerance) {
   const double angle = degrees * std::acos(-1.0) / 180;
   double worst = 0;
   for (Index i = 0; i < loop.B.cols(); ++i) {
     worst = std::max(worst, radius(loop, i, std::polar(1.0, angle)));
     for (int k = 0; k <= 9; ++k)
-      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + rounding,
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + tolerance,
                                "unstable inside");
   }
-  TEST_ASSERT_DOUBLE_WITHIN(rounding, 1, worst);
+  TEST_ASSERT_DOUBLE_WITHIN(tolerance, 1, worst);
 }
 
 double difference_norm(const Loop& loop, double angle) {
@@ -95,13 +104,17 @@ void expect_disk_margin(const Loop& loop, double disk) {
   TEST_ASSERT_DOUBLE_WITHIN(0.01 * disk, disk, 1 / largest);
 }
 
+void expect_margins(const Loop& loop, const Margins& margins) {
+  TEST_ASSERT_TRUE(radius(loop, 0, 1) < 1);
+  if (margins.gain_dB) expect_gain_margin(loop, *margins.gain_dB, rounding(*margins.disk));
+  if (margins.phase_deg) expect_phase_margin(loop, *margins.phase_deg, rounding(*margins.disk));
+  expect_disk_margin(loop, *margins.disk);
+}
+
 void check(const Problem& problem) {
   const Solution found = solved(problem);
-  const Loop loop = loop_of(problem, found);
-  TEST_ASSERT_TRUE(radius(loop, 0, 1) < 1);
-  if (found.loop.at_input.gain_dB) expect_gain_margin(loop, *found.loop.at_input.gain_dB);
-  if (found.loop.at_input.phase_deg) expect_phase_margin(loop, *found.loop.at_input.phase_deg);
-  expect_disk_margin(loop, *found.loop.at_input.disk);
+  expect_margins(loop_of(problem, found, At::inputs), found.loop.at_input);
+  if (found.estimator) expect_margins(loop_of(problem, found, At::outputs), found.loop.at_output);
 }
 
 void test_filter_form_with_one_input() { check(two_mass()); }
@@ -124,24 +137,58 @@ void test_random_loops_with_several_inputs_and_direct_terms() {
 
 void test_lightly_damped_chain() { check(chain_of_masses(5)); }
 
+void expect_closed_poles(const OpenLoop& loop, const Poles& poles) {
+  std::vector<ComplexReal> left = eigenvalues(loop.A - multiply(loop.B, loop.C));
+  for (const Complex& pole : poles) {
+    auto nearest = left.begin();
+    const auto away = [&](const ComplexReal& z) { return hypot(z.re - pole.real(), z.im - pole.imag()); };
+    for (auto other = left.begin(); other != left.end(); ++other)
+      if (away(*other) < away(*nearest)) nearest = other;
+    expect_small(away(*nearest), 1e-10, "the distance to a pole");
+    left.erase(nearest);
+  }
+  for (const ComplexReal& kept : left)
+    expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
+}
+
 // The loop's own poles must be those of the design, with D too: the controller knows what D u adds.
 void test_closed_loop_has_the_poles_of_regulator_and_filter() {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const Problem problem = random_problem(seed);
     const Solution found = solved(problem);
     const Digits scope(60);
-    const OpenLoop loop = open_loop(problem, found);
-    std::vector<ComplexReal> left = eigenvalues(loop.A - multiply(loop.B, loop.C));
-    for (const Complex& pole : found.loop.poles) {
-      auto nearest = left.begin();
-      const auto away = [&](const ComplexReal& z) { return hypot(z.re - pole.real(), z.im - pole.imag()); };
-      for (auto other = left.begin(); other != left.end(); ++other)
-        if (away(*other) < away(*nearest)) nearest = other;
-      expect_small(away(*nearest), 1e-10, "the distance to a pole");
-      left.erase(nearest);
-    }
-    for (const ComplexReal& kept : left)
-      expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
+    for (const At place : {At::inputs, At::outputs})
+      expect_closed_poles(open_loop(problem, found, place), found.loop.poles);
+  }
+}
+
+// One input and one output, no D: the loop's gain is the same wherever it is opened.
+void test_loop_of_one_input_and_one_output_has_the_same_margins_at_both() {
+  for (const Form form : {Form::filter, Form::predictor}) {
+    Problem problem = double_integrator(0.1);
+    problem.estimator->form = form;
+    const LoopSolution loop = solved(problem).loop;
+    TEST_ASSERT_TRUE(*loop.at_input.gain_dB == *loop.at_output.gain_dB);
+    TEST_ASSERT_TRUE(*loop.at_input.phase_deg == *loop.at_output.phase_deg);
+    TEST_ASSERT_TRUE(*loop.at_input.disk == *loop.at_output.disk);
+  }
+}
+
+void expect_six_digits(const std::optional<double>& exact, const std::optional<double>& rough) {
+  TEST_ASSERT_EQUAL(exact.has_value(), rough.has_value());
+  if (exact) TEST_ASSERT_DOUBLE_WITHIN(1e-5 * *exact, *exact, *rough);
+}
+
+void test_margins_in_double_have_six_digits() {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const Problem problem = random_problem(seed);
+    const Solution found = solved(problem);
+    const Digits scope(60);
+    const OpenLoop loop = open_loop(problem, found, At::outputs);
+    const Margins rough = rough_margins(loop, eigenvalues(loop.A - multiply(loop.B, loop.C)));
+    expect_six_digits(found.loop.at_output.gain_dB, rough.gain_dB);
+    expect_six_digits(found.loop.at_output.phase_deg, rough.phase_deg);
+    expect_six_digits(found.loop.at_output.disk, rough.disk);
   }
 }
 
@@ -189,6 +236,8 @@ int main() {
   RUN_TEST(test_random_loops_with_several_inputs_and_direct_terms);
   RUN_TEST(test_lightly_damped_chain);
   RUN_TEST(test_closed_loop_has_the_poles_of_regulator_and_filter);
+  RUN_TEST(test_loop_of_one_input_and_one_output_has_the_same_margins_at_both);
+  RUN_TEST(test_margins_in_double_have_six_digits);
   RUN_TEST(test_integrator_has_its_closed_form);
   RUN_TEST(test_loop_without_crossings_has_no_gain_and_phase_margin);
   RUN_TEST(test_estimator_alone_has_no_margins);
