@@ -59,7 +59,8 @@ bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
 
 Poles sorted_poles(const std::vector<ComplexReal>& values) {
   Poles poles;
-  for (const ComplexReal& value : values) poles.emplace_back(to_double(value.re), to_double(value.im));
+  for (const ComplexReal& value : values)  // + 0: no −0
+    poles.emplace_back(to_double(value.re) + 0.0, to_double(value.im) + 0.0);
   const auto size = [](const std::complex<double>& z) { return z.real() * z.real() + z.imag() * z.imag(); };
   std::stable_sort(poles.begin(), poles.end(),
                    [&](const std::complex<double>& a, const std::complex<double>& b) {
