@@ -1,24 +1,7 @@
 # Cortex-M4 with its single-precision FPU, by GCC:
 #     cmake --toolchain ports/cortex-m4f/toolchain.cmake …
-# Debian: gcc-arm-none-eabi libnewlib-arm-none-eabi. Programs run in QEMU where that is installed
-# (qemu-system-arm), and so do their tests.
-set(CMAKE_SYSTEM_NAME Generic)
-set(CMAKE_SYSTEM_PROCESSOR arm)
-set(CMAKE_C_COMPILER arm-none-eabi-gcc)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # no program links without start-up code
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-
-set(CMAKE_C_FLAGS_INIT
-    "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffunction-sections -fdata-sections")
-set(CMAKE_EXE_LINKER_FLAGS_INIT
-    "-nostartfiles --specs=nano.specs -Wl,--gc-sections -T ${CMAKE_CURRENT_LIST_DIR}/link.ld")
-
-find_program(LQG_QEMU_ARM qemu-system-arm)
-if(LQG_QEMU_ARM)
-  set(CMAKE_CROSSCOMPILING_EMULATOR ${LQG_QEMU_ARM} -machine mps2-an386 -nographic -monitor none -serial none
-                                    -chardev stdio,id=pc
-                                    -semihosting-config enable=on,target=native,chardev=pc -kernel)
-endif()
+set(lqg_cpu "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard")
+set(lqg_machine mps2-an386)
+set(LQG_FUSED_REALS float)  # what the hardware multiplies and adds in one
+set(lqg_port ${CMAKE_CURRENT_LIST_DIR})
+include(${CMAKE_CURRENT_LIST_DIR}/../cortex-m/toolchain.cmake)

@@ -16,7 +16,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 
-bench=$lqg_root/test/bench port=$lqg_root/ports/cortex-m4f
+bench=$lqg_root/test/bench port=$lqg_root/ports/cortex-m4f shared=$lqg_root/ports/cortex-m
 folder=$lqg_root/build/bench
 options=(-O2 -std=c99 "$@")
 cpu=(-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffunction-sections -fdata-sections)
@@ -73,7 +73,7 @@ add_row() {
   made=$(mktemp -d "$folder/controller.XXXXXX")
   make_controller "$2" "$3" "$4" "$made"
   link_controller "$made" footprint -Wl,-e,roots
-  link_controller "$made" measure -T "$port/link.ld" "${startup[@]}"
+  link_controller "$made" measure -L "$port" -T "$shared/link.ld" "${startup[@]}"
   timeout 600 "${machine[@]}" "$made/measure.elf" >"$made/measured" || lqg_stop "$1: the measurement failed"
   source "$made/measured"
   name=$(design_value "$2" name)
@@ -93,7 +93,7 @@ add_carried_row() {
 }
 
 startup=("$folder/startup.main")
-"${compiler[@]}" -c "$port/startup.c" -o "${startup[0]}"
+"${compiler[@]}" -c "$shared/startup.c" -o "${startup[0]}"
 {
   echo "Cortex-M4F, $(arm-none-eabi-gcc --version | head -n 1), ${options[*]}"
   echo

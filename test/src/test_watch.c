@@ -21,6 +21,8 @@ static const model_t *const models[] = {&double_integrator, &two_mass, &correlat
                                         &random_walk};
 enum { MODELS = sizeof models / sizeof *models };
 
+static loop_t tested, other; /* here once for all tests: small targets have little memory */
+
 /* Of the loop's constant gain: any variances, as its gain is not the best one either. */
 static const lqg_real steady_s[MAX_NY] = {0.5f, 0.25f};
 
@@ -66,7 +68,6 @@ static void make_running_loop(loop_t *loop, const model_t *model, unsigned filte
 
 static void test_watch_over_all_outputs_changes_no_bit_of_the_update(void)
 {
-    static loop_t loop, watched;
     const lqg_real y[MAX_NY] = {0.5f, -0.25f};
     const unsigned char all[MAX_NY] = {1, 1};
     unsigned long gated[MAX_NY] = {0};
@@ -76,77 +77,73 @@ static void test_watch_over_all_outputs_changes_no_bit_of_the_update(void)
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned m = 0; m < MODELS; m++)
             for (unsigned w = 0; w < 2; w++) {
-                make_running_loop(&loop, models[m], filter);
-                make_running_loop(&watched, models[m], filter);
-                TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&loop, y));
-                TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&watched, y, &watches[w]));
-                TEST_ASSERT_TRUE(same_state(&loop.state, &watched.state));
+                make_running_loop(&tested, models[m], filter);
+                make_running_loop(&other, models[m], filter);
+                TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&tested, y));
+                TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&other, y, &watches[w]));
+                TEST_ASSERT_TRUE(same_state(&tested.state, &other.state));
             }
 }
 
 static void test_outputs_one_by_one_change_no_bit_of_the_update(void)
 {
-    static loop_t loop, single;
     const lqg_real y[MAX_NY] = {0.5f, -0.25f};
     const model_t *const independent[] = {&double_integrator, &two_mass, &random_walk}; /* no E, no M */
 
     for (unsigned filter = PLAIN; filter < FILTERS; filter++)
         for (unsigned m = 0; m < 3; m++) {
-            make_running_loop(&loop, independent[m], filter);
-            make_running_loop(&single, independent[m], filter);
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&loop, y));
+            make_running_loop(&tested, independent[m], filter);
+            make_running_loop(&other, independent[m], filter);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&tested, y));
             for (unsigned i = 0; i < independent[m]->ny; i++)
-                TEST_ASSERT_EQUAL_UINT(LQG_OK, update_output(&single, i, y[i], NULL));
-            TEST_ASSERT_TRUE(same_state(&loop.state, &single.state));
+                TEST_ASSERT_EQUAL_UINT(LQG_OK, update_output(&other, i, y[i], NULL));
+            TEST_ASSERT_TRUE(same_state(&tested.state, &other.state));
         }
 }
 
 static void test_one_output_alone_is_a_mask_with_one_output_even_when_w_and_v_are_correlated(void)
 {
-    static loop_t masked, single;
     const lqg_real y[MAX_NY] = {0.5f, NAN};
     const unsigned char first[MAX_NY] = {1, 0};
     const lqg_watch_t watch = {first, 0, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned m = 0; m < MODELS; m++) {
-            make_running_loop(&masked, models[m], filter);
-            make_running_loop(&single, models[m], filter);
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&masked, y, &watch));
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_output(&single, 0, y[0], NULL));
-            TEST_ASSERT_TRUE(same_state(&masked.state, &single.state));
+            make_running_loop(&tested, models[m], filter);
+            make_running_loop(&other, models[m], filter);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&tested, y, &watch));
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_output(&other, 0, y[0], NULL));
+            TEST_ASSERT_TRUE(same_state(&tested.state, &other.state));
         }
 }
 
 static void test_an_output_not_used_is_one_that_is_no_number_but_goes_unreported(void)
 {
-    static loop_t masked, hostile;
     const lqg_real y[MAX_NY] = {INFINITY, -0.25f}, one_is_nan[MAX_NY] = {NAN, -0.25f};
     const unsigned char second[MAX_NY] = {0, 1};
     const lqg_watch_t watch = {second, 0, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
-        make_running_loop(&masked, &two_mass, filter);
-        make_running_loop(&hostile, &two_mass, filter);
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&masked, y, &watch));
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, loop_update(&hostile, one_is_nan));
-        TEST_ASSERT_TRUE(same_state(&masked.state, &hostile.state));
+        make_running_loop(&tested, &two_mass, filter);
+        make_running_loop(&other, &two_mass, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&tested, y, &watch));
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, loop_update(&other, one_is_nan));
+        TEST_ASSERT_TRUE(same_state(&tested.state, &other.state));
     }
 }
 
 static void test_an_output_that_E_mixes_with_an_unused_one_is_left_out_and_reported(void)
 {
-    static loop_t loop;
     const lqg_real y[MAX_NY] = {0.5f, -0.25f};
     const unsigned char second[MAX_NY] = {0, 1};
     const lqg_watch_t watch = {second, 0, NULL, NULL, NULL};
 
     for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
-        make_running_loop(&loop, &correlated, filter);
-        const state_t before = loop.state;
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_watched(&loop, y, &watch));
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_output(&loop, 1, y[1], NULL));
-        TEST_ASSERT_TRUE(same_state(&before, &loop.state));
+        make_running_loop(&tested, &correlated, filter);
+        const state_t before = tested.state;
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_watched(&tested, y, &watch));
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_output(&tested, 1, y[1], NULL));
+        TEST_ASSERT_TRUE(same_state(&before, &tested.state));
     }
 }
 
@@ -179,7 +176,6 @@ static void assert_prior(const model_t *model, const loop_t *loop, const textboo
 /* Output 0 every second sample, output 1 every fifth: both, one or none. */
 static void test_sensors_of_two_rates_follow_the_textbook(void)
 {
-    static loop_t loop;
     const model_t single[2] = {with_output(&two_mass, 0), with_output(&two_mass, 1)};
     textbook_t textbook;
 
@@ -187,7 +183,7 @@ static void test_sensors_of_two_rates_follow_the_textbook(void)
         unsigned long seed = 11;
         double plant[MAX_NX] = {0};
         lqg_real y[MAX_NY], u[MAX_NU] = {0};
-        make_loop(&loop, &two_mass, filter, LQG_FILTER_FORM);
+        make_loop(&tested, &two_mass, filter, LQG_FILTER_FORM);
         textbook_init(&two_mass, &textbook);
         for (unsigned sample = 0; sample < 200; sample++) {
             const unsigned first = sample % 2 == 0, second = sample % 5 == 0;
@@ -199,11 +195,11 @@ static void test_sensors_of_two_rates_follow_the_textbook(void)
             textbook_update(model, &textbook, model == &single[1] ? y + 1 : y, u);
             for (unsigned i = 0; i < 2; i++)
                 if (i == 0 ? first : second)
-                    TEST_ASSERT_EQUAL_UINT(LQG_OK, update_output(&loop, i, y[i], NULL));
+                    TEST_ASSERT_EQUAL_UINT(LQG_OK, update_output(&tested, i, y[i], NULL));
             u[0] = (lqg_real)noise(&seed) / 8;
             textbook_predict(model, &textbook, u);
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_predict(&loop, u));
-            assert_prior(&two_mass, &loop, &textbook);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_predict(&tested, u));
+            assert_prior(&two_mass, &tested, &textbook);
         }
     }
 }
@@ -224,49 +220,47 @@ static model_t model_of(unsigned sample)
 
 static void test_a_plant_that_varies_follows_the_textbook(void)
 {
-    static loop_t loop;
     textbook_t textbook;
 
     for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
         unsigned long seed = 13;
         double plant[MAX_NX] = {0};
         lqg_real y[MAX_NY], u[MAX_NU] = {0};
-        make_loop(&loop, &two_mass, filter, LQG_FILTER_FORM);
+        make_loop(&tested, &two_mass, filter, LQG_FILTER_FORM);
         textbook_init(&two_mass, &textbook);
         for (unsigned sample = 0; sample < 200; sample++) {
             const model_t model = model_of(sample);
-            prepare_online(&model, &loop.online);
-            loop.plain.kalman = loop.online.plain;
-            loop.ud.kalman = loop.online.ud;
+            prepare_online(&model, &tested.online);
+            tested.plain.kalman = tested.online.plain;
+            tested.ud.kalman = tested.online.ud;
 
             simulate(&model, plant, u, y, &seed);
             textbook_update(&model, &textbook, y, u);
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&loop, y));
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&tested, y));
             u[0] = (lqg_real)noise(&seed) / 8;
             textbook_predict(&model, &textbook, u);
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_predict(&loop, u));
-            assert_prior(&model, &loop, &textbook);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_predict(&tested, u));
+            assert_prior(&model, &tested, &textbook);
         }
     }
 }
 
 static void test_innovation_and_its_variance_are_those_of_the_textbook(void)
 {
-    static loop_t loop;
     textbook_t textbook;
     const model_t model = with_output(&two_mass, 1);
     lqg_real y[1] = {0.75f}, u[1] = {0.5f}, nu[1], s[1];
     const lqg_watch_t watch = {NULL, 0, NULL, nu, s};
 
     for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
-        make_loop(&loop, &model, filter, LQG_FILTER_FORM);
+        make_loop(&tested, &model, filter, LQG_FILTER_FORM);
         textbook_init(&model, &textbook);
-        textbook_update(&model, &textbook, y, loop.state.u_applied);
-        loop_update(&loop, y);
+        textbook_update(&model, &textbook, y, tested.state.u_applied);
+        loop_update(&tested, y);
         textbook_predict(&model, &textbook, u);
-        loop_predict(&loop, u);
+        loop_predict(&tested, u);
         textbook_update(&model, &textbook, y, u);
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&loop, y, &watch));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&tested, y, &watch));
         TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, textbook.innovation[0], (double)nu[0]);
         TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, textbook.S[0], (double)s[0]);
     }
@@ -287,7 +281,6 @@ static lqg_status update_with_outlier(loop_t *loop, double sigmas, const lqg_wat
 
 static void test_gate_leaves_out_what_lies_beyond_it_and_counts(void)
 {
-    static loop_t loop;
     unsigned long gated[MAX_NY];
     const unsigned char first[MAX_NY] = {1, 0};
     const lqg_watch_t watch = {first, 3, gated, NULL, NULL};
@@ -295,42 +288,40 @@ static void test_gate_leaves_out_what_lies_beyond_it_and_counts(void)
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned m = 0; m < MODELS; m++) {
             gated[0] = gated[1] = 0;
-            make_running_loop(&loop, models[m], filter);
-            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_with_outlier(&loop, 2.99, &watch));
-            make_running_loop(&loop, models[m], filter);
-            TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_with_outlier(&loop, 3.01, &watch));
-            TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_with_outlier(&loop, -1e6, &watch));
+            make_running_loop(&tested, models[m], filter);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_with_outlier(&tested, 2.99, &watch));
+            make_running_loop(&tested, models[m], filter);
+            TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_with_outlier(&tested, 3.01, &watch));
+            TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_with_outlier(&tested, -1e6, &watch));
             TEST_ASSERT_EQUAL_UINT32(2, gated[0]);
         }
 }
 
 static void test_a_gated_output_is_one_that_is_not_used(void)
 {
-    static loop_t loop, masked;
     const lqg_real y[MAX_NY] = {1e6f, -0.25f};
     const unsigned char second[MAX_NY] = {0, 1};
     const lqg_watch_t gate = {NULL, 1000, NULL, NULL, NULL}, mask = {second, 0, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
-        make_running_loop(&loop, &two_mass, filter);
-        make_running_loop(&masked, &two_mass, filter);
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_watched(&loop, y, &gate));
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&masked, y, &mask));
-        TEST_ASSERT_TRUE(same_state(&loop.state, &masked.state));
+        make_running_loop(&tested, &two_mass, filter);
+        make_running_loop(&other, &two_mass, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_watched(&tested, y, &gate));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&other, y, &mask));
+        TEST_ASSERT_TRUE(same_state(&tested.state, &other.state));
     }
 }
 
 static void test_an_output_that_is_no_number_is_not_the_gate_s_business(void)
 {
-    static loop_t loop;
     const lqg_real y[MAX_NY] = {NAN, NAN};
     unsigned long gated[MAX_NY] = {0};
     lqg_real nu[MAX_NY] = {7, 7}, s[MAX_NY] = {0};
     const lqg_watch_t watch = {NULL, 3, gated, nu, s};
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
-        make_running_loop(&loop, &two_mass, filter);
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_watched(&loop, y, &watch));
+        make_running_loop(&tested, &two_mass, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_watched(&tested, y, &watch));
         TEST_ASSERT_EQUAL_UINT32(0, gated[0] + gated[1]);
         TEST_ASSERT_TRUE(nu[0] == 0 && nu[1] == 0 && s[0] > 0 && s[1] > 0);
     }

@@ -1,4 +1,4 @@
-/* Start-up of a Cortex-M4F without an operating system. What the program writes with putchar(), and what
+/* Start-up of a Cortex-M without an operating system. What the program writes with putchar(), and what
  * main() returns, goes to the PC by semihosting: an emulator or a debugger has to be there. */
 #include <stdint.h>
 #include <stdio.h>
@@ -44,10 +44,12 @@ static void fault(void)
 
 static void start_fpu(void)
 {
+#if defined __ARM_FP || defined __ARM_FEATURE_MVE
     volatile uint32_t *const coprocessor_access = (volatile uint32_t *)0xE000ED88u; /* CPACR */
 
     *coprocessor_access |= 0xFu << 20;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
+#endif
 }
 
 void reset(void)
