@@ -1,7 +1,7 @@
 #include "design/margins.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -9,6 +9,7 @@
 
 #include "design/response.hpp"
 #include "design/rounding.hpp"
+#include "design/structured_norm.hpp"
 
 namespace lqg::design {
 
@@ -215,28 +216,19 @@ Outcome least_phase(const Search& search, const Refining& refining) {
   return least_margin(search, refining, from_half, phase_margin, std::nullopt);
 }
 
-// [Re H, −Im H; Im H, Re H] with H = I/2 − T: the norm of the complex matrix is that of this real one.
-RealMatrix difference(const ComplexMatrix& T) {
-  const RealMatrix re = Real(0.5) * identity(T.re.rows()) - T.re;
-  return above(beside(re, T.im), beside(-T.im, re));
+// I/2 − T in double.
+Eigen::MatrixXcd rough_difference(const ComplexMatrix& T) {
+  Eigen::MatrixXcd H(T.re.rows(), T.re.cols());
+  for (Index i = 0; i < H.size(); ++i) H.data()[i] = {-to_double(T.re.data()[i]), -to_double(T.im.data()[i])};
+  H.diagonal().array() += 0.5;
+  return H;
 }
 
-// 1/‖I/2 − T‖, in double: good enough to search.
-Real rough_disk(const ComplexMatrix& T) {
-  const RealMatrix both = difference(T);
-  Eigen::MatrixXd a(both.rows(), both.cols());
-  for (Index i = 0; i < a.size(); ++i) a.data()[i] = to_double(both.data()[i]);
-  const Eigen::MatrixXd square = a.transpose() * a;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square, Eigen::EigenvaluesOnly);
-  return 1 / sqrt(Real(solver.eigenvalues()(a.rows() - 1)));
-}
-
+// 1/μ(I/2 − T): of one channel in all digits, of several in those of double.
+Real rough_disk(const ComplexMatrix& T) { return 1 / Real(balanced_norm(rough_difference(T))); }
 Real exact_disk(const ComplexMatrix& T) {
-  const RealMatrix both = difference(T);
-  Real largest;
-  for (const ComplexReal& value : eigenvalues(transpose_multiply(both, both)))
-    largest = std::max<Real>(largest, value.re);
-  return 1 / sqrt(largest);
+  if (T.re.size() > 1) return 1 / Real(structured_norm(rough_difference(T)));
+  return 1 / hypot(T.re(0, 0) - 0.5, T.im(0, 0));
 }
 
 // The cells around the local minima of the rough disk on the grid, each with the grid's value.
@@ -250,15 +242,27 @@ std::vector<Place> disk_places(const Search& search) {
   return places;
 }
 
+// The least of f in a cell. Its slope cannot be had of several channels: μ has kinks, and few digits.
+Real least_in(const Place& place, const Function& f) {
+  const auto at = [&](double share) { return to_double(f(place.low + share * (place.high - place.low))); };
+  boost::uintmax_t most = 40;
+  return Real(boost::math::tools::brent_find_minima(at, 0.0, 1.0, 20, most).second);
+}
+
 Outcome least_disk(const Search& search, const Refining& refining) {
   Outcome outcome;
   const Function f = at_angle(exact_disk, refining.evaluate);
   outcome.least = std::min<Real>(f(Real(0)), f(pi()));
+  const bool has_channels = search.responses.front().re.rows() > 1;
   const std::vector<Place> places = disk_places(search);
   if (places.empty()) return outcome;
   const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.1;
   for (const Place& place : places) {
     if (place.margin > bound) continue;
+    if (has_channels) {
+      outcome.least = std::min<Real>(*outcome.least, least_in(place, f));
+      continue;
+    }
     const Function slope = slope_of(f, refining.fineness.step * (place.high - place.low));
     const bool has_minimum = slope(place.low) < 0 && slope(place.high) > 0;
     outcome.as_expected = outcome.as_expected && has_minimum;

@@ -88,7 +88,7 @@ Description::Description(const Model<S>& model)
 class Library {
  public:
   explicit Library(const Model<S>& model)
-      : description_(model), filter_(model.filter), nu_(static_cast<std::size_t>(model.nu)), x_(size(model.nx)),
+      : description_(model), filter_(model.filter), x_(size(model.nx)),
         P_(model.P0.size()), U_(model.U0.size()), d_(model.D0.size()), u_(size(static_cast<int>(model.D.cols()))),
         innovation_(model.M.cols() ? size(model.ny) : 0),
         work_(LQG_KALMAN_UD_WORK(size(model.nx), size(model.ny), size(static_cast<int>(model.G.cols())))) {
@@ -151,7 +151,6 @@ class Library {
 
   Description description_;
   Filter filter_;
-  std::size_t nu_;
   Numbers x_, P_, U_, d_, u_, innovation_, work_;
 };
 

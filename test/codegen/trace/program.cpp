@@ -68,7 +68,7 @@ Operation random_operation(Random& random, const Program& program) {
 }
 
 template <class T>
-double apply_to(Op op, bool fused, T a, T b, T c) {
+T apply_to(Op op, bool fused, T a, T b, T c) {
   const T product = a * b;
   switch (op) {
     case Op::add: return a + b;
@@ -79,13 +79,13 @@ double apply_to(Op op, bool fused, T a, T b, T c) {
     case Op::multiply_add: return fused ? std::fma(a, b, c) : product + c;
     case Op::multiply_subtract: return fused ? std::fma(-a, b, c) : c - product;
     case Op::select: return a != 0 ? b : c;
-    case Op::finite: return std::isfinite(a);
-    case Op::less: return a < b;
-    case Op::usable: return std::isfinite(a) && b > 0;
-    case Op::same: return a == b;
-    case Op::either: return a != 0 || b != 0;
-    case Op::negation: return a == 0;
-    default: return std::numeric_limits<double>::quiet_NaN();
+    case Op::finite: return T(std::isfinite(a));
+    case Op::less: return T(a < b);
+    case Op::usable: return T(std::isfinite(a) && b > 0);
+    case Op::same: return T(a == b);
+    case Op::either: return T(a != 0 || b != 0);
+    case Op::negation: return T(a == 0);
+    default: return std::numeric_limits<T>::quiet_NaN();
   }
 }
 
@@ -147,7 +147,8 @@ std::vector<int> record(const Program& program, Graph& graph) {
 
 double apply(Op op, Target target, double a, double b, double c) {
   if (target.is_double) return apply_to<double>(op, target.is_fused, a, b, c);
-  return apply_to<float>(op, target.is_fused, static_cast<float>(a), static_cast<float>(b), static_cast<float>(c));
+  return static_cast<double>(
+      apply_to<float>(op, target.is_fused, static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)));
 }
 
 Results evaluate(const Program& program, Target target, const std::vector<double>& inputs) {
