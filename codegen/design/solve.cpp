@@ -3,10 +3,13 @@
 
 #include "design/checks.hpp"
 #include "design/draft.hpp"
-#include "design/compensator.hpp"
 #include "design/margins.hpp"
 #include "design/numbers.hpp"
+#include "design/open_loop.hpp"
+#include "design/poles.hpp"
 #include "design/representable.hpp"
+#include "design/requirements.hpp"
+#include "design/rounded_loop.hpp"
 #include "design/rounding.hpp"
 #include "design/settle.hpp"
 
@@ -57,19 +60,6 @@ bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
   return settle_optional(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
 }
 
-Poles sorted_poles(const std::vector<ComplexReal>& values) {
-  Poles poles;
-  for (const ComplexReal& value : values)  // + 0: no −0
-    poles.emplace_back(to_double(value.re) + 0.0, to_double(value.im) + 0.0);
-  const auto size = [](const std::complex<double>& z) { return z.real() * z.real() + z.imag() * z.imag(); };
-  std::stable_sort(poles.begin(), poles.end(),
-                   [&](const std::complex<double>& a, const std::complex<double>& b) {
-                     if (size(a) != size(b)) return size(a) > size(b);
-                     return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
-                   });
-  return poles;
-}
-
 void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& findings) {
   Solution& solution = draft.solution;
   solution.numerics.digits = digits;
@@ -87,6 +77,8 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
     if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), poles);
   }
   check_representable(solution, problem.code.real, findings);
+  check_rounded(problem, solution, findings);
+  check_requirements(problem, solution, findings);
 }
 
 }  // namespace
