@@ -70,7 +70,7 @@ void draft_placed_regulator(const Problem& problem, const Samples& samples, cons
 }
 
 void draft_placed_estimator(const Problem& problem, const Samples& samples, const Draft* coarser, Draft& result) {
-  const PlacedGain placed = place_observer(problem, samples.plant,
+  const PlacedGain placed = place_observer(problem, samples,
                                            coarser ? &*coarser->estimator_choice : nullptr, result.findings);
   result.may_want_digits = result.may_want_digits || placed.may_want_digits;
   if (has_error(result.findings)) return;

@@ -1,5 +1,7 @@
 #include "design/rounded_loop.hpp"
 
+#include <algorithm>
+
 #include "design/checks.hpp"
 #include "design/compensator.hpp"
 #include "design/cost.hpp"
@@ -119,7 +121,7 @@ bool is_stable(const Poles& poles) {
 }  // namespace
 
 void check_rounded(const Problem& problem, Solution& solution, Findings& findings) {
-  const Digits enough(50);
+  const Digits enough(std::max(50u, solution.numerics.digits / 2));
   const Solution rounded = held(solution, problem.code.real);
   if (solution.estimator || solution.online)
     check_model(solution.plant, rounded.plant, problem.code.real, findings);
