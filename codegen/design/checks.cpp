@@ -210,6 +210,8 @@ void add_error(Findings& findings, const std::string& key, const std::string& me
 }
 
 void add_note(Findings& findings, const std::string& key, const std::string& message) {
+  for (const Finding& finding : findings)
+    if (finding.key == key && finding.message == message) return;
   findings.push_back({Severity::note, key, message});
 }
 
@@ -233,6 +235,24 @@ void check_continuous_cost(const Problem& problem, Findings& findings) {
               "a continuous trajectory has no Δu: expected cost = \"sampled\" or \"discrete\"");
 }
 
+// Where the gain is one number for ever, the problem must be one, too.
+void check_gains_and_stages(const Problem& problem, Findings& findings) {
+  bool changes_plant = false, changes_filter = false;
+  for (const Stage& stage : problem.stages) {
+    changes_plant = changes_plant || stage.A.size() + stage.B.size() + stage.C.size() + stage.D.size() > 0;
+    changes_filter = changes_filter || stage.A.size() + stage.C.size() + stage.G.size() > 0
+                     || stage.W.size() + stage.V.size() > 0;
+  }
+  if (has_noise(problem.estimator) && problem.estimator->gain == Gain::steady && changes_filter)
+    add_error(findings, "kalman.gain", "stages change the filter: expected \"schedule\" or \"online\"");
+  if (changes_plant && problem.regulator && !problem.regulator->track.empty())
+    add_error(findings, "lqr.track", "stages change the plant: r has no one set point");
+  if (changes_plant && problem.regulator && problem.regulator->poles)
+    add_error(findings, "pole_placement", "stages change the plant: one gain has these poles for one plant only");
+  if (changes_plant && problem.estimator && problem.estimator->poles)
+    add_error(findings, "observer", "stages change the plant: one gain has these poles for one plant only");
+}
+
 void check_correlation_times(const Estimator& kalman, Findings& findings) {
   const bool of_process = kalman.process_correlation_time.size() > 0;
   const bool of_measurement = kalman.measurement_correlation_time.size() > 0;
@@ -252,6 +272,7 @@ void check_kinds(const Problem& problem, Findings& findings) {
   if (problem.plant.domain == Domain::discrete) check_discrete_plant(problem, findings);
   if (has_cost(problem.regulator) && problem.regulator->cost == Cost::continuous)
     check_continuous_cost(problem, findings);
+  check_gains_and_stages(problem, findings);
   if (has_noise(problem.estimator)) check_correlation_times(*problem.estimator, findings);
 }
 

@@ -50,7 +50,7 @@ RealMatrix next_memory(const Problem& problem, const Signals& s, const RealMatri
 }
 
 Compensator of_measured_state(const Problem& problem, const Solution& solution) {
-  const SampledPlant& plant = solution.plant;
+  const SampledPlant& plant = final_plant(solution);
   const Index nx = plant.A.rows(), nu = plant.B.cols();
   const Signals s =
       signals_of(0, static_cast<Index>(integrated(problem).size()), has_rate(problem) ? nu : 0, nx);
@@ -61,9 +61,13 @@ Compensator of_measured_state(const Problem& problem, const Solution& solution) 
 
 }  // namespace
 
+const SampledPlant& final_plant(const Solution& solution) {
+  return solution.stages.empty() ? solution.plant : solution.stages.back().plant;
+}
+
 Compensator compensator(const Problem& problem, const Solution& solution) {
   if (!solution.estimator) return of_measured_state(problem, solution);
-  const SampledPlant& plant = solution.plant;
+  const SampledPlant& plant = final_plant(solution);
   const EstimatorSolution& filter = *solution.estimator;
   const bool answers_at_once = has_filter_form(problem);
   const bool keeps = has_rate(problem) || (answers_at_once && !is_zero(plant.D));

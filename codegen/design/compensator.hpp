@@ -27,6 +27,9 @@ struct MeasuredPlant {
 // `solution` has a regulator.
 Compensator compensator(const Problem& problem, const Solution& solution);
 
+// The plant of the last stage, which the steady loop is made of.
+const SampledPlant& final_plant(const Solution& solution);
+
 MeasuredPlant measured_plant(const Problem& problem, const SampledPlant& plant);
 
 // [x; s]⁺ of plant and controller, A; what [w; v] adds to it, B. The plant's input is u = C [x; s] + D [w; v].

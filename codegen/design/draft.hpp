@@ -13,6 +13,7 @@ struct Draft {
   std::vector<ComplexReal> regulator_poles, estimator_poles;
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
   std::optional<Real> cost_per_sample, cost_per_second;
+  bool has_steady_loop = false;  // stable, with margins
   Findings findings;             // with an error: the rest is not complete
   bool may_want_digits = false;  // the error may be one of too few digits
 };

@@ -20,25 +20,43 @@ void visit_plant(A& plant, Visit visit) {
 }
 
 template <typename A, typename Visit>
+void visit_cost(A& cost, Visit visit) {
+  visit("lqr.Q", Place::report, cost.Q);
+  visit("lqr.R", Place::report, cost.R);
+  visit("lqr.N", Place::report, cost.N);
+}
+
+template <typename A, typename Visit>
+void visit_noise(A& noise, Visit visit) {
+  visit("kalman.W", Place::report, noise.W);
+  visit("kalman.V", Place::report, noise.V);
+  visit("kalman.Swv", Place::report, noise.Swv);
+}
+
+template <typename A, typename Visit>
 void visit_regulator(A& regulator, Visit visit) {
-  visit("lqr.Q", Place::report, regulator.cost.Q);
-  visit("lqr.R", Place::report, regulator.cost.R);
-  visit("lqr.N", Place::report, regulator.cost.N);
+  visit_cost(regulator.cost, visit);
+  visit("lqr.Q_final", Place::report, regulator.Q_final);
   visit("lqr.K", Place::target, regulator.K);
   visit("lqr.X", Place::report, regulator.X);
+  for (auto& K : regulator.K_schedule) visit("lqr.schedule", Place::target, K);
+  visit("lqr.X0", Place::report, regulator.X0);
+  visit("lqr.Nx", Place::target, regulator.Nx);
+  visit("lqr.Nu", Place::target, regulator.Nu);
+  visit("lqr.Nbar", Place::target, regulator.Nbar);
 }
 
 template <typename A, typename Visit>
 void visit_estimator(A& estimator, Visit visit) {
-  visit("kalman.W", Place::report, estimator.noise.W);
-  visit("kalman.V", Place::report, estimator.noise.V);
-  visit("kalman.Swv", Place::report, estimator.noise.Swv);
+  visit_noise(estimator.noise, visit);
   visit("kalman.L", Place::target, estimator.L);
   visit("kalman.M", Place::target, estimator.M);
   visit("kalman.L_predictor", Place::report, estimator.L_predictor);
   visit("kalman.P_prior", Place::report, estimator.P_prior);
   visit("kalman.P_posterior", Place::report, estimator.P_posterior);
   visit("kalman.S", Place::report, estimator.S);
+  for (auto& L : estimator.L_schedule) visit("kalman.schedule", Place::target, L);
+  for (auto& M : estimator.M_schedule) visit("kalman.schedule", Place::target, M);
 }
 
 template <typename A, typename Visit>
@@ -57,15 +75,25 @@ void visit_online(A& online, Visit visit) {
   visit("kalman.D0", Place::target, online.D0);
 }
 
+template <typename A, typename Visit>
+void visit_stage(A& stage, Visit visit) {
+  visit_plant(stage.plant, visit);
+  if (stage.noise) visit_noise(*stage.noise, visit);
+  if (stage.cost) visit_cost(*stage.cost, visit);
+  if (stage.online) visit_online(*stage.online, visit);
+}
+
 }  // namespace detail
 
 // visit(name, place, matrix or vector) for every one; `A` is Solution or const Solution.
 template <typename A, typename Visit>
 void for_each_matrix(A& solution, Visit visit) {
   detail::visit_plant(solution.plant, visit);
+  if (solution.noise) detail::visit_noise(*solution.noise, visit);
   if (solution.regulator) detail::visit_regulator(*solution.regulator, visit);
   if (solution.estimator) detail::visit_estimator(*solution.estimator, visit);
   if (solution.online) detail::visit_online(*solution.online, visit);
+  for (auto& stage : solution.stages) detail::visit_stage(stage, visit);
 }
 
 }  // namespace lqg::design

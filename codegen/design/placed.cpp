@@ -88,11 +88,11 @@ PlacedGain placed(const WantedPoles& wanted, const std::string& section, double 
 }  // namespace
 
 void check_wanted_poles(const WantedPoles& wanted, const std::string& section, Eigen::Index states,
-                        Findings& findings) {
+                        const std::string& of_which, Findings& findings) {
   const std::string key = key_of(wanted, section);
   if (static_cast<Eigen::Index>(wanted.values.size()) != states)
     add_error(findings, key,
-              "expected " + std::to_string(states) + " poles, one for each state of the sampled plant, found "
+              "expected " + std::to_string(states) + " poles, one for each state" + of_which + ", found "
                   + std::to_string(wanted.values.size()));
   for (auto pole = wanted.values.begin(); pole != wanted.values.end(); ++pole) {
     if (std::find(wanted.values.begin(), pole, *pole) != pole) continue;
@@ -110,30 +110,35 @@ PlacedGain place_regulator(const Problem& problem, const SampledPlant& plant, co
                            Findings& findings) {
   const WantedPoles& wanted = *problem.regulator->poles;
   PlacedGain result;
-  check_wanted_poles(wanted, "pole_placement", plant.A.rows(), findings);
+  check_wanted_poles(wanted, "pole_placement", plant.A.rows(),
+                     problem.plant.delay > 0 ? " and each input on its way" : "", findings);
   if (!has_error(findings)) result.may_want_digits = !check_reachable(problem, plant, findings);
   if (has_error(findings)) return result;
   return placed(wanted, "pole_placement", problem.plant.sample_time, plant.A, plant.B, choice, findings);
 }
 
-PlacedGain place_observer(const Problem& problem, const SampledPlant& plant, const PlacementChoice* choice,
+PlacedGain place_observer(const Problem& problem, const Samples& samples, const PlacementChoice* choice,
                           Findings& findings) {
+  const SampledPlant plant = own_plant(samples);
   const WantedPoles& wanted = *problem.estimator->poles;
   const bool filtered = problem.estimator->form == Form::filter;
   const RealMatrix seen = filtered ? multiply(plant.C, plant.A) : plant.C;
   PlacedGain result;
-  check_wanted_poles(wanted, "observer", plant.A.rows(), findings);
+  check_wanted_poles(wanted, "observer", plant.A.rows(), "", findings);
   if (!has_error(findings)) result.may_want_digits = !check_observable(problem, plant, seen, findings);
   if (has_error(findings)) return result;
   result = placed(wanted, "observer", problem.plant.sample_time, plant.A.transpose(), seen.transpose(), choice,
                   findings);
   result.gain.transposeInPlace();
+  result.poles.resize(static_cast<std::size_t>(samples.plant.A.rows()), {Real(0), Real(0)});
   return result;
 }
 
-EstimatorSolution observer_of(const SampledPlant& plant, Form form, const RealMatrix& gain) {
+EstimatorSolution observer_of(const SampledPlant& plant, Form form, const RealMatrix& own_gain) {
   EstimatorSolution observer;
   const bool filtered = form == Form::filter;
+  RealMatrix gain = zeros(plant.A.rows(), own_gain.cols());
+  gain.topRows(own_gain.rows()) = own_gain;
   const RealMatrix none = zeros(gain.rows(), gain.cols());
   observer.L = filtered ? gain : none;
   observer.M = filtered ? none : gain;

@@ -82,7 +82,8 @@ struct OnlineSolution {
   RealVector D0;      // nx, ≥ 0
 };
 
-// From step `from` on: what replaces the plant, the noise and the online filter (if they are there).
+// From step `from` on: what replaces the plant, the noise, the cost and the online filter (if they are there).
+// With stages, K, L and all that is steady are those of the last one.
 struct StageSolution {
   int from = 0;
   SampledPlant plant;
@@ -116,7 +117,8 @@ struct Numerics {
 struct Solution {
   SampledPlant plant;
   std::optional<RegulatorSolution> regulator;
-  std::optional<EstimatorSolution> estimator;
+  std::optional<SampledNoise> noise;     // with an estimator that has noise, before any stage
+  std::optional<EstimatorSolution> estimator;  // empty beside `online` where the filter never becomes steady
   std::optional<OnlineSolution> online;  // with Gain::online only
   std::vector<StageSolution> stages;     // by rising `from`
   LoopSolution loop;

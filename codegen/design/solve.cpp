@@ -3,12 +3,16 @@
 
 #include "design/checks.hpp"
 #include "design/draft.hpp"
-#include "design/compensator.hpp"
 #include "design/margins.hpp"
 #include "design/numbers.hpp"
+#include "design/open_loop.hpp"
+#include "design/poles.hpp"
 #include "design/representable.hpp"
+#include "design/requirements.hpp"
+#include "design/rounded_loop.hpp"
 #include "design/rounding.hpp"
 #include "design/settle.hpp"
+#include "design/stages.hpp"
 
 namespace lqg::design {
 
@@ -31,9 +35,17 @@ struct Numbers {
   void operator()(const char*, Place, const RealVector& a) { vectors.push_back(&a); }
 };
 
+Numbers numbers_of(const Solution& solution) {
+  Numbers numbers;
+  for_each_matrix(solution, [&](const char* name, Place place, const auto& a) { numbers(name, place, a); });
+  return numbers;
+}
+
+// False, too, when one has more matrices: a schedule became longer.
 bool settle_matrices(const Solution& coarse, Solution& fine, unsigned coarse_digits) {
-  Numbers before;
-  for_each_matrix(coarse, [&](const char* name, Place place, const auto& a) { before(name, place, a); });
+  const Numbers before = numbers_of(coarse), after = numbers_of(fine);
+  if (before.matrices.size() != after.matrices.size() || before.vectors.size() != after.vectors.size())
+    return false;
   std::size_t matrix = 0, vector = 0;
   bool settled = true;
   for_each_matrix(fine, [&](const char*, Place, auto& a) {
@@ -46,7 +58,7 @@ bool settle_matrices(const Solution& coarse, Solution& fine, unsigned coarse_dig
 }
 
 bool settle_optional(const std::optional<Real>& coarse, std::optional<Real>& fine, unsigned coarse_digits) {
-  return !fine || settle(*coarse, *fine, Real(0), coarse_digits);
+  return !fine || (coarse && settle(*coarse, *fine, Real(0), coarse_digits));
 }
 
 bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
@@ -57,21 +69,9 @@ bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
   return settle_optional(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
 }
 
-Poles sorted_poles(const std::vector<ComplexReal>& values) {
-  Poles poles;
-  for (const ComplexReal& value : values)  // + 0: no −0
-    poles.emplace_back(to_double(value.re) + 0.0, to_double(value.im) + 0.0);
-  const auto size = [](const std::complex<double>& z) { return z.real() * z.real() + z.imag() * z.imag(); };
-  std::stable_sort(poles.begin(), poles.end(),
-                   [&](const std::complex<double>& a, const std::complex<double>& b) {
-                     if (size(a) != size(b)) return size(a) > size(b);
-                     return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
-                   });
-  return poles;
-}
-
 void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& findings) {
   Solution& solution = draft.solution;
+  findings.insert(findings.end(), draft.findings.begin(), draft.findings.end());
   solution.numerics.digits = digits;
   std::vector<ComplexReal> poles = draft.regulator_poles;
   poles.insert(poles.end(), draft.estimator_poles.begin(), draft.estimator_poles.end());
@@ -80,23 +80,38 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
   if (solution.estimator) solution.estimator->poles = sorted_poles(draft.estimator_poles);
   if (draft.cost_per_sample) solution.loop.cost_per_sample = to_double(*draft.cost_per_sample);
   if (draft.cost_per_second) solution.loop.cost_per_second = to_double(*draft.cost_per_second);
-  if (solution.regulator) {
-    const MeasuredPlant plant = measured_plant(problem, solution.plant);
+  if (draft.has_steady_loop) {
+    const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
     const Compensator controller = compensator(problem, solution);
     solution.loop.at_input = margins(open_at_inputs(plant, controller), poles);
     if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), poles);
   }
   check_representable(solution, problem.code.real, findings);
+  check_rounded(problem, solution, findings);
+  check_requirements(problem, solution, findings);
 }
 
 }  // namespace
 
 namespace {
 
-bool is_well_posed(const Problem& problem, Findings& findings) {
-  check_kinds(problem, findings);
+void check_matrices(const Problem& problem, Findings& findings) {
   check_symmetry(problem, findings);
   if (!has_error(findings)) check_definiteness(problem, findings);
+}
+
+bool is_well_posed(const Problem& problem, Findings& findings) {
+  check_kinds(problem, findings);
+  check_matrices(problem, findings);
+  const std::vector<Problem> problems = problems_of_stages(problem);
+  for (std::size_t i = 1; i < problems.size() && !has_error(findings); ++i) {
+    Findings of_stage;
+    check_matrices(problems[i], of_stage);
+    for (const Finding& finding : of_stage)
+      findings.push_back({finding.severity, "stage",
+                          "from step " + std::to_string(problem.stages[i - 1].from) + " on, " + finding.key + ": "
+                              + finding.message});
+  }
   return !has_error(findings);
 }
 

@@ -134,6 +134,25 @@ void test_poles_of_the_s_plane_are_mapped() {
   TEST_ASSERT_TRUE(to_double(found.regulator->K(0, 1)) == to_double((sum - product) / (2 * T)));
 }
 
+// The regulator's poles are those of the plant and of the input on its way, the observer's of the plant alone.
+void test_delayed_plant_has_poles_for_the_input_on_its_way() {
+  Problem problem = double_integrator(0.1);
+  problem.plant.delay = 0.04;
+  problem.regulator = Regulator();
+  problem.regulator->poles = WantedPoles{{0.5, 0.25, 0.125}, false};
+  problem.estimator->poles = WantedPoles{{0.5, 0.25}, false};
+  for (const Form form : {Form::filter, Form::predictor}) {
+    problem.estimator->form = form;
+    const Solution found = solved(problem);
+    const Digits scope(found.numerics.digits);
+    const SampledPlant& plant = found.plant;
+    expect_poles(plant.A - multiply(plant.B, found.regulator->K), *problem.regulator->poles, last_digits);
+    expect_poles(plant.A - multiply(found.estimator->L_predictor, plant.C), WantedPoles{{0.5, 0.25, 0}, false},
+                 last_digits);
+    TEST_ASSERT_TRUE(found.estimator->L_predictor(2, 0).is_zero());
+  }
+}
+
 Problem placement_of(const MatrixXd& A, const MatrixXd& B, const std::vector<Complex>& poles) {
   Problem problem = problem_of(Domain::discrete, 1, A, B, MatrixXd::Identity(1, A.rows()));
   problem.estimator.reset();
@@ -257,6 +276,7 @@ int main() {
   RUN_TEST(test_weights_with_an_observer_and_noise_with_placed_poles);
   RUN_TEST(test_deadbeat_of_a_double_integrator_has_its_closed_form);
   RUN_TEST(test_poles_of_the_s_plane_are_mapped);
+  RUN_TEST(test_delayed_plant_has_poles_for_the_input_on_its_way);
   RUN_TEST(test_poles_that_repeat_as_often_as_there_are_inputs);
   RUN_TEST(test_wanted_pole_that_the_plant_has_already);
   RUN_TEST(test_second_input_that_is_a_multiple_of_the_first_shares_the_work);

@@ -59,11 +59,12 @@ void test_same_problem_has_the_same_numbers_whatever_digits_are_in_force() {
   TEST_ASSERT_TRUE(*first.loop.at_input.disk == *second.loop.at_input.disk);
 }
 
-// e^100 in one period: the closed loop is the difference of numbers of 1e43.
+// e^100 in one period: the filter's pole is the difference of numbers of 1e43. (With L = 1 to a double it is 0; no
+// double of K is near enough to stabilise.)
 void test_fast_unstable_plant_takes_more_digits() {
   const MatrixXd one = MatrixXd::Constant(1, 1, 1);
   Problem problem = problem_of(Domain::continuous, 1, 100 * one, one, one);
-  problem.estimator.reset();
+  problem.regulator.reset();
   const Solution found = solved(problem);
   TEST_ASSERT_TRUE(found.numerics.digits > 100);
   const Digits scope(300);

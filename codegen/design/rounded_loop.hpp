@@ -1,0 +1,16 @@
+// What becomes of the loop when the target holds the controller's numbers.
+#pragma once
+
+#include "design/finding.hpp"
+#include "design/problem.hpp"
+#include "design/solution.hpp"
+
+namespace lqg::design {
+
+// The controller's K, L, M and its model A, B, C, D rounded to the target's numbers, around the exact plant: poles
+// (those of inputs that are kept for D, too), cost and margins (to six digits). `solution` has its cost and poles.
+// A filter alone has the poles of Â − (ÂL + M)Ĉ. Errors under "code.real" when this is unstable, or when the model
+// is lost: A ≠ I rounds to I, a column of B or a row of C to 0; a note when it costs more than 1 % more.
+void check_rounded(const Problem& problem, Solution& solution, Findings& findings);
+
+}  // namespace lqg::design

@@ -1,0 +1,85 @@
+#include "design/schedule.hpp"
+
+#include <algorithm>
+
+#include "design/rounding.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+const int longest_schedule = 100000;
+
+// Joseph's form: F P Fᵀ + [G −L_p] [W Swv; Swvᵀ V] [G −L_p]ᵀ with F = A − L_p C stays definite.
+RealMatrix next_covariance(const Samples& samples, const EstimatorSolution& filter) {
+  const SampledPlant& plant = samples.plant;
+  const SampledNoise& noise = *samples.noise;
+  const RealMatrix F = plant.A - multiply(filter.L_predictor, plant.C);
+  const RealMatrix joint = above(beside(noise.W, noise.Swv), beside(noise.Swv.transpose(), noise.V));
+  return congruence(F, filter.P_prior) + congruence(beside(plant.G, -filter.L_predictor), joint);
+}
+
+bool round_alike(const Real& a, const Real& b, Scalar real) {
+  return real == Scalar::float64 ? to_double(a) == to_double(b) : to_float(a) == to_float(b);
+}
+
+bool has_arrived(const RealMatrix& gain, const RealMatrix& steady, Scalar real) {
+  const Real rounding = real == Scalar::float64 ? ldexp(Real(1), -106) : ldexp(Real(1), -48);
+  for (Index i = 0; i < gain.rows(); ++i) {
+    const Real nothing = rounding * largest_entry(steady.row(i));
+    for (Index j = 0; j < gain.cols(); ++j)
+      if (!round_alike(gain(i, j), steady(i, j), real) && abs(gain(i, j) - steady(i, j)) > nothing) return false;
+  }
+  return true;
+}
+
+void append(GainSchedule& schedule, const EstimatorSolution& filter) {
+  schedule.L.push_back(filter.L);
+  schedule.M.push_back(filter.M);
+}
+
+}  // namespace
+
+GainSchedule gains_forward(const std::vector<SampledStage>& stages, const RealMatrix& P0, int count) {
+  GainSchedule schedule;
+  RealMatrix P = P0;
+  for (int k = 0; k < count; ++k) {
+    const Samples& samples = stage_at(stages, k).samples;
+    schedule.last = filter_of(samples, P);
+    append(schedule, schedule.last);
+    P = next_covariance(samples, schedule.last);
+  }
+  return schedule;
+}
+
+GainSchedule gains_until_steady(const std::vector<SampledStage>& stages, const RealMatrix& P0,
+                                const EstimatorSolution& steady, Scalar real, int most) {
+  GainSchedule schedule;
+  RealMatrix P = P0;
+  // A gain that swings passes the steady one; it does not stay there.
+  const int enough = 2 * static_cast<int>(P0.rows()) + 10;
+  std::size_t length = 0;
+  for (int k = 0, at_rest = 0; at_rest < enough; ++k) {
+    const Samples& samples = stage_at(stages, k).samples;
+    schedule.last = filter_of(samples, P);
+    append(schedule, schedule.last);
+    P = next_covariance(samples, schedule.last);
+    const bool arrived = k >= last_change(stages) && has_arrived(schedule.last.L, steady.L, real)
+                         && has_arrived(schedule.last.M, steady.M, real);
+    at_rest = arrived ? at_rest + 1 : 0;
+    if (!arrived) length = schedule.L.size();
+    schedule.is_settled = static_cast<int>(length) <= most;
+    if (!schedule.is_settled) break;
+  }
+  schedule.L.resize(length);
+  schedule.M.resize(length);
+  return schedule;
+}
+
+int most_gains(const Problem& problem, const EstimatorSolution& steady) {
+  const Index tables = is_zero(steady.M) ? 1 : 2;
+  const long bytes = (problem.code.real == Scalar::float64 ? 8 : 4) * static_cast<long>(tables * steady.L.size());
+  return static_cast<int>(std::min<long>(longest_schedule, problem.code.flash / std::max<long>(bytes, 1)));
+}
+
+}  // namespace lqg::design
