@@ -7,6 +7,8 @@ const char *lqg_status_text(lqg_status status)
         return "the state was not finite and begins anew";
     if (status & LQG_INNOVATION_NOT_POSITIVE)
         return "the variance of an innovation was not positive: the output was left out";
+    if (status & LQG_REFERENCE_NOT_FINITE)
+        return "a reference was not finite and counted as 0";
     if (status & LQG_OUTPUT_NOT_FINITE)
         return "an output was not finite and was left out";
     if (status & LQG_OUTPUT_GATED)

@@ -12,9 +12,12 @@ struct Bodies {
   std::string includes;   // #include lines and checks of options
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
-  std::string init, update, control, predict;
-  std::string reset;      // a function of its own, or nothing
+  std::string init, update, control, predict, set_input;
+  bool resets = false;    // they call NAME_reset
 };
+
+// What predict does to the counters at its end.
+std::string advance_counters(const Controller& controller);
 
 Bodies unrolled_bodies(const Controller& controller);
 Bodies compact_bodies(const Controller& controller);

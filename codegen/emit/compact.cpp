@@ -1,150 +1,28 @@
 // Calls of the library's loops over constant matrices.
-#include <cmath>
-#include <initializer_list>
-#include <limits>
-
 #include "emit/bodies.hpp"
+#include "emit/compact_constants.hpp"
 #include "emit/model_of.hpp"
+#include "emit/state_fields.hpp"
 #include "emit/text.hpp"
 
 namespace lqg::emit {
 
 namespace {
 
-using design::Real;
-using design::RealMatrix;
-
-// The constants of a filter or a regulator, array after array.
-class Tables {
- public:
-  Tables(const Controller& controller, const char* owner)
-      : controller_(controller), name_(upper(controller.problem.name) + "_" + owner) {}
-
-  // Defines NAME_<owner>_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it.
-  std::string add(const std::string& suffix, const RealMatrix& matrix) {
-    if (matrix.size() == 0) return "NULL";
-    text += "static const lqg_real " + name_ + "_" + suffix + "[" + std::to_string(matrix.size()) + "] = {\n" +
-            array_values(matrix, controller_.is_double()) + "};\n";
-    return name_ + "_" + suffix;
-  }
-  std::string add_unless_zero(const std::string& suffix, const RealMatrix& matrix) {
-    return is_zero(matrix) ? "NULL" : add(suffix, matrix);
-  }
-
-  std::string text;
-
- private:
-  const Controller& controller_;
-  std::string name_;
-};
-
-// One row: the lower triangle, row by row.
-RealMatrix lower_triangle(const RealMatrix& matrix) {
-  const int n = static_cast<int>(matrix.rows());
-  RealMatrix row(1, n * (n + 1) / 2);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j <= i; ++j) row(0, step::triangle(i, j)) = matrix(i, j);
-  return row;
+// The library restores the filter alone after a fault; the rest is up to us.
+bool needs_reset(const Controller& controller) {
+  return controller.nxi() > 0 || controller.continues() || controller.keeps_gain_row() || controller.can_set_input();
 }
 
-// One row: the strict upper triangle, column by column.
-RealMatrix strict_upper_triangle(const RealMatrix& matrix) {
-  const int n = static_cast<int>(matrix.rows());
-  RealMatrix row(1, n * (n - 1) / 2);
-  for (int j = 1; j < n; ++j)
-    for (int k = 0; k < j; ++k) row(0, step::strict_triangle(k, j)) = matrix(k, j);
-  return row;
+std::string multiply_add(const Controller& controller, const std::string& a, const std::string& b) {
+  if (!controller.is_fused()) return "y[i] + " + a + " * " + b;
+  return std::string(controller.is_double() ? "fma(" : "fmaf(") + a + ", " + b + ", y[i])";
 }
 
-RealMatrix as_row(const design::RealVector& vector) { return vector.transpose(); }
-
-// What the library compares u with; nothing finite lies beyond the largest number.
-RealMatrix limits_row(const Eigen::VectorXd& limits, int inward, bool is_double) {
-  const double largest = is_double ? std::numeric_limits<double>::max() : std::numeric_limits<float>::max();
-  RealMatrix row(1, limits.size());
-  for (int i = 0; i < limits.size(); ++i)
-    row(0, i) = std::isinf(limits(i)) ? std::copysign(largest, limits(i))
-                                      : limit_of_target(limits(i), inward, is_double);
-  return row;
-}
-
-// Fields of an initializer, in the order in which they were defined (a braced list is evaluated from left to right).
-std::string fields(std::initializer_list<std::string> values) {
-  std::string out;
-  for (const std::string& value : values) out += (out.empty() ? "" : ", ") + value;
-  return out;
-}
-
-std::string plant_fields(const Controller& controller, const RealMatrix& C, const RealMatrix& D, Tables& tables) {
-  const std::string NAME = upper(controller.problem.name);
-  return "    {" + fields({NAME + "_NX", std::to_string(controller.nu()), NAME + "_NY",
-                           tables.add("A", controller.solution.plant.A), tables.add("B", controller.solution.plant.B),
-                           tables.add("C", C), tables.add_unless_zero("D", D)}) +
-         "},  /* nx, nu, ny, A, B, C, D */\n";
-}
-
-std::string initial_state(const Controller& controller, Tables& tables) {
-  const Eigen::VectorXd& x0 = controller.problem.estimator->x0;
-  RealMatrix row(1, x0.size());
-  for (int i = 0; i < x0.size(); ++i) row(0, i) = x0(i);
-  return tables.add_unless_zero("X0", row);
-}
-
-std::string steady_fields(const Controller& controller, Tables& tables) {
-  const design::EstimatorSolution& estimator = *controller.solution.estimator;
-  const design::SampledPlant& plant = controller.solution.plant;
-  std::string out = plant_fields(controller, plant.C, plant.D, tables);
-  return out + "    " + fields({tables.add("L", estimator.L), tables.add_unless_zero("M", estimator.M),
-                                initial_state(controller, tables)}) + "  /* L, M, x0 */\n";
-}
-
-std::string online_fields(const Controller& controller, Tables& tables) {
-  const design::OnlineSolution& online = *controller.solution.online;
-  const bool has_M = !is_zero(online.M);
-  std::string out = plant_fields(controller, online.C, online.D, tables);
-  out += "    " + fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
-         ",  /* E, V */\n";
-  const auto add_rest = [&] {
-    out += "    " + fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
-           ",  /* M, A_free */\n";
-  };
-  if (controller.filter() == step::Filter::plain) {
-    out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
-    add_rest();
-    return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(online.P0))}) +
-           "  /* x0, P0 */\n";
-  }
-  out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
-         ",  /* nq, G, w */\n";
-  add_rest();
-  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(online.U0)),
-                                tables.add("D0", as_row(online.D0))}) + "  /* x0, U0, d0 */\n";
-}
-
-std::string kalman_constants(const Controller& controller) {
-  Tables tables(controller, "KALMAN");
-  const std::string values =
-      controller.solution.online ? online_fields(controller, tables) : steady_fields(controller, tables);
-  return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", common_words(controller)) +
-         values + "};\n";
-}
-
-std::string lqr_constants(const Controller& controller) {
-  Tables tables(controller, "LQR");
-  const std::string NAME = upper(controller.problem.name), K = tables.add("K", controller.solution.regulator->K);
-  std::string u_min = "NULL", u_max = "NULL";
-  if (const auto& limits = controller.problem.limits) {
-    u_min = tables.add("U_MIN", limits_row(limits->u_min, +1, controller.is_double()));
-    u_max = tables.add("U_MAX", limits_row(limits->u_max, -1, controller.is_double()));
-  }
-  return tables.text + "static const lqg_lqr_t " + NAME + "_LQR = {\n    " +
-         fields({NAME + "_NX", NAME + "_NU", K, u_min, u_max}) + "  /* nx, nu, K, u_min, u_max */\n};\n";
-}
-
-// The words of a call of the filter: its state, and how long its scratch is.
+// The words of a call of the filter: its description, its state, and how long its scratch is.
 Words call_words(const Controller& controller) {
   Words words = common_words(controller);
-  const std::string u_applied = controller.keeps_input() ? "self->u_applied" : "NULL";
+  const std::string u_applied = controller.has_feedthrough() ? "self->u_applied" : "NULL";
   const std::string innovation = controller.keeps_innovation() ? "self->innovation" : "NULL";
   std::string covariance, nq;
   if (controller.filter() == step::Filter::plain) covariance = "self->P, ";
@@ -156,7 +34,133 @@ Words call_words(const Controller& controller) {
   words["nq"] = nq;
   words["state"] = "self->x, " + covariance + u_applied + ", " + innovation;
   words["u"] = controller.nu() ? "u" : "NULL";
+  words["kalman"] = controller.keeps_gain_row() ? "&kalman" : fill("&{NAME}_KALMAN", words);
+  words["servo"] = controller.keeps_sample() ? "&servo" : fill("&{NAME}_SERVO", words);
+  words["lqr"] = controller.keeps_sample() ? "&lqr" : fill("&{NAME}_LQR", words);
+  const bool integrates = controller.nxi() > 0;
+  words["r"] = controller.nr() ? "self->r" : "NULL";
+  words["memory"] = integrates ? "self->xi, self->error, self->demand, " : "NULL, NULL, NULL, ";
+  words["memory"] += controller.continues() ? "self->u_applied" : "NULL";
+  words["before"] = integrates ? "self->xi, self->demand, " : "NULL, NULL, ";
+  words["before"] += controller.continues() ? "self->u_applied" : "NULL";
+  words["x"] = controller.has_filter() ? "self->x" : "x";
   return words;
+}
+
+// Copies of the descriptions that point to the gains of this sample.
+std::string gains_of_sample(const Controller& controller) {
+  if (!controller.keeps_gain_row()) return "";
+  return std::string("    lqg_kalman_steady_t kalman = {NAME}_KALMAN;\n") +
+         "    kalman.L += self->gain_row * ({NAME}_NX * {NAME}_NY);\n" +
+         (controller.keeps_innovation() ? "    kalman.M += self->gain_row * ({NAME}_NX * {NAME}_NY);\n" : "");
+}
+
+std::string law_of_sample(const Controller& controller) {
+  if (!controller.keeps_sample()) return "";
+  const auto advance = [&](const char* law, const char* matrix, std::size_t at) {
+    const design::RealMatrix& gain = controller.laws.front()[at];
+    if (gain.size() == 0) return std::string();
+    return "    " + std::string(law) + "." + matrix + " += self->sample * " + std::to_string(gain.size()) + ";\n";
+  };
+  if (!controller.has_servo()) return "    lqg_lqr_t lqr = {NAME}_LQR;\n" + advance("lqr", "K", 0);
+  return "    lqg_servo_t servo = {NAME}_SERVO;\n" + advance("servo", "K", 0) + advance("servo", "Nbar", 1) +
+         advance("servo", "H", 2);
+}
+
+// What a failed call leads to; nothing where the library has restored all there is.
+std::string end(const Controller& controller) {
+  return needs_reset(controller) ? "    return status & LQG_STATE_RESET ? {name}_reset(self, status) : status;\n"
+                                 : "    return status;\n";
+}
+
+std::string init_body(const Controller& controller, const Words& words) {
+  std::string out;
+  if (controller.has_filter()) out += "    lqg_kalman_{filter}_init(&{NAME}_KALMAN, {state});\n";
+  if (controller.has_servo()) out += "    lqg_servo_init(&{NAME}_SERVO, {memory});\n";
+  if (controller.nr()) out += "    for (int i = 0; i < {NAME}_NR; i++)\n        self->r[i] = 0;\n";
+  for (const Field& field : state_fields(controller))
+    if (field.kind == Kind::counter) out += "    self->" + field.name + " = 0;\n";
+  return fill(out, words);
+}
+
+std::string update_body(const Controller& controller, const Words& words) {
+  const std::string work = "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
+  const std::string call = "lqg_kalman_{filter}_update({kalman}, {state}, y, work);\n";
+  if (!needs_reset(controller)) return fill(work + "\n    return " + call, words);
+  return fill(work + gains_of_sample(controller) + "    const lqg_status status = " + call + "\n" +
+                  (controller.nxi() ? "    lqg_servo_observe(&{NAME}_SERVO, self->r, self->error, y);\n" : "") +
+                  end(controller), words);
+}
+
+std::string predict_body(const Controller& controller, const Words& words) {
+  const std::string work = "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
+  const std::string call = "lqg_kalman_{filter}_predict({kalman}, {state}, {u}, work)";
+  const std::string counters = advance_counters(controller);
+  if (!needs_reset(controller) && counters.empty()) return fill(work + "\n    return " + call + ";\n", words);
+  const bool remembers = controller.nxi() > 0 || controller.continues();
+  return fill(work + gains_of_sample(controller) + (remembers ? law_of_sample(controller) : "") +
+                  "    lqg_status status = " + call + ";\n\n" +
+                  (remembers ? "    status |= lqg_servo_advance({servo}, {memory}, u);\n" : "") + counters +
+                  end(controller), words);
+}
+
+std::string control_call(const Controller& controller) {
+  if (controller.has_servo()) return "lqg_servo_control({servo}, {x}, {r}, {before}, u)";
+  return "lqg_lqr_control({lqr}, {x}, u)";
+}
+
+std::string control_body(const Controller& controller, const Words& words) {
+  const std::string call = control_call(controller), law = law_of_sample(controller);
+  if (controller.has_feedthrough())
+    return fill(law + "    const lqg_status status = " + call + R"(;
+
+    for (int i = 0; i < {NAME}_NU; i++)
+        self->u_applied[i] = u[i];
+    return status;
+)", words);
+  return fill(law + (law.empty() ? "    return " : "\n    return ") + call + ";\n", words);
+}
+
+// y = C x + D u of the outputs that a regulator alone integrates; the others are not looked at.
+std::string outputs_of_state(const Controller& controller, std::string& constants) {
+  Tables tables(controller, "PLANT");
+  const design::SampledPlant& plant = controller.solution.plant;
+  const int ny = static_cast<int>(plant.C.rows());
+  const std::string C = tables.add("C", plant.C), D = tables.add_unless_zero("D", plant.D);
+  constants += tables.text;
+  std::string out = "    lqg_real y[" + std::to_string(ny) + "];\n    for (int i = 0; i < " + std::to_string(ny) +
+                    "; i++) {\n        y[i] = 0;\n        for (int j = 0; j < {NAME}_NX; j++)\n            y[i] = " +
+                    multiply_add(controller, C + "[i * {NAME}_NX + j]", "x[j]") + ";\n";
+  if (D != "NULL")
+    out += "        for (int j = 0; j < {NAME}_NU; j++)\n            y[i] = " +
+           multiply_add(controller, D + "[i * {NAME}_NU + j]", "u[j]") + ";\n";
+  return out + "    }\n    lqg_servo_observe(&{NAME}_SERVO, self->r, self->error, y);\n";
+}
+
+// A regulator alone that has a state: law and memory in one call.
+std::string act_body(const Controller& controller, const Words& words, std::string& constants) {
+  const std::string counters = advance_counters(controller);
+  std::string out = "    LQG_STRICT_BODY\n" + law_of_sample(controller) + "    lqg_status status = " +
+                    control_call(controller) + ";\n\n";
+  if (controller.nxi()) out += outputs_of_state(controller, constants);
+  if (controller.nxi() || controller.continues()) out += "    status |= lqg_servo_advance({servo}, {memory}, u);\n";
+  return fill(out + counters + end(controller), words);
+}
+
+std::string set_input_body(const Controller& controller, const Words& words) {
+  std::string out = "    LQG_STRICT_BODY\n" + std::string(controller.nxi() ? law_of_sample(controller) : "") +
+                    "    lqg_status status = LQG_OK;\n    lqg_real sum = 0;\n\n" +
+                    (controller.has_filter() || controller.nxi() ? "" : "    (void)x;\n") +
+                    "    for (int i = 0; i < {NAME}_NU; i++)\n        sum += u[i];\n";
+  if (controller.delayed() && controller.has_filter())
+    out += "    for (int i = 0; i < " + std::to_string(controller.delayed()) + "; i++)\n        self->x[{NAME}_NX - " +
+           std::to_string(controller.delayed()) + " + i] = u[i % {NAME}_NU];\n";
+  if (controller.keeps_input())
+    out += "    for (int i = 0; i < {NAME}_NU; i++)\n        self->u_applied[i] = u[i];\n";
+  if (controller.nxi()) out += "    status |= lqg_servo_set_input({servo}, {x}, {r}, {memory}, u);\n";
+  out += "    if (!(sum - sum == 0) || (status & LQG_STATE_RESET))\n        return {name}_reset(self, status);\n"
+         "    return status;\n";
+  return fill(out, words);
 }
 
 std::string options_check(const Controller& controller) {
@@ -174,32 +178,23 @@ std::string options_check(const Controller& controller) {
 
 Bodies compact_bodies(const Controller& controller) {
   Bodies bodies;
-  bodies.includes = "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
+  const bool multiplies = controller.is_fused() && !controller.has_filter() && controller.nxi() > 0;
+  bodies.includes = std::string(multiplies ? "#include <math.h>\n" : "") +
+                    "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
+  const Words words = call_words(controller);
+  bodies.resets = needs_reset(controller);
+  if (controller.has_state()) bodies.init = init_body(controller, words);
   if (controller.has_filter()) {
     bodies.constants = kalman_constants(controller);
-    const Words words = call_words(controller);
-    bodies.init = fill("    lqg_kalman_{filter}_init(&{NAME}_KALMAN, {state});\n", words);
-    bodies.update = fill(R"(    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];
-
-    return lqg_kalman_{filter}_update(&{NAME}_KALMAN, {state}, y, work);
-)", words);
-    bodies.predict = fill(R"(    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];
-
-    return lqg_kalman_{filter}_predict(&{NAME}_KALMAN, {state}, {u}, work);
-)", words);
+    bodies.update = update_body(controller, words);
+    bodies.predict = predict_body(controller, words);
   }
   if (controller.has_regulator()) {
-    bodies.constants += lqr_constants(controller);
-    bodies.control = fill(controller.keeps_input() ? R"(    const lqg_status status = lqg_lqr_control(&{NAME}_LQR, self->x, u);
-
-    for (int i = 0; i < {NAME}_NU; i++)
-        self->u_applied[i] = u[i];
-    return status;
-)"
-                                : controller.has_filter() ? "    return lqg_lqr_control(&{NAME}_LQR, self->x, u);\n"
-                                                          : "    return lqg_lqr_control(&{NAME}_LQR, x, u);\n",
-                          common_words(controller));
+    bodies.constants += controller.has_servo() ? servo_constants(controller) : lqr_constants(controller);
+    bodies.control = controller.has_filter() || !controller.has_state() ? control_body(controller, words)
+                                                                        : act_body(controller, words, bodies.constants);
   }
+  if (controller.can_set_input()) bodies.set_input = set_input_body(controller, words);
   return bodies;
 }
 

@@ -23,12 +23,17 @@ struct Figures {
   long stack = 0;          // bytes of the deepest function
 };
 
+// The gains of one sample: of a law {K, Nbar, H}, of a filter with given gains {L, M}.
+using Gains = std::vector<design::RealMatrix>;
+
 struct Controller {
   design::Problem problem;
   design::Solution solution;
   Source source;
   design::Style style = design::Style::unrolled;  // never automatic
   Figures figures;
+  std::vector<Gains> laws;     // of sample 0, 1, …; the last one is held. One only: it is constant. Empty: no regulator
+  std::vector<Gains> filters;  // likewise; empty without a filter of given gains
 
   bool is_double() const { return problem.code.real == design::Scalar::float64; }
   bool is_fused() const { return problem.code.arithmetic == design::Arithmetic::fused; }
@@ -36,9 +41,25 @@ struct Controller {
   bool has_regulator() const { return problem.regulator.has_value(); }
   bool is_predictor() const { return has_filter() && problem.estimator->form == design::Form::predictor; }
   step::Filter filter() const;
-  bool keeps_input() const;       // D u needs the last input
+  bool has_feedthrough() const;   // D u needs the last input in every update
+  bool gives_change() const;      // the law gives u[k] − u[k−1]
+  bool has_rate_limit() const;
+  bool continues() const { return gives_change() || has_rate_limit(); }  // the law begins with the last input
+  bool keeps_input() const { return has_feedthrough() || continues(); }
   bool keeps_innovation() const;  // predict needs the last outputs: w and v are correlated
-  int nx() const { return static_cast<int>(problem.plant.A.rows()); }
+  bool keeps_sample() const;      // the number of the sample chooses gains of the law
+  bool keeps_gain_row() const { return filters.size() > 1; }
+  const std::vector<int>& integral() const;  // the outputs that are integrated, ξ by ξ
+  std::vector<int> references() const;       // the outputs that r names, rising
+  int nr() const { return static_cast<int>(references().size()); }
+  int nxi() const { return static_cast<int>(integral().size()); }
+  bool has_servo() const { return nr() > 0 || nxi() > 0 || continues(); }  // the law is more than −K x̂ within limits
+  bool has_state() const { return has_filter() || has_servo() || keeps_sample(); }
+  bool control_changes_state() const { return has_feedthrough() || nxi() > 0; }  // beside a filter
+  bool can_set_input() const { return nu() > 0 && (has_filter() || has_servo()) && (delayed() || keeps_input() || nxi()); }
+  Eigen::VectorXd x0() const;  // with zeros for inputs on their way
+  int delayed() const { return nx() - static_cast<int>(problem.plant.A.rows()); }  // inputs on their way: the last states
+  int nx() const { return static_cast<int>(solution.plant.A.rows()); }
   int nu() const { return static_cast<int>(problem.plant.B.cols()); }
   int ny() const { return has_filter() ? static_cast<int>(problem.plant.C.rows()) : 0; }
 };

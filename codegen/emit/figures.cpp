@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emit/model_of.hpp"
+#include "emit/state_fields.hpp"
 #include "emit/traced.hpp"
 
 namespace lqg::emit {
@@ -31,15 +32,6 @@ const Rates& rates(const Controller& controller) {
 long bytes_of_real(const Controller& controller) { return controller.is_double() ? 8 : 4; }
 
 long triangle(long n) { return n * (n + 1) / 2; }
-
-long state_bytes(const Controller& controller) {
-  if (!controller.has_filter()) return 0;
-  const long nx = controller.nx();
-  const long reals = nx + (controller.filter() == step::Filter::steady ? 0 : triangle(nx)) +
-                     (controller.keeps_input() ? controller.nu() : 0) +
-                     (controller.keeps_innovation() ? controller.ny() : 0);
-  return reals * bytes_of_real(controller);
-}
 
 // ---- straight-line code
 

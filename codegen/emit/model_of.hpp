@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "emit/controller.hpp"
 #include "step/model.hpp"
@@ -26,7 +27,7 @@ void convert_online(const Controller& controller, Round round, step::Model<S>& m
   const design::OnlineSolution& online = *controller.solution.online;
   model.E = convert<S>(online.E, round);
   model.C = convert<S>(online.C, round);
-  if (!is_zero(online.D)) model.D = convert<S>(online.D, round);
+  if (controller.has_feedthrough()) model.D = convert<S>(online.D, round);
   if (!is_zero(online.M)) model.M = convert<S>(online.M, round);
   model.V = convert<S>(online.V, round);
   model.A_free = convert<S>(online.A_free, round);
@@ -43,13 +44,18 @@ void convert_online(const Controller& controller, Round round, step::Model<S>& m
     for (int k = 0; k < j; ++k) model.U0.push_back(round(online.U0(k, j)));
 }
 
+// The gains of a sample; the last ones are held.
+inline const Gains& row_of(const std::vector<Gains>& rows, std::size_t sample) {
+  return rows[std::min(sample, rows.size() - 1)];
+}
+
 template <class S, class Round>
-void convert_steady(const Controller& controller, Round round, step::Model<S>& model) {
-  const design::EstimatorSolution& estimator = *controller.solution.estimator;
+void convert_steady(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
+  const Gains& gains = row_of(controller.filters, sample);
   model.C = convert<S>(controller.solution.plant.C, round);
-  if (!is_zero(controller.solution.plant.D)) model.D = convert<S>(controller.solution.plant.D, round);
-  if (!is_zero(estimator.M)) model.M = convert<S>(estimator.M, round);
-  model.L = convert<S>(estimator.L, round);
+  if (controller.has_feedthrough()) model.D = convert<S>(controller.solution.plant.D, round);
+  model.L = convert<S>(gains[0], round);
+  if (controller.keeps_innovation()) model.M = convert<S>(gains[1], round);
 }
 
 // The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
@@ -68,9 +74,39 @@ step::Vector<S> convert_limits(const Eigen::VectorXd& from, int inward, bool is_
   return to;
 }
 
-// `round` turns a Real into an S.
+// u_rate T, rounded down; the largest number where there is no limit.
+inline Eigen::VectorXd rate_steps(const Controller& controller) {
+  const double largest = controller.is_double() ? std::numeric_limits<double>::max()
+                                                : static_cast<double>(std::numeric_limits<float>::max());
+  return (controller.problem.limits->u_rate * controller.problem.plant.sample_time).cwiseMin(largest);
+}
+
 template <class S, class Round>
-step::Model<S> model_of(const Controller& controller, Round round) {
+void convert_regulator(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
+  const Gains& gains = row_of(controller.laws, sample);
+  model.K = convert<S>(gains[0], round);
+  if (const auto& limits = controller.problem.limits; limits && limits->u_min.size()) {
+    model.u_min = convert_limits<S>(limits->u_min, +1, controller.is_double());
+    model.u_max = convert_limits<S>(limits->u_max, -1, controller.is_double());
+  }
+  if (controller.has_rate_limit()) model.u_step = convert_limits<S>(rate_steps(controller), -1, controller.is_double());
+  model.gives_change = controller.gives_change();
+  const std::vector<int> references = controller.references();
+  model.nr = controller.nr();
+  model.Nbar = convert<S>(gains[1], round);
+  model.H = convert<S>(gains[2], round);
+  model.integral = controller.integral();
+  for (const int output : model.integral)
+    model.wanted.push_back(static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));
+  model.T = round(design::Real(controller.problem.plant.sample_time));
+  if (controller.has_filter() || model.integral.empty()) return;
+  model.C = convert<S>(controller.solution.plant.C, round);
+  if (!is_zero(controller.solution.plant.D)) model.D = convert<S>(controller.solution.plant.D, round);
+}
+
+// The constants of a sample. `round` turns a Real into an S.
+template <class S, class Round>
+step::Model<S> model_of(const Controller& controller, Round round, std::size_t sample = 0) {
   const design::Solution& solution = controller.solution;
   step::Model<S> model;
   model.filter = controller.filter();
@@ -78,24 +114,19 @@ step::Model<S> model_of(const Controller& controller, Round round) {
   model.nx = controller.nx();
   model.nu = controller.nu();
   model.ny = controller.ny();
+  model.delayed = controller.delayed();
   model.A = convert<S>(solution.plant.A, round);
   model.B = convert<S>(solution.plant.B, round);
   model.D.resize(model.ny, 0);
   model.M.resize(model.nx, 0);
   if (controller.has_filter()) {
-    const Eigen::VectorXd& x0 = controller.problem.estimator->x0;
+    const Eigen::VectorXd x0 = controller.x0();
     model.x0.resize(model.nx);
     for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
     if (solution.online) convert_online(controller, round, model);
-    else convert_steady(controller, round, model);
+    else convert_steady(controller, round, sample, model);
   }
-  if (controller.has_regulator()) {
-    model.K = convert<S>(solution.regulator->K, round);
-    if (const auto& limits = controller.problem.limits) {
-      model.u_min = convert_limits<S>(limits->u_min, +1, controller.is_double());
-      model.u_max = convert_limits<S>(limits->u_max, -1, controller.is_double());
-    }
-  }
+  if (controller.has_regulator()) convert_regulator(controller, round, sample, model);
   return model;
 }
 

@@ -1,7 +1,9 @@
 #include "emit/plant_simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "design/linear_algebra.hpp"
 #include "emit/model_of.hpp"
 #include "emit/rounding.hpp"
 
@@ -38,15 +40,36 @@ Matrix<double> square_root(const Matrix<double>& S) {
   return F;
 }
 
-Matrix<double> joint_covariance(const design::Solution& solution) {
-  const design::Digits digits(solution.numerics.digits);
-  const design::RealMatrix& G = solution.plant.G;
-  const design::SampledNoise& noise = solution.estimator->noise;
-  const design::RealMatrix GWG = G * noise.W * G.transpose(), GS = G * noise.Swv;
-  const auto nx = G.rows(), ny = noise.V.rows();
-  design::RealMatrix joint(nx + ny, nx + ny);
-  joint << GWG, GS, GS.transpose(), noise.V;
-  return convert<double>(joint, design::to_double);
+design::RealMatrix joint(const design::RealMatrix& W, const design::RealMatrix& Swv, const design::RealMatrix& V) {
+  design::RealMatrix all(W.rows() + V.rows(), W.rows() + V.rows());
+  all << W, Swv, Swv.transpose(), V;
+  return all;
+}
+
+// An observer's design says nothing of noise; some there has to be, or nothing moves.
+design::RealMatrix assumed_noise(const design::SampledPlant& plant) {
+  constexpr double variance = 1e-4;
+  return design::identity(plant.A.rows() + plant.C.rows()) * design::Real(variance);
+}
+
+// Of G w and v.
+Matrix<double> joint_covariance(const Controller& controller) {
+  const design::Solution& solution = controller.solution;
+  const design::Digits digits(std::max(solution.numerics.digits, 50u));
+  design::RealMatrix all;
+  if (const auto& online = solution.online) {  // v = E⁻¹ v', w = M v' + the noise that v' does not tell
+    const design::RealMatrix V = online->V.asDiagonal(), MV = design::multiply(online->M, V);
+    const design::RealMatrix inverse = *design::solve(online->E, design::identity(V.rows()));
+    all = joint(online->W + design::multiply_transpose(MV, online->M), design::multiply_transpose(MV, inverse),
+                design::congruence(inverse, V));
+  } else if (solution.estimator->noise.V.size() == 0) {
+    all = assumed_noise(solution.plant);
+  } else {
+    const design::SampledNoise& noise = solution.estimator->noise;
+    const design::RealMatrix& G = solution.plant.G;
+    all = joint(design::congruence(G, noise.W), design::multiply(G, noise.Swv), noise.V);
+  }
+  return convert<double>(all, design::to_double);
 }
 
 }  // namespace
@@ -72,8 +95,8 @@ PlantSimulation::PlantSimulation(const Controller& controller, std::uint64_t see
       B_(convert<double>(controller.solution.plant.B, design::to_double)),
       C_(convert<double>(controller.solution.plant.C, design::to_double)),
       D_(convert<double>(controller.solution.plant.D, design::to_double)),
-      factor_(square_root(joint_covariance(controller.solution))),
-      x_(controller.problem.estimator->x0) {}
+      factor_(square_root(joint_covariance(controller))),
+      x_(controller.x0()) {}
 
 Vector<double> PlantSimulation::measure(const Vector<double>& u) {
   Vector<double> white(factor_.rows());

@@ -49,7 +49,7 @@ std::string plant(const Controller& controller) {
   const bool is_double = controller.is_double();
   std::string out = " *\n * Plant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +
                     " s:  x⁺ = A x + B u + G w,  y = C x + D u + v\n *\n";
-  out += as_comment(signals("states   ", "x", controller.problem.plant.states));
+  out += as_comment(signals("states   ", "x", state_signals(controller)));
   out += as_comment(signals("inputs   ", "u", controller.problem.plant.inputs));
   if (controller.has_filter()) out += as_comment(signals("outputs  ", "y", controller.problem.plant.outputs));
   out += " *\n" + matrix_comment("A", plant.A, is_double);
@@ -66,41 +66,74 @@ std::string limit(double value, const std::string& sign, bool before) {
   return before ? number + sign : sign + number;
 }
 
-std::string regulator(const Controller& controller) {
-  if (!controller.has_regulator()) return "";
-  const design::RegulatorSolution& solution = *controller.solution.regulator;
-  std::string out = " *\n * Regulator  u = −K x̂:\n *\n" + matrix_comment("K", solution.K, controller.is_double());
-  out += " *   poles of A − B K: " + poles(solution.poles) + "\n";
-  if (const auto& limits = controller.problem.limits)
-    for (int i = 0; i < controller.nu(); ++i)
-      out += " *   " + limit(limits->u_min(i), " ≤ ", true) + "u[" + std::to_string(i) + "]" +
-             limit(limits->u_max(i), " ≤ ", false) + "\n";
+std::string limits(const Controller& controller) {
+  std::string out;
+  if (!controller.problem.limits) return out;
+  const design::Limits& limits = *controller.problem.limits;
+  for (int i = 0; i < controller.nu(); ++i) {
+    const std::string u = "u[" + std::to_string(i) + "]";
+    if (limits.u_min.size())
+      out += " *   " + limit(limits.u_min(i), " ≤ ", true) + u + limit(limits.u_max(i), " ≤ ", false) + "\n";
+    if (controller.has_rate_limit())
+      out += " *   |change of " + u + "| ≤ " + trace::literal(limits.u_rate(i), true) + " per second\n";
+  }
   return out;
 }
 
+std::string integrals(const Controller& controller) {
+  if (!controller.nxi()) return "";
+  std::string outputs;
+  for (const int i : controller.integral())
+    outputs += (outputs.empty() ? "" : ", ") + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name;
+  return " *   ξ⁺ = ξ + T (r − y) of " + outputs + "; ξ ← ξ + H (u − what the law asked for) with the u that was applied\n" +
+         matrix_comment("H", controller.laws.back()[2], controller.is_double());
+}
+
+std::string regulator(const Controller& controller) {
+  if (!controller.has_regulator()) return "";
+  const design::RegulatorSolution& solution = *controller.solution.regulator;
+  const bool is_double = controller.is_double();
+  std::string out = " *\n * Regulator  u = " + equation_of_law(controller) + ":\n *\n";
+  if (controller.laws.size() > 1)
+    out += " *   K of " + std::to_string(controller.laws.size()) + " samples from init on; the last one is held:\n";
+  out += matrix_comment("K", solution.K, is_double);
+  if (controller.laws.back()[1].size()) out += matrix_comment("Nbar", controller.laws.back()[1], is_double);
+  out += integrals(controller);
+  out += " *   poles of A − B K: " + poles(solution.poles) + "\n";
+  return out + limits(controller);
+}
+
 std::string gains(const Controller& controller) {
-  if (!controller.has_filter()) return "";
+  if (!controller.solution.estimator) return "";
   const design::EstimatorSolution& solution = *controller.solution.estimator;
   return matrix_comment("L", solution.L, controller.is_double()) + " *   poles of A − L_predictor C: " +
          poles(solution.poles) + "\n";
 }
 
+std::string gain_in_words(const Controller& controller) {
+  if (controller.solution.online)
+    return "its covariance carried on line as " +
+           std::string(controller.filter() == step::Filter::ud ? "U diag(d) Uᵀ" : "a lower triangle") +
+           (controller.solution.estimator ? "; in the steady state, of samples:\n" : ":\n");
+  if (controller.filters.size() > 1)
+    return "with the gains of " + std::to_string(controller.filters.size()) +
+           " samples from init on; the last one is held; of samples:\n";
+  return "with its constant gain; of samples:\n";
+}
+
 std::string estimator(const Controller& controller) {
   if (!controller.has_filter()) return "";
-  const design::EstimatorSolution& solution = *controller.solution.estimator;
-  const bool is_double = controller.is_double();
-  const bool online = controller.solution.online.has_value();
-  std::string out = " *\n * Kalman filter, ";
+  const bool is_double = controller.is_double(), is_observer = controller.problem.estimator->poles.has_value();
+  std::string out = is_observer ? " *\n * Observer, " : " *\n * Kalman filter, ";
   out += controller.is_predictor() ? "predictor form (u[k] is made of the outputs up to y[k−1])"
                                    : "filter form (u[k] is made of the outputs up to y[k])";
-  out += online ? ",\n * its covariance carried on line as " +
-                      std::string(controller.filter() == step::Filter::ud ? "U diag(d) Uᵀ" : "a lower triangle") +
-                      "; in the steady state, of samples:\n"
-                : ",\n * with its constant gain; of samples:\n";
-  out += " *\n" + matrix_comment("G", controller.solution.plant.G, is_double);
-  out += matrix_comment("W = E[w wᵀ]", solution.noise.W, is_double);
-  out += matrix_comment("V = E[v vᵀ]", solution.noise.V, is_double);
-  if (!is_zero(solution.noise.Swv)) out += matrix_comment("E[w vᵀ]", solution.noise.Swv, is_double);
+  out += ",\n * " + gain_in_words(controller) + " *\n";
+  if (!controller.solution.estimator || is_observer) return out + gains(controller);
+  const design::SampledNoise& noise = controller.solution.estimator->noise;
+  out += matrix_comment("G", controller.solution.plant.G, is_double);
+  out += matrix_comment("W = E[w wᵀ]", noise.W, is_double);
+  out += matrix_comment("V = E[v vᵀ]", noise.V, is_double);
+  if (!is_zero(noise.Swv)) out += matrix_comment("E[w vᵀ]", noise.Swv, is_double);
   return out + gains(controller);
 }
 

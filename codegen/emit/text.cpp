@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <vector>
 
 #include "emit/rounding.hpp"
 
@@ -29,6 +28,34 @@ std::string upper(std::string text) {
   return text;
 }
 
+std::vector<design::Signal> state_signals(const Controller& controller) {
+  std::vector<design::Signal> signals = controller.problem.plant.states;
+  const auto is_taken = [&](const std::string& name) {
+    return std::any_of(signals.begin(), signals.end(), [&](const design::Signal& signal) { return signal.name == name; });
+  };
+  for (int left = controller.delayed(), nu = controller.nu(); left > 0; --left) {
+    const design::Signal& input = controller.problem.plant.inputs[static_cast<std::size_t>((controller.delayed() - left) % nu)];
+    std::string name = input.name + "_delayed_" + std::to_string((left + nu - 1) / nu);
+    while (is_taken(name)) name += "_samples";
+    signals.push_back({name, input.unit});
+  }
+  return signals;
+}
+
+std::vector<design::Signal> reference_signals(const Controller& controller) {
+  std::vector<design::Signal> signals;
+  for (const int output : controller.references())
+    signals.push_back(controller.problem.plant.outputs[static_cast<std::size_t>(output)]);
+  return signals;
+}
+
+std::string equation_of_law(const Controller& controller) {
+  const std::string x = controller.has_filter() ? "x̂" : "x", xi = controller.nxi() ? "; ξ" : "";
+  const std::string last = controller.gives_change() ? "; u[k−1]" : "";
+  return (controller.gives_change() ? "u[k−1] − K " : "−K ") + (xi + last == "" ? x : "[" + x + xi + last + "]") +
+         (controller.laws.front()[1].size() ? " + Nbar r" : "");
+}
+
 std::string filter_name(step::Filter filter) {
   switch (filter) {
     case step::Filter::steady: return "steady";
@@ -47,6 +74,7 @@ Words common_words(const Controller& controller) {
           {"nx", std::to_string(controller.nx())},
           {"nu", std::to_string(controller.nu())},
           {"ny", std::to_string(controller.ny())},
+          {"nr", std::to_string(controller.nr())},
           {"file", controller.source.file},
           {"filter", filter_name(controller.filter())}};
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "emit/controller.hpp"
 #include "trace/print.hpp"
@@ -18,6 +19,15 @@ std::string fill(const std::string& text, const Words& words);
 Words common_words(const Controller& controller);
 
 std::string upper(std::string text);
+
+// The states with their names: the plant's own, then the inputs on their way, "force_delayed_2", "force_delayed_1".
+std::vector<design::Signal> state_signals(const Controller& controller);
+
+// The outputs that r names.
+std::vector<design::Signal> reference_signals(const Controller& controller);
+
+// The law for people: "−K [x̂; ξ] + Nbar r".
+std::string equation_of_law(const Controller& controller);
 
 // The library's state of the filter: "steady", "plain", "ud".
 std::string filter_name(step::Filter filter);

@@ -1,5 +1,6 @@
 #include "emit/traced.hpp"
 
+#include "emit/gains.hpp"
 #include "emit/model_of.hpp"
 #include "emit/rounding.hpp"
 #include "step/loop.hpp"
@@ -20,6 +21,7 @@ const char* status_name(step::Event event) {
     case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
     case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
     case step::Event::input_limited: return "LQG_INPUT_LIMITED";
+    case step::Event::reference_not_finite: return "LQG_REFERENCE_NOT_FINITE";
     default: return "LQG_STATE_RESET";
   }
 }
@@ -107,16 +109,32 @@ std::pair<int, int> place_in_strict_triangle(int k) {
   return {k - j * (j - 1) / 2, j};
 }
 
+// All that is neither the estimate nor its covariance.
+void load_memory(const Model& model, State& state) {
+  const State sizes = step::initial_state(model);
+  const auto load_as = [&](const Symbols& like, const char* array, const char* name) {
+    return load(trace::graph(), std::string("self->") + array, name, static_cast<int>(like.size()));
+  };
+  state.u = load_as(sizes.u, "u_applied", "u_applied");
+  state.innovation = load_as(sizes.innovation, "innovation", "kept");
+  state.r = load_as(sizes.r, "r", "r");
+  state.xi = load_as(sizes.xi, "xi", "integral");
+  state.error = load_as(sizes.error, "error", "error");
+  state.demand = load_as(sizes.demand, "demand", "asked");
+}
+
+// With the entries of the covariance that are in `pattern`; no pattern: without it.
 State load_state(const Model& model, const std::vector<bool>& pattern) {
   trace::Graph& graph = trace::graph();
   State state;
-  state.x = load(graph, "self->x", "x", model.nx);
-  state.P = load_pattern(graph, "self->P", "P", model.nx, model.P0, pattern, 0, place_in_triangle);
-  state.U = load_pattern(graph, "self->U", "U", model.nx, model.U0, pattern, 0, place_in_strict_triangle);
-  state.D = load_pattern(graph, "self->d", "d", model.nx, model.D0, pattern, model.U0.size(),
-                         [](int k) { return std::pair(k, -1); });
-  if (model.D.cols()) state.u = load(graph, "self->u_applied", "u_applied", model.nu);
-  if (model.M.cols()) state.innovation = load(graph, "self->innovation", "kept", model.ny);
+  state.x = load(graph, model.filter == step::Filter::none ? "x" : "self->x", "x", model.nx);
+  if (!pattern.empty()) {
+    state.P = load_pattern(graph, "self->P", "P", model.nx, model.P0, pattern, 0, place_in_triangle);
+    state.U = load_pattern(graph, "self->U", "U", model.nx, model.U0, pattern, 0, place_in_strict_triangle);
+    state.D = load_pattern(graph, "self->d", "d", model.nx, model.D0, pattern, model.U0.size(),
+                           [](int k) { return std::pair(k, -1); });
+  }
+  load_memory(model, state);
   return state;
 }
 
@@ -127,17 +145,22 @@ void store(TracedFunction& function, const std::string& target, const Expr& valu
 }
 
 void store_state(TracedFunction& function, const State& state, const std::vector<bool>& pattern) {
-  for (int i = 0; i < state.x.size(); ++i) store(function, element("self->x", i), state.x(i));
+  const auto store_vector = [&](const char* array, const Symbols& values) {
+    for (int i = 0; i < values.size(); ++i) store(function, element(std::string("self->") + array, i), values(i));
+  };
   const auto store_covariance = [&](const char* array, const std::vector<Expr>& values, std::size_t from) {
     for (std::size_t k = 0; k < values.size(); ++k)
       if (pattern[from + k]) store(function, element(array, static_cast<int>(k)), values[k]);
   };
+  store_vector("x", state.x);
   store_covariance("self->P", state.P, 0);
   store_covariance("self->U", state.U, 0);
   store_covariance("self->d", state.D, state.U.size());
-  for (int i = 0; i < state.u.size(); ++i) store(function, element("self->u_applied", i), state.u(i));
-  for (int i = 0; i < state.innovation.size(); ++i)
-    store(function, element("self->innovation", i), state.innovation(i));
+  store_vector("u_applied", state.u);
+  store_vector("innovation", state.innovation);
+  store_vector("xi", state.xi);
+  store_vector("error", state.error);
+  store_vector("demand", state.demand);
 }
 
 TracedFunction new_function(const Controller& controller) {
@@ -146,10 +169,23 @@ TracedFunction new_function(const Controller& controller) {
   return function;
 }
 
+// Entries that change from sample to sample are read from a row of their table.
+void read_row(const std::vector<Gains>& rows, bool is_double, const char* table, const std::vector<const char*>& names,
+              const std::vector<step::Matrix<Expr>*>& matrices, int nx) {
+  int at = 0;
+  for (const auto& [matrix, i, j] : changing_places(rows, is_double))
+    (*matrices[matrix])(i, j) =
+        Expr::of(trace::graph().input(element(table, at++), names[matrix] + index_suffix(i, j, nx)));
+}
+
 Model symbolic_model(const Controller& controller) {
-  return model_of<Expr>(controller, [&](const design::Real& value) {
-    return Expr(rounded_to_target(value, controller.is_double()));
+  const bool is_double = controller.is_double();
+  Model model = model_of<Expr>(controller, [&](const design::Real& value) {
+    return Expr(rounded_to_target(value, is_double));
   });
+  read_row(controller.laws, is_double, "law", {"K", "Nbar", "H"}, {&model.K, &model.Nbar, &model.H}, model.nx);
+  read_row(controller.filters, is_double, "gains", {"L", "M"}, {&model.L, &model.M}, model.nx);
+  return model;
 }
 
 // Runs `step(model, state, recorder)` on a fresh graph; what it returns is the condition that the state is finite.
@@ -181,11 +217,26 @@ TracedFunction trace_control(const Controller& controller) {
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
+  State state = load_state(model, {});
   Recorder recorder(controller, function);
-  const std::string x = controller.has_filter() ? "self->x" : "x";
-  const Symbols u = step::control(model, load(*function.graph, x, "x", model.nx), recorder);
+  Symbols u;
+  if (controller.has_filter() || !controller.has_servo()) u = step::control(model, state, recorder);
+  else function.finite = step::act(model, state, u, recorder).node;
   for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
-  for (int i = 0; i < model.D.cols(); ++i) store(function, element("self->u_applied", i), u(i));
+  state.x.resize(0);  // it is only read
+  store_state(function, state, {});
+  return function;
+}
+
+TracedFunction trace_set_input(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  State state = load_state(model, {});
+  Recorder recorder(controller, function);
+  function.finite = step::set_input(model, state, load(*function.graph, "u", "u", model.nu), recorder).node;
+  if (!controller.has_filter()) state.x.resize(0);
+  store_state(function, state, {});
   return function;
 }
 
@@ -249,6 +300,7 @@ TracedController trace_controller(const Controller& controller) {
     traced.predict = trace_predict(controller, pattern);
   }
   if (controller.has_regulator()) traced.control = trace_control(controller);
+  if (controller.can_set_input()) traced.set_input = trace_set_input(controller);
   return traced;
 }
 

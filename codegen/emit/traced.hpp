@@ -21,7 +21,7 @@ struct TracedFunction {
 };
 
 struct TracedController {
-  TracedFunction update, control, predict;
+  TracedFunction update, control, predict, set_input;
 };
 
 TracedController trace_controller(const Controller& controller);

@@ -46,6 +46,9 @@ std::string data(const Controller& controller, const Vectors& vectors) {
   } else {
     out += "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
   }
+  if (controller.nr())
+    out += "\n/* What the outputs should be. */\n" +
+           table("r_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.r; });
   if (controller.nu())
     out += std::string("\n/* … ") + (controller.has_regulator() ? "the inputs, which are applied as they are … */\n" : "the inputs that act … */\n") +
            table("u_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.u; });
@@ -63,14 +66,14 @@ std::string data(const Controller& controller, const Vectors& vectors) {
 }
 
 std::string hash_of_state(const Controller& controller) {
-  if (!controller.has_filter()) return "";
-  std::string out = "        hash = hash_of(hash, self.x, {NAME}_NX);\n";
+  std::string out = controller.has_filter() ? "        hash = hash_of(hash, self.x, {NAME}_NX);\n" : "";
   if (controller.filter() == step::Filter::plain)
     out += "        hash = hash_of(hash, self.P, (int)(sizeof self.P / sizeof self.P[0]));\n";
   if (controller.filter() == step::Filter::ud) {
     if (controller.nx() > 1) out += "        hash = hash_of(hash, self.U, (int)(sizeof self.U / sizeof self.U[0]));\n";
     out += "        hash = hash_of(hash, self.d, {NAME}_NX);\n";
   }
+  if (controller.nxi()) out += "        hash = hash_of(hash, self.xi, " + std::to_string(controller.nxi()) + ");\n";
   return out;
 }
 
@@ -87,20 +90,23 @@ std::string covariance_check(const Controller& controller) {
 
 // The calls of one sample in the order of the form; {after_update} and {after_control} are what a test looks at.
 std::string sample(const Controller& controller, const std::string& after_update, const std::string& after_control) {
-  if (!controller.has_filter()) return "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(x_in[k], u){limited});\n" + after_control;
+  const std::string reference = controller.nr() ? "        memcpy(self.r, r_in[k], sizeof self.r);\n" : "";
+  if (!controller.has_filter())
+    return reference + "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(" +
+           (controller.has_state() ? "&self, " : "") + "x_in[k], u){limited});\n" + after_update + after_control;
   const std::string update = "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_update(&self, y_in[k]));\n";
   const std::string control =
       controller.has_regulator() ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, u){limited});\n" : "";
   const std::string predict = controller.nu() ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
                                               : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
-  return controller.is_predictor() ? control + update + after_update + after_control + predict
-                                   : update + control + after_update + after_control + predict;
+  return reference + (controller.is_predictor() ? control + update : update + control) + after_update + after_control +
+         predict;
 }
 
 std::string begin(const Controller& controller) {
-  return std::string(controller.has_filter() ? "    {name}_t self;\n" : "") +
+  return std::string(controller.has_state() ? "    {name}_t self;\n" : "") +
          (controller.has_regulator() ? "    {real} u[{NAME}_NU];\n" : "") + "\n" +
-         (controller.has_filter() ? "    {name}_init(&self);\n" : "");
+         (controller.has_state() ? "    {name}_init(&self);\n" : "");
 }
 
 std::string reference_test(const Controller& controller) {
@@ -206,7 +212,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["huge"] = controller.is_double() ? "1e308" : "3e38f";
   words["tiny"] = controller.is_double() ? "5e-324" : "1e-45f";
   words["within"] = "";
-  if (const auto& limits = controller.problem.limits; limits && controller.nu() == 1)
+  if (const auto& limits = controller.problem.limits; limits && limits->u_min.size() && controller.nu() == 1)
     words["within"] = bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
   words["bits"] = "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n";

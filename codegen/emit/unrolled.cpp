@@ -2,8 +2,9 @@
 #include <initializer_list>
 
 #include "emit/bodies.hpp"
-#include "emit/model_of.hpp"
+#include "emit/gains.hpp"
 #include "emit/rounding.hpp"
+#include "emit/state_fields.hpp"
 #include "emit/text.hpp"
 #include "emit/traced.hpp"
 
@@ -26,15 +27,28 @@ std::string status(const Controller& controller, const TracedFunction& function,
 )", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)}, {"finite", printer.expression(function.finite)}, {"name", controller.problem.name}});
 }
 
-// `parameters` that the body does not need are said to be unused.
-std::string body(const Controller& controller, const TracedFunction& function, std::initializer_list<const char*> parameters) {
+bool reads(const std::string& statements, const char* table) {
+  return statements.find(std::string("= ") + table + "[") != std::string::npos;
+}
+
+// The rows of the tables that a body reads.
+std::string rows(const Controller& controller, const std::string& statements) {
+  std::string out;
+  if (reads(statements, "law")) out += "    const {real} *const law = {NAME}_LAW[self->sample];\n";
+  if (reads(statements, "gains")) out += "    const {real} *const gains = {NAME}_GAINS[self->gain_row];\n";
+  return fill(out, common_words(controller));
+}
+
+// `parameters` that the body does not need are said to be unused; `last` stands behind its statements.
+std::string body(const Controller& controller, const TracedFunction& function,
+                 std::initializer_list<const char*> parameters, const std::string& last = "") {
   const trace::Printer printer(*function.graph, function.results());
-  const std::string statements = printer.statements(function.stores), end = status(controller, function, printer);
+  const std::string statements = printer.statements(function.stores), end = last + status(controller, function, printer);
   std::string unused;
   for (const std::string parameter : parameters)
     if ((statements + end).find(parameter == "self" ? "self" : " " + parameter + "[") == std::string::npos)
       unused += "    (void)" + parameter + ";\n";
-  return "    LQG_STRICT_BODY\n" + unused + statements + "\n" + end;
+  return "    LQG_STRICT_BODY\n" + unused + rows(controller, statements) + statements + "\n" + end;
 }
 
 template <class Values>
@@ -45,41 +59,37 @@ std::string initializer(const Values& values, bool is_double) {
   return out + "}";
 }
 
+// Entries that change from sample to sample; the others are numbers in the code.
+std::string table(const Controller& controller, const std::string& name, const std::vector<Gains>& gains) {
+  const std::vector<Place> places = changing_places(gains, controller.is_double());
+  if (places.empty()) return "";
+  std::string values;
+  for (const Gains& row : gains) {
+    std::vector<double> numbers;
+    for (const Place& place : places)
+      numbers.push_back(rounded_to_target(row[place.matrix](place.i, place.j), controller.is_double()));
+    values += trace::wrap("    " + initializer(numbers, controller.is_double()), 5) + (&row == &gains.back() ? "\n" : ",\n");
+  }
+  return fill("static const {real} {NAME}_" + name + "[" + std::to_string(gains.size()) + "][" +
+              std::to_string(places.size()) + "] = {\n" + values + "};\n", common_words(controller));
+}
+
 // All fields of the state, in their order.
 std::string initial_state(const Controller& controller) {
-  const bool is_double = controller.is_double();
-  const auto model =
-      model_of<double>(controller, [&](const design::Real& value) { return rounded_to_target(value, is_double); });
-  const auto zeros = [](int count) { return std::vector<double>(static_cast<std::size_t>(count), 0); };
-  std::vector<std::string> fields = {
-      initializer(std::vector<double>(model.x0.data(), model.x0.data() + model.nx), is_double)};
-  for (const std::vector<double>* part : {&model.P0, &model.U0, &model.D0})
-    if (!part->empty()) fields.push_back(initializer(*part, is_double));
-  if (controller.keeps_input()) fields.push_back(initializer(zeros(controller.nu()), is_double));
-  if (controller.keeps_innovation()) fields.push_back(initializer(zeros(controller.ny()), is_double));
+  const std::vector<Field> fields = state_fields(controller);
   std::string values;
-  for (const std::string& field : fields)
-    values += trace::wrap("        " + field, 9) + (&field == &fields.back() ? "\n" : ",\n");
+  for (const Field& field : fields) {
+    const std::vector<double> zeros(static_cast<std::size_t>(field.count), 0);
+    const std::string value = field.kind == Kind::counter
+                                  ? "0"
+                                  : initializer(field.initial.empty() ? zeros : field.initial, controller.is_double());
+    values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "\n" : ",\n");
+  }
   return fill(R"(    static const {name}_t initial = {
 {values}    };
 
     *self = initial;
 )", {{"name", controller.problem.name}, {"values", values}});
-}
-
-// Outside of the functions that call it, where it would cost every sample registers.
-std::string reset(const Controller& controller) {
-  return fill(R"(
-/* Begins anew: the state was not finite. */
-#ifdef __GNUC__
-__attribute__((noinline))
-#endif
-static lqg_status {name}_reset({name}_t *self, lqg_status status)
-{
-    {name}_init(self);
-    return status | LQG_STATE_RESET;
-}
-)", {{"name", controller.problem.name}});
 }
 
 }  // namespace
@@ -93,14 +103,23 @@ Bodies unrolled_bodies(const Controller& controller) {
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter")  /* as written: few values wait in registers */
 #endif
 )";
+  bodies.constants = table(controller, "LAW", controller.laws) + table(controller, "GAINS", controller.filters);
+  if (controller.has_state()) bodies.init = initial_state(controller);
+  const std::string advance = advance_counters(controller);
+  bodies.resets = controller.has_filter() || traced.control.finite >= 0;
   if (controller.has_filter()) {
-    bodies.init = initial_state(controller);
-    bodies.reset = reset(controller);
     bodies.update = body(controller, traced.update, {"self", "y"});
-    bodies.predict = controller.nu() ? body(controller, traced.predict, {"self", "u"})
-                                     : body(controller, traced.predict, {"self"});
+    bodies.predict = controller.nu() ? body(controller, traced.predict, {"self", "u"}, advance)
+                                     : body(controller, traced.predict, {"self"}, advance);
+    if (controller.has_regulator()) bodies.control = body(controller, traced.control, {"self"});
+  } else if (controller.has_state()) {
+    bodies.control = body(controller, traced.control, {"self", "x"}, advance);
+  } else {
+    bodies.control = body(controller, traced.control, {"x"});
   }
-  if (controller.has_regulator()) bodies.control = body(controller, traced.control, {controller.has_filter() ? "self" : "x"});
+  if (traced.set_input.graph)
+    bodies.set_input = controller.has_filter() ? body(controller, traced.set_input, {"self", "u"})
+                                               : body(controller, traced.set_input, {"self", "x", "u"});
   return bodies;
 }
 

@@ -63,52 +63,78 @@ std::vector<double> covariance(const step::Model<S>& model, const step::State<S>
   return out;
 }
 
+// The constants of each sample.
+template <class S>
+class Timeline {
+ public:
+  template <class Round>
+  Timeline(const Controller& controller, Round round) {
+    const std::size_t rows = std::max({std::size_t{1}, controller.laws.size(), controller.filters.size()});
+    for (std::size_t k = 0; k < std::min(rows, sample_count); ++k) models_.push_back(model_of<S>(controller, round, k));
+  }
+  const step::Model<S>& at(std::size_t sample) const { return models_[std::min(sample, models_.size() - 1)]; }
+
+ private:
+  std::vector<step::Model<S>> models_;
+};
+
 // Feeds recorded outputs and inputs to the step; what it answers goes to `hear`.
 template <class S, class Hear>
-void replay(const step::Model<S>& model, const std::vector<Sample>& inputs, Hear hear) {
-  step::State<S> state = step::initial_state(model);
+void replay(const Timeline<S>& models, const std::vector<Sample>& inputs, Hear hear) {
+  step::State<S> state = step::initial_state(models.at(0));
   step::Listener listener;
-  for (const Sample& input : inputs) {
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const step::Model<S>& model = models.at(k);
     Vector<S> u(0);
+    state.r = vector_of<S>(inputs[k].r);
     if (model.filter == step::Filter::none) {
-      state.x = vector_of<S>(input.y);
-      hear(state, step::control(model, state.x, listener));
+      state.x = vector_of<S>(inputs[k].y);
+      step::act(model, state, u, listener);
+      hear(state, u);
       continue;
     }
     const auto act = [&] {
-      if (!model.K.rows()) return;
-      u = step::control(model, state.x, listener);
-      if (model.D.cols()) state.u = u;
+      if (model.K.rows()) u = step::control(model, state, listener);
     };
     if (model.predictor_form) act();
-    step::update(model, state, vector_of<S>(input.y), listener);
+    step::update(model, state, vector_of<S>(inputs[k].y), listener);
     if (!model.predictor_form) act();
     hear(state, u);
-    step::predict(model, state, vector_of<S>(input.u), listener);
+    step::predict(model, state, vector_of<S>(inputs[k].u), listener);
   }
+}
+
+// References that jump from time to time.
+std::vector<double> references(const Controller& controller, std::size_t sample) {
+  constexpr std::size_t samples_between_jumps = 40;
+  Noise noise(seed + 2 + sample / samples_between_jumps);
+  std::vector<double> r;
+  for (int i = 0; i < controller.nr(); ++i) r.push_back(to_target(2 * noise.uniform(), controller.is_double()));
+  return r;
 }
 
 // The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
 template <class S>
-std::vector<Sample> simulate(const Controller& controller, const step::Model<S>& model) {
+std::vector<Sample> simulate(const Controller& controller, const Timeline<S>& models) {
   PlantSimulation plant(controller, seed);
   Noise excitation(seed + 1);
-  step::State<S> state = step::initial_state(model);
-  Vector<double> applied = Vector<double>::Zero(model.nu);
+  step::State<S> state = step::initial_state(models.at(0));
+  Vector<double> applied = Vector<double>::Zero(controller.nu());
   std::vector<Sample> samples;
   while (samples.size() < sample_count && plant.state().cwiseAbs().maxCoeff() < far_away) {
+    const step::Model<S>& model = models.at(samples.size());
+    step::Listener listener;
     Sample& sample = samples.emplace_back();
+    sample.r = references(controller, samples.size() - 1);
+    state.r = vector_of<S>(sample.r);
     const auto act = [&] {
       for (int i = 0; i < model.nu; ++i) applied(i) = excitation.uniform();
       if (!model.K.rows()) return;
-      step::Listener listener;
-      const Vector<S> u = step::control(model, state.x, listener);
-      if (model.D.cols()) state.u = u;
+      const Vector<S> u = step::control(model, state, listener);
       for (int i = 0; i < model.nu; ++i) applied(i) = as_double(u(i));
     };
     if (model.predictor_form) act();
     for (const double y : doubles(plant.measure(applied))) sample.y.push_back(to_target(y, controller.is_double()));
-    step::Listener listener;
     step::update(model, state, vector_of<S>(sample.y), listener);
     if (!model.predictor_form) act();
     for (int i = 0; i < model.nu; ++i) applied(i) = to_target(applied(i), controller.is_double());
@@ -120,12 +146,12 @@ std::vector<Sample> simulate(const Controller& controller, const step::Model<S>&
 }
 
 template <class S>
-void record_reference(const step::Model<S>& model, std::vector<Sample>& samples, std::vector<std::vector<double>>& u) {
+void record_reference(const Timeline<S>& models, std::vector<Sample>& samples, std::vector<std::vector<double>>& u) {
   std::size_t k = 0;
-  replay(model, std::vector<Sample>(samples), [&](const step::State<S>& state, const Vector<S>& control) {
+  replay(models, std::vector<Sample>(samples), [&](const step::State<S>& state, const Vector<S>& control) {
     samples[k].x = doubles(state.x);
-    samples[k].P = covariance(model, state);
-    if (model.filter == step::Filter::none) samples[k].u = doubles(control);
+    samples[k].P = covariance(models.at(k), state);
+    if (models.at(k).filter == step::Filter::none) samples[k].u = doubles(control);
     u.push_back(doubles(control));
     ++k;
   });
@@ -170,30 +196,39 @@ void finish(std::vector<double>& errors, const std::vector<double>& largest, boo
     errors[i] = Tolerances::margin * std::max(errors[i], unit * largest[i]);
 }
 
+// Every bit of a sample in the order of the emitted test.
+template <class S>
+void add_sample(bool has_filter, const step::State<S>& state, const Vector<S>& control, Hash& hash) {
+  const auto add_all = [&](const auto& values) {
+    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(values.size()); ++i)
+      hash.add(as_double(values[static_cast<std::size_t>(i)]));
+  };
+  if (has_filter) add_all(doubles(state.x));
+  add_all(state.P);
+  add_all(state.U);
+  add_all(state.D);
+  add_all(doubles(state.xi));
+  add_all(doubles(control));
+}
+
 // Runs the target's precision S beside the reference; fills in tolerances and the hash.
 template <class S>
 void compare(const Controller& controller, Vectors& vectors, const std::vector<std::vector<double>>& u) {
   const bool is_double = controller.is_double();
-  const auto model = model_of<S>(
-      controller, [&](const Real& value) { return S(rounded_to_target(value, is_double)); });
+  const Timeline<S> models(controller, [&](const Real& value) { return S(rounded_to_target(value, is_double)); });
   Hash hash(is_double);
   std::vector<double> largest_x, largest_u, largest_P;
   std::size_t k = 0;
-  replay(model, vectors.samples, [&](const step::State<S>& state, const Vector<S>& control) {
+  replay(models, vectors.samples, [&](const step::State<S>& state, const Vector<S>& control) {
     const Sample& reference = vectors.samples[k];
-    const std::vector<double> P = covariance(model, state);
+    const std::vector<double> P = covariance(models.at(k), state);
     widen(vectors.tolerance.x, doubles(state.x), reference.x);
     widen(vectors.tolerance.u, doubles(control), u[k]);
     widen(vectors.tolerance.P, P, reference.P);
     widen(largest_x, reference.x, std::vector<double>(reference.x.size(), 0));
     widen(largest_u, u[k], std::vector<double>(u[k].size(), 0));
     widen(largest_P, reference.P, std::vector<double>(reference.P.size(), 0));
-    if (model.filter != step::Filter::none)
-      for (const double value : doubles(state.x)) hash.add(value);
-    for (const S& value : state.P) hash.add(as_double(value));
-    for (const S& value : state.U) hash.add(as_double(value));
-    for (const S& value : state.D) hash.add(as_double(value));
-    for (const double value : doubles(control)) hash.add(value);
+    add_sample(controller.has_filter(), state, control, hash);
     ++k;
   });
   finish(vectors.tolerance.x, largest_x, is_double);
@@ -206,17 +241,20 @@ void compare(const Controller& controller, Vectors& vectors, const std::vector<s
 std::vector<Sample> random_states(const Controller& controller) {
   Noise noise(seed);
   std::vector<Sample> samples(sample_count);
-  for (Sample& sample : samples)
-    for (int i = 0; i < controller.nx(); ++i) sample.y.push_back(to_target(noise.normal(), controller.is_double()));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    samples[k].r = references(controller, k);
+    for (int i = 0; i < controller.nx(); ++i)
+      samples[k].y.push_back(to_target(noise.normal(), controller.is_double()));
+  }
   return samples;
 }
 
 template <class Reference, class Round>
 void fill_in(const Controller& controller, Round round, Vectors& vectors) {
-  const auto model = model_of<Reference>(controller, round);
-  vectors.samples = controller.has_filter() ? simulate(controller, model) : random_states(controller);
+  const Timeline<Reference> models(controller, round);
+  vectors.samples = controller.has_filter() ? simulate(controller, models) : random_states(controller);
   std::vector<std::vector<double>> u;
-  record_reference(model, vectors.samples, u);
+  record_reference(models, vectors.samples, u);
   if (controller.is_double()) {
     if (controller.is_fused()) compare<Fused<double>>(controller, vectors, u);
     else compare<double>(controller, vectors, u);

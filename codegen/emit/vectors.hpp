@@ -10,6 +10,7 @@ namespace lqg::emit {
 
 // What goes in and what comes out in one sample.
 struct Sample {
+  std::vector<double> r;  // in: the references
   std::vector<double> y;  // in: the outputs; of a regulator alone the states
   std::vector<double> u;  // in for predict (what was applied), and what control must return
   std::vector<double> x;  // the estimate after update
@@ -27,7 +28,7 @@ struct Tolerances {
 struct Vectors {
   std::vector<Sample> samples;
   Tolerances tolerance;
-  std::uint32_t hash = 0;  // FNV-1a over every bit of x, u and the covariance of the run in the target's precision
+  std::uint32_t hash = 0;  // FNV-1a over every bit of x, the covariance, ξ and u of the run in the target's precision
 };
 
 Vectors make_vectors(const Controller& controller);

@@ -4,13 +4,13 @@
 #include "step/kalman_plain.hpp"
 #include "step/kalman_steady.hpp"
 #include "step/kalman_ud.hpp"
-#include "step/lqr.hpp"
 
 namespace lqg::step {
 
 // x̂ ← x̂ + L(y − C x̂ − D u); the condition says that the state is finite.
 template <class S, class Listener>
 auto update(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
+  observe(model, state, y, listener);
   switch (model.filter) {
     case Filter::plain: return update_plain(model, state, y, listener);
     case Filter::ud: return update_ud(model, state, y, listener);
@@ -35,13 +35,11 @@ unsigned run_sample(const Model<S>& model, State<S>& state, const Vector<S>& y, 
   Listener listener;
   const auto reset_unless = [&](bool finite) {
     if (finite) return;
-    state = initial_state(model);
+    begin_anew(model, state);
     listener.raise(Event::state_reset, true);
   };
   const auto act = [&] {
-    if (!model.K.rows()) return;
-    u = control(model, state.x, listener);
-    if (model.D.cols()) state.u = u;
+    if (model.K.rows()) u = control(model, state, listener);
   };
   if (model.predictor_form) act();
   reset_unless(update(model, state, y, listener));

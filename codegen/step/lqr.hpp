@@ -5,30 +5,86 @@
 
 namespace lqg::step {
 
-// u = −K x, finite, within its limits.
+// r, 0 where it is not finite.
 template <class S, class Listener>
-Vector<S> control(const Model<S>& model, const Vector<S>& x, Listener& listener) {
-  listener.section(model.u_min.size() ? "u = −K x̂, within its limits" : "u = −K x̂");
+Vector<S> reference(const Model<S>& model, const State<S>& state, Listener& listener) {
+  if (model.nr) listener.section("the references r, 0 for one that is not finite");
+  Vector<S> r(model.nr);
+  for (int j = 0; j < model.nr; ++j) {
+    auto finite = is_finite(S(state.r(j)));
+    listener.raise(Event::reference_not_finite, negation(finite));
+    r(j) = select(finite, S(state.r(j)), S(0));
+    listener.name(r(j), "wanted", j);
+  }
+  return r;
+}
+
+// −K [x̂; ξ; u[k−1]] + Nbar r, on top of u[k−1] where the law gives its change.
+template <class S>
+S law(const Model<S>& model, const State<S>& state, const Vector<S>& r, int i) {
+  const int nxi = static_cast<int>(model.integral.size());
+  S sum = model.gives_change ? S(state.u(i)) : S(0);
+  for (int j = 0; j < model.nx; ++j) sum = multiply_subtract(S(model.K(i, j)), S(state.x(j)), sum);
+  for (int j = 0; j < nxi; ++j) sum = multiply_subtract(S(model.K(i, model.nx + j)), S(state.xi(j)), sum);
+  for (int j = 0; j < model.nu && model.gives_change; ++j)
+    sum = multiply_subtract(S(model.K(i, model.nx + nxi + j)), S(state.u(j)), sum);
+  for (int j = 0; j < model.Nbar.cols(); ++j) sum = multiply_add(S(model.Nbar(i, j)), S(r(j)), sum);
+  return sum;
+}
+
+// The nearest number to `value` within [low, high].
+template <class S, class Listener>
+S within(const S& low, const S& value, const S& high, Listener& listener) {
+  auto is_low = is_less(value, low);
+  auto is_high = is_less(high, value);
+  listener.raise(Event::input_limited, either(is_low, is_high));
+  return select(is_low, low, select(is_high, high, value));
+}
+
+template <class S>
+std::string equation_of_law(const Model<S>& model) {
+  return std::string(model.gives_change ? "u = u[k−1] − K [x̂" : model.integral.empty() ? "u = −K x̂" : "u = −K [x̂") +
+         (model.integral.empty() ? "" : "; ξ") + (model.gives_change ? "; u[k−1]" : "") +
+         (model.gives_change || !model.integral.empty() ? "]" : "") + (model.Nbar.cols() ? " + Nbar r" : "") +
+         (model.u_min.size() || model.u_step.size() ? ", within its limits" : "");
+}
+
+// u by the law, finite, within its limits: no further from the last one than u_step, and above all in [u_min, u_max].
+template <class S, class Listener>
+Vector<S> control(const Model<S>& model, State<S>& state, Listener& listener) {
+  const Vector<S> r = reference(model, state, listener);
+  listener.section(equation_of_law(model));
   Vector<S> u(model.nu);
   for (int i = 0; i < model.nu; ++i) {
-    S sum = S(0);
-    for (int j = 0; j < model.nx; ++j) sum = multiply_subtract(S(model.K(i, j)), S(x(j)), sum);
+    S sum = law(model, state, r, i);
     listener.name(sum, "law", i);
     auto finite = is_finite(sum);
     listener.name(finite, "finite", i);
     listener.raise(Event::input_limited, negation(finite));
     S value = select(finite, sum, S(0));
     listener.name(value, "demand", i);
+    if (state.demand.size()) state.demand(i) = value;
+    if (model.u_step.size()) {
+      const S last = state.u(i);
+      value = within(S(last - model.u_step(i)), value, S(last + model.u_step(i)), listener);
+      listener.name(value, "reached", i);
+    }
     if (model.u_min.size()) {
-      auto low = is_less(value, S(model.u_min(i)));
-      auto high = is_less(S(model.u_max(i)), value);
-      listener.raise(Event::input_limited, either(low, high));
-      value = select(low, S(model.u_min(i)), select(high, S(model.u_max(i)), value));
+      value = within(S(model.u_min(i)), value, S(model.u_max(i)), listener);
       listener.name(value, "limited", i);
     }
     u(i) = value;
   }
+  if (has_feedthrough(model)) state.u = u;
   return u;
+}
+
+// A law without a memory.
+template <class S, class Listener>
+Vector<S> control(const Model<S>& model, const Vector<S>& x, Listener& listener) {
+  State<S> state;
+  state.x = x;
+  return control(model, state, listener);
 }
 
 }  // namespace lqg::step

@@ -34,17 +34,43 @@ struct Model {
   Vector<S> x0;                // nx
   std::vector<S> P0;           // plain: lower triangle, row by row
   std::vector<S> U0, D0;       // ud: strict upper triangle, column by column; diagonal
-  Matrix<S> K;                 // nu × nx
+  int delayed = 0;             // the last of the nx states are this many inputs on their way, the oldest first
+  Matrix<S> K;                 // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
   Vector<S> u_min, u_max;      // nu, or empty: no limits
+  // A law with a memory.
+  int nr = 0;                  // references
+  Matrix<S> Nbar;              // nu × nr, or no columns
+  bool gives_change = false;   // −K z + Nbar r is u[k] − u[k−1]
+  Vector<S> u_step;            // nu: largest |u[k] − u[k−1]|, or empty
+  std::vector<int> integral;   // the output that each ξ integrates,
+  std::vector<int> wanted;     // and which r it has to follow
+  Matrix<S> H;                 // nxi × nu: ξ + H (u − v) makes the law give u, or nearly, where it gave v
+  S T = S(0);                  // s, the sample time, of ξ⁺ = ξ + T (r − y)
 };
+
+// D u needs the last input in every update.
+template <class S>
+bool has_feedthrough(const Model<S>& model) {
+  return model.filter != Filter::none && model.D.cols() > 0;
+}
+
+// The law begins with the last input.
+template <class S>
+bool continues(const Model<S>& model) {
+  return model.gives_change || model.u_step.size() > 0;
+}
 
 template <class S>
 struct State {
   Vector<S> x;               // nx
   std::vector<S> P;          // plain
   std::vector<S> U, D;       // ud
-  Vector<S> u;               // nu: the input that acts; kept when D ≠ 0
+  Vector<S> u;               // nu: the input that acts; kept when D ≠ 0, and where the law begins with it
   Vector<S> innovation;      // ny: what predict still needs of the last outputs; kept when M ≠ 0
+  Vector<S> r;               // nr: what the outputs should be
+  Vector<S> xi;              // nxi: ξ, the integral of r − y
+  Vector<S> error;           // nxi: r − y of this sample, which predict adds to ξ
+  Vector<S> demand;          // nu: what the law asked for; kept where there is a ξ to correct
 };
 
 // Lower triangle row by row: P(i, j) = P(j, i).
@@ -60,12 +86,25 @@ State<S> initial_state(const Model<S>& model) {
   state.P = model.P0;
   state.U = model.U0;
   state.D = model.D0;
-  state.u = Vector<S>::Constant(model.D.cols(), S(0));
-  state.innovation = Vector<S>::Constant(model.M.cols(), S(0));
+  const auto zeros = [](Eigen::Index size) { return Vector<S>(Vector<S>::Constant(size, S(0))); };
+  const auto nxi = static_cast<Eigen::Index>(model.integral.size());
+  state.u = zeros(has_feedthrough(model) || continues(model) ? model.nu : 0);
+  state.innovation = zeros(model.M.cols());
+  state.r = zeros(model.nr);
+  state.xi = state.error = zeros(nxi);
+  state.demand = zeros(nxi ? model.nu : 0);
   return state;
 }
 
-enum class Event { output_not_finite, innovation_not_positive, input_limited, state_reset };
+// After a fault: as at the start, but for what is asked of the loop.
+template <class S>
+void begin_anew(const Model<S>& model, State<S>& state) {
+  const Vector<S> r = state.r;
+  state = initial_state(model);
+  state.r = r;
+}
+
+enum class Event { output_not_finite, innovation_not_positive, input_limited, state_reset, reference_not_finite };
 
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {

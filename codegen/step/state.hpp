@@ -1,21 +1,9 @@
-// The parts that every filter shares: innovation, prediction of the state, the check that all is finite.
+// The parts that every filter shares: innovation and prediction of the state.
 #pragma once
 
-#include "step/model.hpp"
+#include "step/servo.hpp"
 
 namespace lqg::step {
-
-// The sum of all parts of a state is finite if and only if each is, short of an overflow that no honest state comes near.
-// Each part is added as it is found, and each sum has a name, so that none has to wait for the last.
-template <class S>
-struct Total {
-  S sum = S(0);
-  template <class Listener>
-  void add(const S& part, Listener& listener) {
-    sum = sum + part;
-    listener.name(sum, "sum");
-  }
-};
 
 // y_i − C_i x − D_i u
 template <class S>
@@ -26,7 +14,7 @@ S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {
   return nu;
 }
 
-// x ← A x + B u + M innovation;  innovation ← 0
+// x ← A x + B u + M innovation;  innovation ← 0; what the regulator has to remember of u and of this sample
 template <class S, class Listener>
 void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<S>& total, Listener& listener) {
   listener.section(model.M.cols() ? "x̂ ← A x̂ + B u + M (what the outputs told of w)"
@@ -43,8 +31,8 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, T
     total.add(sum, listener);
   }
   state.x = next;
-  if (model.D.cols()) state.u = u;
   for (int j = 0; j < model.M.cols(); ++j) state.innovation(j) = S(0);
+  remember(model, state, u, total, listener);
 }
 
 }  // namespace lqg::step

@@ -31,6 +31,7 @@
 #include "lqg/kalman.h"
 #include "lqg/lqr.h"
 #include "lqg/rls.h"
+#include "lqg/servo.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 

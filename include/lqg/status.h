@@ -16,6 +16,7 @@ typedef unsigned lqg_status;
 #define LQG_INNOVATION_NOT_POSITIVE 4u  /* C P Cᵀ + V of an output was not positive: it was left out */
 #define LQG_INPUT_LIMITED 8u            /* an input was at its limit, or not finite and set to 0 */
 #define LQG_STATE_RESET 16u             /* the state was not finite: it begins anew, as after init */
+#define LQG_REFERENCE_NOT_FINITE 32u    /* a reference was NaN or infinite: it counted as 0 */
 
 /* The gravest of the bits as a sentence in English, without full stop or line end; a constant string. */
 const char *lqg_status_text(lqg_status status);

@@ -1,0 +1,15 @@
+#include "emit/bodies.hpp"
+
+namespace lqg::emit {
+
+std::string advance_counters(const Controller& controller) {
+  const auto advance = [](const std::string& counter, std::size_t last) {
+    return "    if (self->" + counter + " < " + std::to_string(last) + ")\n        self->" + counter + "++;\n";
+  };
+  std::string out;
+  if (controller.keeps_sample()) out += advance("sample", controller.laws.size() - 1);
+  if (controller.keeps_gain_row()) out += advance("gain_row", controller.filters.size() - 1);
+  return out;
+}
+
+}  // namespace lqg::emit

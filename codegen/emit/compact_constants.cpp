@@ -1,0 +1,179 @@
+#include "emit/compact_constants.hpp"
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "emit/model_of.hpp"
+#include "emit/rounding.hpp"
+#include "emit/text.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using design::Real;
+using design::RealMatrix;
+
+// One row: the lower triangle, row by row.
+RealMatrix lower_triangle(const RealMatrix& matrix) {
+  const int n = static_cast<int>(matrix.rows());
+  RealMatrix row(1, n * (n + 1) / 2);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) row(0, step::triangle(i, j)) = matrix(i, j);
+  return row;
+}
+
+// One row: the strict upper triangle, column by column.
+RealMatrix strict_upper_triangle(const RealMatrix& matrix) {
+  const int n = static_cast<int>(matrix.rows());
+  RealMatrix row(1, n * (n - 1) / 2);
+  for (int j = 1; j < n; ++j)
+    for (int k = 0; k < j; ++k) row(0, step::strict_triangle(k, j)) = matrix(k, j);
+  return row;
+}
+
+RealMatrix as_row(const design::RealVector& vector) { return vector.transpose(); }
+
+// What the library compares u with; nothing finite lies beyond the largest number.
+RealMatrix limits_row(const Eigen::VectorXd& limits, int inward, bool is_double) {
+  const double largest = is_double ? std::numeric_limits<double>::max() : std::numeric_limits<float>::max();
+  RealMatrix row(1, limits.size());
+  for (int i = 0; i < limits.size(); ++i)
+    row(0, i) = std::isinf(limits(i)) ? std::copysign(largest, limits(i))
+                                      : limit_of_target(limits(i), inward, is_double);
+  return row;
+}
+
+// Fields of an initializer, in the order in which they were defined (a braced list is evaluated from left to right).
+std::string fields(std::initializer_list<std::string> values) {
+  std::string out;
+  for (const std::string& value : values) out += (out.empty() ? "" : ", ") + value;
+  return out;
+}
+
+std::string plant_fields(const Controller& controller, const RealMatrix& C, const RealMatrix& D, Tables& tables) {
+  const std::string NAME = upper(controller.problem.name);
+  return "    {" + fields({NAME + "_NX", std::to_string(controller.nu()), NAME + "_NY",
+                           tables.add("A", controller.solution.plant.A), tables.add("B", controller.solution.plant.B),
+                           tables.add("C", C), tables.add_unless_zero("D", D)}) +
+         "},  /* nx, nu, ny, A, B, C, D */\n";
+}
+
+std::string initial_state(const Controller& controller, Tables& tables) {
+  const Eigen::VectorXd x0 = controller.x0();
+  RealMatrix row(1, x0.size());
+  for (int i = 0; i < x0.size(); ++i) row(0, i) = x0(i);
+  return tables.add_unless_zero("X0", row);
+}
+
+// The same matrix of all rows of gains, one under the other; the description points to the first.
+RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
+  const RealMatrix& first = rows.front()[matrix];
+  RealMatrix all(first.rows() * static_cast<Eigen::Index>(rows.size()), first.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    all.middleRows(static_cast<Eigen::Index>(k) * first.rows(), first.rows()) = rows[k][matrix];
+  return all;
+}
+
+std::string steady_fields(const Controller& controller, Tables& tables) {
+  const design::SampledPlant& plant = controller.solution.plant;
+  std::string out = plant_fields(controller, plant.C, plant.D, tables);
+  return out + "    " + fields({tables.add("L", stacked(controller.filters, 0)),
+                                controller.keeps_innovation() ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
+                                initial_state(controller, tables)}) + "  /* L, M, x0 */\n";
+}
+
+std::string online_fields(const Controller& controller, Tables& tables) {
+  const design::OnlineSolution& online = *controller.solution.online;
+  const bool has_M = !is_zero(online.M);
+  std::string out = plant_fields(controller, online.C, online.D, tables);
+  out += "    " + fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
+         ",  /* E, V */\n";
+  const auto add_rest = [&] {
+    out += "    " + fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
+           ",  /* M, A_free */\n";
+  };
+  if (controller.filter() == step::Filter::plain) {
+    out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
+    add_rest();
+    return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(online.P0))}) +
+           "  /* x0, P0 */\n";
+  }
+  out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
+         ",  /* nq, G, w */\n";
+  add_rest();
+  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(online.U0)),
+                                tables.add("D0", as_row(online.D0))}) + "  /* x0, U0, d0 */\n";
+}
+
+// The limits of the file; nothing is defined for those that no input has.
+std::pair<std::string, std::string> limits_fields(const Controller& controller, Tables& tables) {
+  const auto& limits = controller.problem.limits;
+  if (!limits || limits->u_min.size() == 0) return {"NULL", "NULL"};
+  const std::string low = tables.add("U_MIN", limits_row(limits->u_min, +1, controller.is_double()));
+  return {low, tables.add("U_MAX", limits_row(limits->u_max, -1, controller.is_double()))};
+}
+
+// Defines an array of indices; "NULL" when there is nothing in it.
+std::string index_array(const std::string& name, const std::vector<int>& values, std::string& text) {
+  if (values.empty()) return "NULL";
+  text += "static const unsigned " + name + "[" + std::to_string(values.size()) + "] = {";
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i ? ", " : "") + std::to_string(values[i]);
+  text += "};\n";
+  return name;
+}
+
+}  // namespace
+
+Tables::Tables(const Controller& controller, const char* owner)
+    : controller_(controller), name_(upper(controller.problem.name) + "_" + owner) {}
+
+std::string Tables::add(const std::string& suffix, const RealMatrix& matrix) {
+  if (matrix.size() == 0) return "NULL";
+  text += "static const lqg_real " + name_ + "_" + suffix + "[" + std::to_string(matrix.size()) + "] = {\n" +
+          array_values(matrix, controller_.is_double()) + "};\n";
+  return name_ + "_" + suffix;
+}
+
+std::string Tables::add_unless_zero(const std::string& suffix, const RealMatrix& matrix) {
+  return is_zero(matrix) ? "NULL" : add(suffix, matrix);
+}
+
+std::string kalman_constants(const Controller& controller) {
+  Tables tables(controller, "KALMAN");
+  const std::string values =
+      controller.solution.online ? online_fields(controller, tables) : steady_fields(controller, tables);
+  return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", common_words(controller)) +
+         values + "};\n";
+}
+
+std::string lqr_constants(const Controller& controller) {
+  Tables tables(controller, "LQR");
+  const std::string NAME = upper(controller.problem.name), K = tables.add("K", stacked(controller.laws, 0));
+  const auto [u_min, u_max] = limits_fields(controller, tables);
+  return tables.text + "static const lqg_lqr_t " + NAME + "_LQR = {\n    " +
+         fields({NAME + "_NX", NAME + "_NU", K, u_min, u_max}) + "  /* nx, nu, K, u_min, u_max */\n};\n";
+}
+
+std::string servo_constants(const Controller& controller) {
+  Tables tables(controller, "SERVO");
+  const bool is_double = controller.is_double();
+  const std::string NAME = upper(controller.problem.name), SERVO = NAME + "_SERVO";
+  const std::string K = tables.add("K", stacked(controller.laws, 0)), Nbar = tables.add("NBAR", stacked(controller.laws, 1));
+  const std::string H = tables.add("H", stacked(controller.laws, 2));
+  const auto model = model_of<double>(controller, [](const Real& value) { return design::to_double(value); });
+  const std::string output = index_array(SERVO + "_OUTPUT", model.integral, tables.text);
+  const std::string wanted = index_array(SERVO + "_REFERENCE", model.wanted, tables.text);
+  const auto [u_min, u_max] = limits_fields(controller, tables);
+  const std::string u_step =
+      controller.has_rate_limit() ? tables.add("U_STEP", limits_row(rate_steps(controller), -1, is_double)) : "NULL";
+  return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
+         fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.nr()), std::to_string(controller.nxi()),
+                 controller.gives_change() ? "1" : "0", NAME + "_SAMPLE_TIME"}) +
+         ",  /* nx, nu, nr, nxi, gives_change, T */\n    " + fields({K, Nbar, H, output, wanted}) +
+         ",  /* K, Nbar, H, output, reference */\n    " + fields({u_min, u_max, u_step}) +
+         "  /* u_min, u_max, u_step */\n};\n";
+}
+
+}  // namespace lqg::emit

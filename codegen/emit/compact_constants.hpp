@@ -1,0 +1,30 @@
+// What the library's loops find in flash.
+#pragma once
+
+#include <string>
+
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+// The constants of a filter or a regulator, array after array.
+class Tables {
+ public:
+  Tables(const Controller& controller, const char* owner);
+
+  // Defines NAME_<owner>_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it.
+  std::string add(const std::string& suffix, const design::RealMatrix& matrix);
+  std::string add_unless_zero(const std::string& suffix, const design::RealMatrix& matrix);
+
+  std::string text;
+
+ private:
+  const Controller& controller_;
+  std::string name_;
+};
+
+std::string kalman_constants(const Controller& controller);
+std::string lqr_constants(const Controller& controller);
+std::string servo_constants(const Controller& controller);
+
+}  // namespace lqg::emit

@@ -1,0 +1,239 @@
+#include "emit/functions.hpp"
+
+#include "emit/text.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+std::string init_function(const Controller& controller, const Bodies& bodies) {
+  Words words = common_words(controller);
+  words["begin"] = !controller.has_filter()                          ? "As at the start"
+                   : controller.filter() == step::Filter::steady ? "x̂ = x0"
+                                                                 : "x̂ = x0, its covariance P0";
+  if (controller.nxi()) words["begin"] += ", ξ = 0";
+  if (controller.nr()) words["begin"] += ", r = 0";
+  words["body"] = bodies.init;
+  return fill(R"(
+/* {begin}; nothing applied yet. */
+static inline void {name}_init({name}_t *self)
+{
+{body}}
+)", words);
+}
+
+std::string update_function(const Controller& controller, const Bodies& bodies) {
+  Words words = common_words(controller);
+  words["law"] = controller.has_feedthrough() ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)";
+  words["covariance"] = controller.filter() == step::Filter::steady ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P";
+  words["left_out"] = controller.filter() == step::Filter::steady
+                          ? "An output that is not finite is taken as having come as expected."
+                          : "An output that is not finite is left out of this sample.";
+  words["not_positive"] = controller.filter() == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : "";
+  words["body"] = bodies.update;
+  return fill(R"(
+/* {law}{covariance}
+ *
+ * y  in: the outputs, in their units. {left_out}
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE,{not_positive} LQG_STATE_RESET. */
+static inline lqg_status {name}_update({name}_t *self, const {real} y[{NAME}_NY])
+{
+{body}}
+)", words);
+}
+
+std::string predict_function(const Controller& controller, const Bodies& bodies) {
+  Words words = common_words(controller);
+  words["input"] = controller.nu() ? " + B u" : "";
+  words["covariance"] = controller.filter() == step::Filter::steady ? "" : ",  P ← A P Aᵀ + G W Gᵀ";
+  words["parameter"] = controller.nu() ? fill(", const {real} u[{NAME}_NU]", words) : "";
+  words["integral"] = controller.nxi() ? ",  ξ ← ξ + H (u − what control asked for) + T (r − y)" : "";
+  words["u"] = controller.nu() ? " *\n * u  in: what was applied, in its units; not what was asked for, where the two differ\n" : "";
+  words["body"] = bodies.predict;
+  return fill(R"(
+/* x̂ ← A x̂{input}{covariance}{integral}: from this sample to the next.
+{u} *
+ * Status: LQG_STATE_RESET. */
+static inline lqg_status {name}_predict({name}_t *self{parameter})
+{
+{body}}
+)", words);
+}
+
+std::string control_contract(const Controller& controller) {
+  Words words = common_words(controller);
+  words["law"] = equation_of_law(controller);
+  words["in"] = controller.has_filter() ? "" : " * x  in: the state, in its units{on_their_way}\n";
+  words["on_their_way"] = controller.delayed() ? "; behind it the inputs on their way, the oldest first" : "";
+  words["in"] = fill(words["in"], words);
+  words["limits"] = controller.problem.limits ? " and within the limits" : "";
+  words["reference"] = controller.nr() ? "LQG_REFERENCE_NOT_FINITE (such an r counts as 0), " : "";
+  words["reset"] = controller.has_filter() || !controller.has_servo() ? "" : ", LQG_STATE_RESET";
+  words["more"] = controller.has_filter() || !controller.has_state() ? "" :
+      " * Once a sample: it remembers what the next one needs, for an actuator that applies u as it is.\n *\n";
+  return fill(R"(/* u = {law}, within its limits
+ *
+{more}{in} * u  out: the inputs, in their units: finite{limits}, whatever came in
+ *
+ * Status: {reference}LQG_INPUT_LIMITED{reset}. */
+)", words);
+}
+
+std::string control_function(const Controller& controller, const Bodies& bodies) {
+  const bool writes = !controller.has_filter() || controller.control_changes_state();
+  std::string parameters = !controller.has_state() ? "" : writes ? "{name}_t *self, " : "const {name}_t *self, ";
+  if (!controller.has_filter()) parameters += "const {real} x[{NAME}_NX], ";
+  return "\n" + control_contract(controller) +
+         fill("static inline lqg_status {name}_control(" + parameters + "{real} u[{NAME}_NU])\n{\n", common_words(controller)) +
+         bodies.control + "}\n";
+}
+
+std::string step_function(const Controller& controller) {
+  Words words = common_words(controller);
+  const bool acts = controller.has_regulator();
+  const std::string control = "{name}_control(self, u)", update = "{name}_update(self, y)";
+  const std::string predict = controller.nu() ? "{name}_predict(self, u)" : "{name}_predict(self)";
+  const std::vector<std::string> calls = !acts                       ? std::vector<std::string>{update, predict}
+                                         : controller.is_predictor() ? std::vector<std::string>{control, update, predict}
+                                                                     : std::vector<std::string>{update, control, predict};
+  std::string body = "    lqg_status status = " + calls.front() + ";\n\n";
+  for (std::size_t i = 1; i < calls.size(); ++i) body += "    status |= " + calls[i] + ";\n";
+  words["body"] = fill(body, words);
+  words["parameter"] = controller.nu() ? fill(acts ? ", {real} u[{NAME}_NU]" : ", const {real} u[{NAME}_NU]", words) : "";
+  words["order"] = !acts ? "update and predict" : controller.is_predictor() ? "control, update and predict"
+                                                                            : "update, control and predict";
+  words["when"] = acts ? ", for an actuator that applies u as it is" : "";
+  return fill(R"(
+/* One sample: {order}{when}. */
+static inline lqg_status {name}_step({name}_t *self, const {real} y[{NAME}_NY]{parameter})
+{
+{body}    return status;
+}
+)", words);
+}
+
+std::string covariance_function(const Controller& controller) {
+  if (controller.filter() != step::Filter::ud) return "";
+  Words words = common_words(controller);
+  words["triangle"] = std::to_string(controller.nx() * (controller.nx() + 1) / 2);
+  words["product"] = controller.nx() > 1 ? R"(            {real} sum = i == j ? self->d[i] : self->U[i * (i - 1) / 2 + j] * self->d[i];
+            for (int k = i + 1; k < {NAME}_NX; k++) {
+                const {real} weighted = self->U[k * (k - 1) / 2 + j] * self->d[k];
+                const {real} term = weighted * self->U[k * (k - 1) / 2 + i];
+                sum = sum + term;
+            }
+            P[i * (i + 1) / 2 + j] = sum;
+)" : "            P[i + j] = self->d[i];\n";
+  words["product"] = fill(words["product"], words);
+  return fill(R"(
+/* P = U diag(d) Uᵀ, the covariance of the estimate's error: lower triangle, row by row. */
+static inline void {name}_covariance(const {name}_t *self, {real} P[{triangle}])
+{
+    LQG_STRICT_BODY
+    for (int i = 0; i < {NAME}_NX; i++) {
+        for (int j = 0; j <= i; j++) {
+{product}        }
+    }
+}
+)", words);
+}
+
+// Outside of the functions that call it, where it would cost every sample registers.
+std::string reset_function(const Controller& controller) {
+  Words words = common_words(controller);
+  std::string keep, restore;
+  if (controller.nr()) {
+    keep += "    {real} r[{NAME}_NR];\n";
+    restore += "    for (int i = 0; i < {NAME}_NR; i++)\n        self->r[i] = r[i];\n";
+  }
+  if (controller.keeps_sample()) {
+    keep += "    const unsigned sample = self->sample;\n";
+    restore += "    self->sample = sample;\n";
+  }
+  if (controller.nr()) keep += "\n    for (int i = 0; i < {NAME}_NR; i++)\n        r[i] = self->r[i];\n";
+  else if (!keep.empty()) keep += "\n";
+  words["keep"] = fill(keep, words);
+  words["restore"] = fill(restore, words);
+  words["but"] = keep.empty() ? "" : controller.nr() && controller.keeps_sample() ? ", but for r and the time"
+                                 : controller.nr()                              ? ", but for r"
+                                                                                : ", but for the time";
+  return fill(R"(
+/* Begins anew{but}: the state was not finite. */
+#ifdef __GNUC__
+__attribute__((noinline))
+#endif
+static lqg_status {name}_reset({name}_t *self, lqg_status status)
+{
+{keep}    {name}_init(self);
+{restore}    return status | LQG_STATE_RESET;
+}
+)", words);
+}
+
+std::string set_state_function(const Controller& controller, const Bodies& bodies) {
+  Words words = common_words(controller);
+  words["covariance"] = controller.filter() == step::Filter::steady ? "" : "; its covariance stays";
+  words["then"] = fill(controller.can_set_input() ? " {name}_set_input may follow." : "", words);
+  words["forget"] = fill(controller.keeps_innovation() ? "    for (int i = 0; i < {NAME}_NY; i++)\n        self->innovation[i] = 0;\n" : "", words);
+  words["reset"] = fill(bodies.resets ? "    return {name}_reset(self, LQG_OK);\n"
+                                      : "    {name}_init(self);\n    return LQG_STATE_RESET;\n", words);
+  return fill(R"(
+/* x̂ ← x, by hand{covariance}.{then}
+ *
+ * x  in: the state, in its units
+ *
+ * Status: LQG_STATE_RESET, when x is not finite. */
+static inline lqg_status {name}_set_state({name}_t *self, const {real} x[{NAME}_NX])
+{
+    LQG_STRICT_BODY
+    {real} sum = 0;
+
+    for (int i = 0; i < {NAME}_NX; i++) {
+        sum += x[i];
+        self->x[i] = x[i];
+    }
+{forget}    if (sum - sum == 0)
+        return LQG_OK;
+{reset}}
+)", words);
+}
+
+std::string set_input_function(const Controller& controller, const Bodies& bodies) {
+  Words words = common_words(controller);
+  words["follow"] = std::string(controller.delayed() ? ", and so are those on their way" : "") +
+                    (controller.nxi() ? ".\n * ξ becomes such that control goes on there" : "");
+  words["when"] = controller.nxi() && controller.has_filter() ? ": to be called before control" : "";
+  words["parameters"] = fill(controller.has_filter() ? "{name}_t *self, const {real} u[{NAME}_NU]"
+                                                     : "{name}_t *self, const {real} x[{NAME}_NX], const {real} u[{NAME}_NU]", words);
+  words["x"] = controller.has_filter() ? "" : " * x  in: the state, in its units\n";
+  words["reference"] = controller.nxi() ? "LQG_REFERENCE_NOT_FINITE, " : "";
+  words["body"] = bodies.set_input;
+  return fill(R"(
+/* The input was u, set by hand{follow}{when}.
+ *
+{x} * u  in: what was applied, in its units
+ *
+ * Status: {reference}LQG_STATE_RESET, when that is not finite. */
+static inline lqg_status {name}_set_input({parameters})
+{
+{body}}
+)", words);
+}
+
+}  // namespace
+
+std::string functions(const Controller& controller, const Bodies& bodies) {
+  std::string out;
+  if (controller.has_state()) out += init_function(controller, bodies);
+  if (bodies.resets) out += reset_function(controller);
+  if (controller.has_filter()) out += update_function(controller, bodies);
+  if (controller.has_regulator()) out += control_function(controller, bodies);
+  if (controller.has_filter())
+    out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
+           set_state_function(controller, bodies);
+  if (controller.can_set_input()) out += set_input_function(controller, bodies);
+  return out;
+}
+
+}  // namespace lqg::emit

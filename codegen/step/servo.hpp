@@ -1,0 +1,95 @@
+// The memory of a control law: integrals of r − y, kept true to the input that was applied.
+#pragma once
+
+#include "step/lqr.hpp"
+#include "step/total.hpp"
+
+namespace lqg::step {
+
+// r − y of the integrated outputs, for predict; 0, which leaves its ξ alone, where it is not finite.
+template <class S, class Listener>
+void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
+  for (std::size_t i = 0; i < model.integral.size(); ++i) {
+    const int output = model.integral[i];
+    listener.section("r − y, which predict adds to ξ; 0 if it is not finite", output);
+    S error = state.r(model.wanted[i]) - y(output);
+    listener.name(error, "error");
+    error = select(is_finite(error), error, S(0));
+    listener.name(error, "kept_error");
+    state.error(static_cast<Eigen::Index>(i)) = error;
+  }
+}
+
+// ξ + H (u − v): the law that gave v with ξ gives u with this one, or as nearly as it can.
+template <class S>
+S conditioned(const Model<S>& model, const State<S>& state, const Vector<S>& u, const Vector<S>& v, int i) {
+  S sum = state.xi(i);
+  for (int j = 0; j < model.nu; ++j) sum = multiply_add(S(model.H(i, j)), S(u(j) - v(j)), sum);
+  return sum;
+}
+
+// ξ ← ξ + H (u − what the law asked for) + T (r − y) with the u that was applied; that u is kept where it is needed.
+template <class S, class Listener>
+void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<S>& total, Listener& listener) {
+  if (!model.integral.empty()) listener.section("ξ ← ξ + H (u − what the law asked for) + T (r − y)");
+  const int nxi = static_cast<int>(model.integral.size());
+  for (int i = 0; i < nxi; ++i) {
+    state.xi(i) = multiply_add(model.T, S(state.error(i)), conditioned(model, state, u, state.demand, i));
+    listener.name(state.xi(i), "xi", i);
+    total.add(state.xi(i), listener);
+    state.error(i) = S(0);
+  }
+  if (nxi) state.demand = u;
+  if (state.u.size()) state.u = u;
+  for (int i = 0; i < model.nu && continues(model); ++i) total.add(S(u(i)), listener);
+}
+
+// A regulator alone: u of the state x that is given, and what it has to remember, for an actuator that applies u.
+// The condition says that the memory is finite.
+template <class S, class Listener>
+auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listener) {
+  u = control(model, state, listener);
+  Vector<S> y(model.integral.empty() ? 0 : model.C.rows());
+  listener.section(model.D.cols() ? "y = C x + D u of the integrated outputs" : "y = C x of the integrated outputs");
+  for (const int i : model.integral) {
+    S sum = S(0);
+    for (int j = 0; j < model.nx; ++j) sum = multiply_add(S(model.C(i, j)), S(state.x(j)), sum);
+    for (int j = 0; j < model.D.cols(); ++j) sum = multiply_add(S(model.D(i, j)), S(u(j)), sum);
+    y(i) = sum;
+    listener.name(y(i), "y", i);
+  }
+  observe(model, state, y, listener);
+  Total<S> total;
+  remember(model, state, u, total, listener);
+  return is_finite(total.sum);
+}
+
+// The input was set to u by hand: it is the last one and those on their way, and ξ becomes such that the law continues
+// there. The condition says that all of this is finite.
+template <class S, class Listener>
+auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
+  const int nxi = static_cast<int>(model.integral.size());
+  Total<S> total;
+  for (int i = 0; i < model.nu; ++i) total.add(S(u(i)), listener);
+  for (int i = 0; i < model.delayed; ++i) state.x(model.nx - model.delayed + i) = u(i % model.nu);
+  if (state.u.size()) state.u = u;
+  if (nxi) {
+    const Vector<S> r = reference(model, state, listener);
+    listener.section("ξ ← ξ + H (u − what the law asks for): it asks for u next");
+    Vector<S> v(model.nu), xi(nxi);
+    for (int i = 0; i < model.nu; ++i) {
+      v(i) = law(model, state, r, i);
+      listener.name(v(i), "law", i);
+    }
+    for (int i = 0; i < nxi; ++i) {
+      xi(i) = conditioned(model, state, u, v, i);
+      listener.name(xi(i), "xi", i);
+      total.add(S(xi(i)), listener);
+    }
+    state.xi = xi;
+    state.demand = u;
+  }
+  return is_finite(total.sum);
+}
+
+}  // namespace lqg::step

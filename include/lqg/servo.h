@@ -1,0 +1,101 @@
+/* TinyLQG: the control law with a memory. Conventions: lqg/lqg.h. Derivations: src/README.md.
+ *
+ *     v = −K z + Nbar r,          z = [x̂; ξ],              u = v within its limits
+ *     v = u[k−1] − K z + Nbar r,  z = [x̂; ξ; u[k−1]]       where changes of u are weighed
+ *     ξ⁺ = ξ + T (r − y)          of the outputs that are integrated
+ *
+ * When something else than v was applied, ξ is corrected so that the law would have asked for what was applied, or
+ * nearly: ξ does not wind up, whatever held u back, and a loop that was led by hand goes on where the hand was.
+ *
+ * Each sample: `observe` with the outputs, `control`, `advance` with the input that was applied; beside a filter that
+ * is update, control, predict. The state of the law is a few arrays of the caller, the same in every call:
+ *
+ *   r[nr]          what the outputs should be, written by the caller at any time; 0 at the start
+ *   xi[nxi]        ξ
+ *   error[nxi]     r − y of this sample, which `advance` adds to ξ
+ *   demand[nu]     v, for the correction; with xi and error MAY be NULL when nxi is 0
+ *   u_applied[nu]  u[k−1]; MAY be the filter's, MAY be NULL when neither gives_change nor u_step needs it
+ */
+#ifndef LQG_SERVO_H
+#define LQG_SERVO_H
+
+#include "lqg/arithmetic.h"
+#include "lqg/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define lqg_servo_init LQG_VARIANT(lqg_servo_init)
+#define lqg_servo_observe LQG_VARIANT(lqg_servo_observe)
+#define lqg_servo_control LQG_VARIANT(lqg_servo_control)
+#define lqg_servo_advance LQG_VARIANT(lqg_servo_advance)
+#define lqg_servo_set_input LQG_VARIANT(lqg_servo_set_input)
+
+/* A law, constant: may lie in flash. */
+typedef struct {
+    unsigned nx;                /* states, ≥ 1 */
+    unsigned nu;                /* inputs, ≥ 1 */
+    unsigned nr;                /* references, ≥ 0 */
+    unsigned nxi;               /* integrated outputs, ≥ 0 */
+    unsigned gives_change;      /* not 0: −K z + Nbar r is the change of u, and z ends with u[k−1] */
+    lqg_real T;                 /* s, sample time */
+    const lqg_real *K;          /* nu × nz, nz = nx + nxi (+ nu) */
+    const lqg_real *Nbar;       /* nu × nr; NULL: r acts by ξ alone */
+    const lqg_real *H;          /* nxi × nu, ξ per input: −Kξ⁺, Kξ the columns of K that belong to ξ */
+    const unsigned *output;     /* nxi: the output that each ξ integrates */
+    const unsigned *reference;  /* nxi: the r that it has to follow */
+    const lqg_real *u_min;      /* nu, finite or −∞; NULL: no lower limits */
+    const lqg_real *u_max;      /* nu, finite or +∞, ≥ u_min; NULL: no upper limits */
+    const lqg_real *u_step;     /* nu, ≥ 0, largest |u[k] − u[k−1]|; NULL: any */
+} lqg_servo_t;
+
+/* ξ = 0, nothing applied and nothing asked for yet. r is left to the caller. */
+void lqg_servo_init(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[], lqg_real demand[],
+                    lqg_real u_applied[]);
+
+/* error ← r − y of the integrated outputs; 0, which leaves ξ as it is, where that is not finite.
+ *
+ * y[ny]  in: what the sensors say
+ *
+ * Cost: nxi operations. */
+void lqg_servo_observe(const lqg_servo_t *servo, const lqg_real r[], lqg_real error[], const lqg_real y[]);
+
+/* u by the law: 0 where that is not finite, then within u_step of u_applied, then within [u_min, u_max], which wins.
+ *
+ * x[nx]  in: the state or its estimate
+ * u[nu]  out: finite and within the limits, whatever x and r are, as long as u_applied is finite; MUST NOT overlap
+ *        another array
+ *
+ * Status: LQG_REFERENCE_NOT_FINITE for an r that is NaN or infinite and counts as 0; LQG_INPUT_LIMITED when a limit
+ * was reached, or when the law was not finite and 0 stood in for it.
+ * Cost: nu·(nz + nr) multiply-adds. */
+lqg_status lqg_servo_control(const lqg_servo_t *servo, const lqg_real x[], const lqg_real r[],
+                             const lqg_real xi[], lqg_real demand[], const lqg_real u_applied[], lqg_real u[]);
+
+/* ξ ← ξ + H (u − v) + T (r − y),   u[k−1] ← u. Without an `observe` since the last one r − y counts as 0, without a
+ * `control` u − v.
+ *
+ * u[nu]  in: what was applied; MAY be u_applied itself
+ *
+ * Status: LQG_STATE_RESET when that was not finite, and the law begins anew.
+ * Cost: nxi·(nu + 1) multiply-adds. */
+lqg_status lqg_servo_advance(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[], lqg_real demand[],
+                             lqg_real u_applied[], const lqg_real u[]);
+
+/* Bumpless from manual to automatic: u[k−1] ← u and ξ such that the law asks for u next, or as nearly as ξ can.
+ * Whoever keeps inputs on their way among the states x writes u there before.
+ *
+ * x[nx]  in: the state or its estimate
+ * u[nu]  in: what was applied by hand
+ *
+ * Status: LQG_REFERENCE_NOT_FINITE; LQG_STATE_RESET when that was not finite, and the law begins anew.
+ * Cost: nu·(nz + nr + nxi) multiply-adds. */
+lqg_status lqg_servo_set_input(const lqg_servo_t *servo, const lqg_real x[], const lqg_real r[], lqg_real xi[],
+                               lqg_real error[], lqg_real demand[], lqg_real u_applied[], const lqg_real u[]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

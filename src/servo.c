@@ -1,0 +1,150 @@
+/* The control law with a memory. */
+#include "lqg/servo.h"
+
+#include "kernel.h"
+
+LQG_STRICT_BEGIN
+
+void lqg_servo_init(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[], lqg_real demand[],
+                    lqg_real u_applied[])
+{
+    begin(xi, NULL, servo->nxi);
+    begin(error, NULL, servo->nxi);
+    begin(demand, NULL, servo->nu);
+    begin(u_applied, NULL, servo->nu);
+}
+
+void lqg_servo_observe(const lqg_servo_t *servo, const lqg_real r[], lqg_real error[], const lqg_real y[])
+{
+    LQG_STRICT_BODY
+    for (unsigned i = 0; i < servo->nxi; i++) {
+        const lqg_real left = r[servo->reference[i]] - y[servo->output[i]];
+        error[i] = is_finite(left) ? left : 0;
+    }
+}
+
+/* v_i = −K_i [x̂; ξ; u[k−1]] + Nbar_i r, on top of u[k−1] where the law gives its change. An r that is not finite
+ * counts as 0. */
+static lqg_real law(const lqg_servo_t *servo, unsigned i, const lqg_real x[], const lqg_real r[],
+                    const lqg_real xi[], const lqg_real u_applied[])
+{
+    LQG_STRICT_BODY
+    const unsigned nx = servo->nx, nxi = servo->nxi, last = servo->gives_change ? servo->nu : 0;
+    const lqg_real *K = servo->K + i * (nx + nxi + last);
+
+    lqg_real sum = subtract_row_product(last ? u_applied[i] : 0, K, 0, nx, x);
+    sum = subtract_row_product(sum, K + nx, 0, nxi, xi);
+    sum = subtract_row_product(sum, K + nx + nxi, 0, last, u_applied);
+    for (unsigned j = 0; servo->Nbar && j < servo->nr; j++)
+        sum = multiply_add(servo->Nbar[i * servo->nr + j], is_finite(r[j]) ? r[j] : 0, sum);
+    return sum;
+}
+
+static lqg_status check_reference(const lqg_servo_t *servo, const lqg_real r[])
+{
+    lqg_status status = LQG_OK;
+
+    for (unsigned j = 0; j < servo->nr; j++)
+        status |= is_finite(r[j]) ? LQG_OK : LQG_REFERENCE_NOT_FINITE;
+    return status;
+}
+
+/* *value within [low, high]. */
+static lqg_status limit(lqg_real *value, lqg_real low, lqg_real high)
+{
+    const int is_low = *value < low, is_high = *value > high;
+
+    *value = is_low ? low : is_high ? high : *value;
+    return is_low || is_high ? LQG_INPUT_LIMITED : LQG_OK;
+}
+
+static lqg_status limit_input(const lqg_servo_t *servo, unsigned i, const lqg_real u_applied[], lqg_real *u)
+{
+    LQG_STRICT_BODY
+    lqg_status status = LQG_OK;
+
+    if (servo->u_step)
+        status |= limit(u, u_applied[i] - servo->u_step[i], u_applied[i] + servo->u_step[i]);
+    if (servo->u_min || servo->u_max)
+        status |= limit(u, servo->u_min ? servo->u_min[i] : *u, servo->u_max ? servo->u_max[i] : *u);
+    return status;
+}
+
+lqg_status lqg_servo_control(const lqg_servo_t *servo, const lqg_real x[], const lqg_real r[],
+                             const lqg_real xi[], lqg_real demand[], const lqg_real u_applied[], lqg_real u[])
+{
+    lqg_status status = check_reference(servo, r);
+
+    for (unsigned i = 0; i < servo->nu; i++) {
+        const lqg_real v = law(servo, i, x, r, xi, u_applied);
+        status |= is_finite(v) ? LQG_OK : LQG_INPUT_LIMITED;
+        u[i] = is_finite(v) ? v : 0;
+        if (demand)
+            demand[i] = u[i];
+        status |= limit_input(servo, i, u_applied, &u[i]);
+    }
+    return status;
+}
+
+/* Begins anew unless ξ and u are finite. */
+static lqg_status reset_unless_finite(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[],
+                                      lqg_real demand[], lqg_real u_applied[], const lqg_real u[])
+{
+    LQG_STRICT_BODY
+    lqg_real sum = add_all(0, xi, servo->nxi);
+
+    if (u_applied)
+        sum = add_all(sum, u, servo->nu);
+    if (is_finite(sum))
+        return LQG_OK;
+
+    lqg_servo_init(servo, xi, error, demand, u_applied);
+    return LQG_STATE_RESET;
+}
+
+/* ξ_i + H_i (u − v) */
+static lqg_real conditioned(const lqg_servo_t *servo, unsigned i, const lqg_real xi[], const lqg_real u[],
+                            const lqg_real v[])
+{
+    LQG_STRICT_BODY
+    lqg_real sum = xi[i];
+
+    for (unsigned j = 0; j < servo->nu; j++)
+        sum = multiply_add(servo->H[i * servo->nu + j], u[j] - v[j], sum);
+    return sum;
+}
+
+lqg_status lqg_servo_advance(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[], lqg_real demand[],
+                             lqg_real u_applied[], const lqg_real u[])
+{
+    LQG_STRICT_BODY
+    for (unsigned i = 0; i < servo->nxi; i++) {
+        xi[i] = multiply_add(servo->T, error[i], conditioned(servo, i, xi, u, demand));
+        error[i] = 0;
+    }
+    if (servo->nxi)
+        copy(demand, u, servo->nu);
+    if (u_applied)
+        copy(u_applied, u, servo->nu);
+    return reset_unless_finite(servo, xi, error, demand, u_applied, u);
+}
+
+lqg_status lqg_servo_set_input(const lqg_servo_t *servo, const lqg_real x[], const lqg_real r[], lqg_real xi[],
+                               lqg_real error[], lqg_real demand[], lqg_real u_applied[], const lqg_real u[])
+{
+    lqg_status status = LQG_OK;
+
+    if (u_applied)
+        copy(u_applied, u, servo->nu);
+    if (servo->nxi) {
+        status = check_reference(servo, r);
+        for (unsigned i = 0; i < servo->nu; i++)
+            demand[i] = law(servo, i, x, r, xi, u_applied);
+        for (unsigned i = 0; i < servo->nxi; i++)
+            xi[i] = conditioned(servo, i, xi, u, demand);
+        copy(demand, u, servo->nu);
+    }
+    return status | reset_unless_finite(servo, xi, error, demand, u_applied, u);
+}
+
+LQG_STRICT_END
