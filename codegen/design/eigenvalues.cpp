@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "design/linear_algebra.hpp"
+#include "design/progress.hpp"
 
 namespace lqg::design {
 
@@ -134,15 +135,51 @@ void reduce_to_hessenberg(RealMatrix& A, RealMatrix& B, RealMatrix& C) {
   }
 }
 
+namespace {
+
+// Is row or column i zero beside the diagonal?
+bool is_isolated(const RealMatrix& a, Index i) {
+  bool row = true, column = true;
+  for (Index j = 0; j < a.rows(); ++j) {
+    row = row && (j == i || a(i, j).is_zero());
+    column = column && (j == i || a(j, i).is_zero());
+  }
+  return row || column;
+}
+
+RealMatrix without(const RealMatrix& a, Index i) {
+  const Index n = a.rows() - 1;
+  RealMatrix rest(n, n);
+  for (Index column = 0; column < n; ++column)
+    for (Index row = 0; row < n; ++row) rest(row, column) = a(row + (row >= i), column + (column >= i));
+  return rest;
+}
+
+// Takes out what is an eigenvalue as it stands: a chain of delays is one zero after the other, exactly.
+RealMatrix take_isolated(RealMatrix a, std::vector<ComplexReal>& found) {
+  for (Index i = 0; i < a.rows();) {
+    if (!is_isolated(a, i)) {
+      ++i;
+      continue;
+    }
+    found.push_back({a(i, i), Real(0)});
+    a = without(a, i);
+    i = 0;
+  }
+  return a;
+}
+
+}  // namespace
+
 std::vector<ComplexReal> eigenvalues(const RealMatrix& a) {
   std::vector<ComplexReal> found;
-  RealMatrix h = a, none_left, none_right;
+  RealMatrix h = take_isolated(a, found), none_left, none_right;
   reduce_to_hessenberg(h, none_left, none_right);
-  const Real scale = largest_entry(a);
+  const Real scale = largest_entry(h);
   const Real rounding = negligible(1);
   const int most_sweeps = 100;
   int sweeps = 0;
-  for (Index high = a.rows() - 1; high >= 0;) {
+  for (Index high = h.rows() - 1; high >= 0;) {
     const Index low = split(h, high, rounding, scale);
     if (low == high) {
       found.push_back({h(high, high), Real(0)});
@@ -151,6 +188,7 @@ std::vector<ComplexReal> eigenvalues(const RealMatrix& a) {
            eigenvalues_of_pair(h(low, low), h(low, high), h(high, low), h(high, high)))
         found.push_back(value);
     } else if (sweeps++ < most_sweeps) {
+      report_progress("eigenvalues", a.rows() - high);
       const Index last = high - 1;
       Real sum = h(last, last) + h(high, high);
       Real product = h(last, last) * h(high, high) - h(last, high) * h(high, last);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "design/factor.hpp"
+#include "design/progress.hpp"
 
 namespace lqg::design {
 
@@ -34,6 +35,7 @@ std::optional<RealMatrix> doubled_up(const RiccatiEquation& e) {
   RealMatrix G = symmetric_part(multiply(e.B, weighed->leftCols(nx)));
   RealMatrix H = symmetric_part(e.Q - multiply(e.N, weighed->rightCols(nx)));
   for (int k = 0; k < most_doublings(); ++k) {
+    report_progress("Riccati equation, doubling,", k);
     const std::optional<RealMatrix> solved = solve(identity(nx) + multiply(G, H), beside(A, G));
     if (!solved || !is_finite(*solved)) return std::nullopt;
     const RealMatrix next = H + symmetric_part(transpose_multiply(A, multiply(H, solved->leftCols(nx))));
@@ -88,6 +90,7 @@ RiccatiResult polish(const RiccatiEquation& e, RealMatrix K, RealMatrix X) {
   RiccatiResult result;
   Real before = 1;
   for (int i = 0; i < 200; ++i) {
+    report_progress("Riccati equation, Newton's method,", i);
     const std::optional<RealMatrix> next = cost_of_gain(e, K, X);
     if (!next) {
       result.failure = i == 0 ? RiccatiFailure::no_start : RiccatiFailure::not_converged;
@@ -175,6 +178,7 @@ std::optional<RealMatrix> solve_stein(const RealMatrix& A, const RealMatrix& Y) 
   const Real vanished = negligible(0.5) / 100;
   const Real exploded = power_of_ten(4.0 * Real::default_precision());
   for (int k = 0; k < most_doublings(); ++k) {
+    report_progress("Stein equation", k);
     X += transpose_congruence(power, X);
     const Real size = norm(power) * norm(power.transpose());
     if (!(size < exploded)) return std::nullopt;

@@ -8,6 +8,7 @@
 #include "design/margins.hpp"
 #include "design/poles.hpp"
 #include "design/rounding.hpp"
+#include "design/stages.hpp"
 
 namespace lqg::design {
 
@@ -26,7 +27,7 @@ SampledPlant held(const SampledPlant& plant, Scalar real) {
 
 Solution held(const Solution& solution, Scalar real) {
   Solution result;
-  result.plant = held(solution.plant, real);
+  result.plant = held(final_plant(solution), real);
   if (solution.regulator) {
     result.regulator.emplace();
     result.regulator->K = held(solution.regulator->K, real);
@@ -84,7 +85,8 @@ void check_poles(const std::vector<ComplexReal>& poles, const std::string& what,
 void check_cost(const Problem& problem, const Compensator& controller, const Solution& solution, RoundedLoop& rounded,
                 Findings& findings) {
   if (!solution.loop.cost_per_sample) return;
-  const std::optional<SteadyCost> cost = steady_cost(problem, sample(problem), controller);
+  const SampledStage last = sample_stages(problem).back();
+  const std::optional<SteadyCost> cost = steady_cost(last.problem, last.samples, controller);
   if (!cost) return;
   rounded.cost_per_sample = to_double(cost->per_sample);
   const double ratio = *rounded.cost_per_sample / *solution.loop.cost_per_sample;
@@ -100,7 +102,7 @@ void check_filter(const Solution& rounded, Scalar real, Findings& findings) {
 }
 
 void check_loop(const Problem& problem, const Solution& rounded, Solution& solution, Findings& findings) {
-  const MeasuredPlant plant = measured_plant(problem, solution.plant);
+  const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
   const Compensator controller = compensator(problem, rounded);
   const std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, controller).A);
   check_poles(poles, "the loop", problem.code.real, findings);
@@ -124,7 +126,7 @@ void check_rounded(const Problem& problem, Solution& solution, Findings& finding
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   const Solution rounded = held(solution, problem.code.real);
   if (solution.estimator || solution.online)
-    check_model(solution.plant, rounded.plant, problem.code.real, findings);
+    check_model(final_plant(solution), rounded.plant, problem.code.real, findings);
   if (has_error(findings) || !is_stable(solution.loop.poles)) return;
   if (solution.regulator && solution.estimator == std::nullopt && problem.estimator) return;
   if (solution.regulator)

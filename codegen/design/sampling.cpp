@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/progress.hpp"
+
 namespace lqg::design {
 
 namespace {
@@ -121,7 +123,10 @@ SampledPeriod sample(const HeldPlant& plant, const Real& sample_time) {
   for (Real reach = 1; reach < size; reach *= 2) ++doublings;
   const Real h = ldexp(sample_time, -doublings);
   Period period = short_period(plant, F, h);
-  for (int i = 0; i < doublings; ++i) double_period(period, nx);
+  for (int i = 0; i < doublings; ++i) {
+    report_progress("sampling", i);
+    double_period(period, nx);
+  }
   return {period.transition.topLeftCorner(nx, nx), period.transition.topRightCorner(nx, held), period.cost,
           period.noise_cost, period.noise};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "design/progress.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -44,6 +45,7 @@ GainSchedule gains_forward(const std::vector<SampledStage>& stages, const RealMa
   GainSchedule schedule;
   RealMatrix P = P0;
   for (int k = 0; k < count; ++k) {
+    report_progress("gains from the start on", k);
     const Samples& samples = stage_at(stages, k).samples;
     schedule.last = filter_of(samples, P);
     append(schedule, schedule.last);
@@ -60,6 +62,7 @@ GainSchedule gains_until_steady(const std::vector<SampledStage>& stages, const R
   const int enough = 2 * static_cast<int>(P0.rows()) + 10;
   std::size_t length = 0;
   for (int k = 0, at_rest = 0; at_rest < enough; ++k) {
+    report_progress("gains from the start on", k);
     const Samples& samples = stage_at(stages, k).samples;
     schedule.last = filter_of(samples, P);
     append(schedule, schedule.last);

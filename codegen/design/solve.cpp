@@ -117,7 +117,8 @@ bool is_well_posed(const Problem& problem, Findings& findings) {
 
 }  // namespace
 
-std::optional<Solution> solve(const Problem& problem, Findings& findings) {
+std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress) {
+  const ProgressScope reporting(progress);
   std::optional<Draft> coarse;
   unsigned coarse_digits = 0;
   for (const unsigned digits : runs) {

@@ -1,0 +1,38 @@
+#include "design/progress.hpp"
+
+#include <chrono>
+
+#include "design/real.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Listener {
+  const Progress* progress = nullptr;
+  Clock::time_point last;
+};
+
+thread_local Listener listener;
+
+}  // namespace
+
+ProgressScope::ProgressScope(const Progress& progress) {
+  listener.progress = progress ? &progress : nullptr;
+  listener.last = Clock::now();
+}
+
+ProgressScope::~ProgressScope() { listener.progress = nullptr; }
+
+void report_progress(const char* work, long step) {
+  if (!listener.progress) return;
+  const Clock::time_point now = Clock::now();
+  if (now - listener.last < std::chrono::seconds(1)) return;
+  listener.last = now;
+  (*listener.progress)(std::string(work) + " in " + std::to_string(Real::default_precision()) + " digits, step "
+                       + std::to_string(step));
+}
+
+}  // namespace lqg::design

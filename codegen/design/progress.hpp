@@ -1,0 +1,23 @@
+// A line now and then from long work, for a person who waits.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace lqg::design {
+
+// Takes a line like "Riccati equation in 200 digits, step 7".
+using Progress = std::function<void(const std::string&)>;
+
+// During its life report_progress calls `progress`, in this thread, when a second has gone by since the last line.
+class ProgressScope {
+ public:
+  explicit ProgressScope(const Progress& progress);
+  ~ProgressScope();
+  ProgressScope(const ProgressScope&) = delete;
+  ProgressScope& operator=(const ProgressScope&) = delete;
+};
+
+void report_progress(const char* work, long step);
+
+}  // namespace lqg::design
