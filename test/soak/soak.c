@@ -1,0 +1,87 @@
+/* A controller for a long time: noise for outputs and inputs, one output in 16 missing. Its estimate stays finite, it never
+ * begins anew, and the covariance that it carries is positive definite after every update and prediction.
+ *
+ *     soak [samples]
+ *
+ * HEADER, NAME and UPPER_NAME are the controller's, REAL its scalar; CARRIES_plain or CARRIES_ud what it carries. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include HEADER
+
+#define PASTE(a, b) a##_##b
+#define JOIN(a, b) PASTE(a, b)
+#define OF(part) JOIN(NAME, part)
+#define SIZE(part) JOIN(UPPER_NAME, part)
+
+enum { NX = SIZE(NX), NY = SIZE(NY), NU = SIZE(NU) };
+
+#ifdef CARRIES_ud
+static int is_definite(const OF(t) * loop)
+{
+    for (int i = 0; i < NX; i++)
+        if (!(loop->d[i] > 0 && loop->d[i] - loop->d[i] == 0))
+            return 0;
+    return 1;
+}
+#else
+/* All pivots of Gaussian elimination are positive. P is kept as a triangle: it cannot be unsymmetric. */
+static int is_definite(const OF(t) * loop)
+{
+    double left[NX][NX];
+    for (int i = 0; i < NX; i++)
+        for (int j = 0; j <= i; j++)
+            left[i][j] = (double)loop->P[i * (i + 1) / 2 + j];
+    for (int k = 0; k < NX; k++) {
+        if (!(left[k][k] > 0))
+            return 0;
+        for (int i = k + 1; i < NX; i++)
+            for (int j = k + 1; j <= i; j++)
+                left[i][j] -= left[i][k] / left[k][k] * left[j][k];
+    }
+    return 1;
+}
+#endif
+
+static int is_finite_state(const OF(t) * loop)
+{
+    for (int i = 0; i < NX; i++)
+        if (!(loop->x[i] - loop->x[i] == 0))
+            return 0;
+    return 1;
+}
+
+/* Uniform in [−1, 1). */
+static double noise(unsigned long *seed)
+{
+    *seed = (*seed * 1664525ul + 1013904223ul) & 0xfffffffful;
+    return (double)*seed / 2147483648.0 - 1;
+}
+
+int main(int count, char *arguments[])
+{
+    const unsigned long samples = count > 1 ? strtoul(arguments[1], NULL, 10) : 1000000;
+    const REAL nothing = (REAL)NAN;
+    unsigned long seed = 1;
+    OF(t) loop;
+    REAL y[NY], u[NU];
+
+    OF(init)(&loop);
+    for (unsigned long sample = 0; sample < samples; sample++) {
+        for (int i = 0; i < NY; i++)
+            y[i] = noise(&seed) < -0.875 ? nothing : (REAL)noise(&seed);
+        lqg_status status = OF(update)(&loop, y);
+        int fine = is_definite(&loop);
+        OF(control)(&loop, u);
+        for (int i = 0; i < NU; i++)
+            u[i] = (REAL)noise(&seed);
+        status |= OF(predict)(&loop, u);
+        if (!fine || !is_definite(&loop) || !is_finite_state(&loop) || (status & ~LQG_OUTPUT_NOT_FINITE)) {
+            printf("sample %lu: %s\n", sample, lqg_status_text(status));
+            return 1;
+        }
+    }
+    printf("%lu samples\n", samples);
+    return 0;
+}
