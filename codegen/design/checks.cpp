@@ -41,6 +41,25 @@ std::string name_states(const Plant& plant, const std::vector<Index>& states) {
   return text;
 }
 
+// The plant with names for all states of the deciding_equation: after its own an input on its way, ξ and u[k−1].
+Plant with_regulated_states(const Problem& problem) {
+  Plant plant = problem.plant;
+  const auto name_of = [](const std::vector<Signal>& signals, Index i, const char* letter) {
+    const std::size_t at = static_cast<std::size_t>(i);
+    return at < signals.size() ? signals[at].name : letter + std::to_string(i);
+  };
+  const auto add_inputs = [&](Index ago) {
+    for (Index i = 0; i < plant.B.cols(); ++i)
+      plant.states.push_back({name_of(plant.inputs, i, "u") + "[k-" + std::to_string(ago) + "]", ""});
+  };
+  if (!delay_of(plant).is_whole) add_inputs(delay_of(plant).samples);
+  if (problem.regulator && problem.regulator->integral)
+    for (const int output : problem.regulator->integral->outputs)
+      plant.states.push_back({"integral of " + name_of(plant.outputs, output, "y"), ""});
+  if (problem.regulator && problem.regulator->input_rate.size() > 0) add_inputs(1);
+  return plant;
+}
+
 // z = e^(sT)
 ComplexReal sampled_pole(const ComplexReal& s, double sample_time) {
   const Real size = exp(s.re * sample_time), angle = s.im * sample_time;
@@ -243,6 +262,12 @@ void check_gains_and_stages(const Problem& problem, Findings& findings) {
     changes_filter = changes_filter || stage.A.size() + stage.C.size() + stage.G.size() > 0
                      || stage.W.size() + stage.V.size() > 0;
   }
+  const int end = problem.stages.empty() ? 0 : problem.stages.back().from;
+  const auto is_over = [&](int horizon) { return horizon > 0 && end >= horizon; };
+  if ((has_cost(problem.regulator) && is_over(problem.regulator->horizon))
+      || (has_noise(problem.estimator) && is_over(problem.estimator->horizon)))
+    add_error(findings, "stage",
+              "a stage begins at step " + std::to_string(end) + ", when the horizon is over and its last gain is held");
   if (has_noise(problem.estimator) && problem.estimator->gain == Gain::steady && changes_filter)
     add_error(findings, "kalman.gain", "stages change the filter: expected \"schedule\" or \"online\"");
   if (changes_plant && problem.regulator && !problem.regulator->track.empty())
@@ -393,7 +418,7 @@ void check_weights_on_limit(const Problem& problem, const RiccatiEquation& e, Fi
     const bool on_limit = is_continuous ? on_axis(mode.value, norm(free)) : on_circle(mode.value);
     if (on_limit)
       add_once(findings, "lqr.Q",
-               name_mode(problem.plant, without_decay(problem, mode), is_continuous)
+               name_mode(with_regulated_states(problem), without_decay(problem, mode), is_continuous)
                    + " is on the stability limit and carries no weight: no stabilising gain is optimal");
   }
 }

@@ -1,7 +1,8 @@
-# Makes the numbers of test_solve.cpp: python3 reference.py, with mpmath (https://mpmath.org). Nothing here is
+# Makes the numbers of test_solve.cpp and test_augmentation.cpp: python3 reference.py, with mpmath (https://mpmath.org). Nothing here is
 # shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the stable
-# eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits.
-from mpmath import matrix, mp, mpf, eye, expm, zeros
+# eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits; for the plant with a delay quadrature
+# of the trajectory's cost, and the Riccati recursion until it stands still.
+from mpmath import matrix, mp, mpf, eye, expm, quad, zeros
 
 mp.dps = 120
 
@@ -73,4 +74,60 @@ def two_mass():
     show("L", P * C.T * (C * P * C.T + V) ** -1)
 
 
+# The cost of [x; held] over a time T, each entry by Gauss-Legendre quadrature.
+def cost_by_quadrature(F, weight, T):
+    nodes = {}
+
+    def entry(i, j, t):
+        if t not in nodes:
+            moved = expm(F * t, method="taylor")
+            nodes[t] = moved.T * weight * moved
+        return nodes[t][i, j]
+
+    n = F.rows
+    result = zeros(n, n)
+    for i in range(n):
+        for j in range(i + 1):
+            result[i, j] = result[j, i] = quad(lambda t: entry(i, j, t), [0, T])
+    return result
+
+
+# Two masses, 0.7 s late with a period of 0.5 s, with an integral of the first output and a weight on the change of u:
+# z = [x; u[k-2]; u[k-1]; xi; u[k-1]], and for 0.2 s of a period u[k-2] acts, then u[k-1].
+def two_mass_with_delay():
+    mp.dps = 40
+    A = double([[0, 1, 0, 0], [-0.1, -0.004, 0.1, 0.004], [0, 0, 0, 1], [0.5, 0.02, -0.5, -0.02]])
+    T, late, S, Qi = mpf(0.5), mpf(0.7) - mpf(0.5), mpf(0.2), mpf(0.75)
+    old, new = zeros(6, 6), zeros(6, 6)
+    for i in range(4):
+        for j in range(4):
+            old[i, j] = new[i, j] = A[i, j]
+    old[1, 4] = new[1, 5] = 1
+    weight_old, weight_new = mp.diag([1, 0, 1, 0, mpf(0.1), 0]), mp.diag([1, 0, 1, 0, 0, mpf(0.1)])
+    moved = expm(old * late, method="taylor")
+    cost = cost_by_quadrature(old, weight_old, late)
+    cost += moved.T * cost_by_quadrature(new, weight_new, T - late) * moved
+    moved = expm(new * (T - late), method="taylor") * moved
+    F, G, Q = zeros(8, 8), zeros(8, 1), zeros(8, 8)
+    for i in range(4):
+        for j in range(6):
+            F[i, j] = moved[i, j]
+    F[4, 5] = F[5, 7] = F[6, 6] = F[7, 7] = 1
+    F[6, 0] = -T
+    G[5] = G[7] = 1
+    for i in range(6):
+        for j in range(6):
+            Q[i, j] = cost[i, j]
+    Q[6, 6] = T * Qi
+    X = eye(8)
+    for _ in range(20000):
+        K = (G.T * X * F) / (S + (G.T * X * G)[0])
+        last, X = X, Q + F.T * X * (F - G * K)
+        X = (X + X.T) / 2
+        if mp.mnorm(X - last) < mpf(10) ** -30 * mp.mnorm(X):
+            break
+    show("K with delay", K)
+
+
 two_mass()
+two_mass_with_delay()

@@ -154,7 +154,7 @@ void test_fractional_delay_is_the_sum_over_short_parts() {
 
 // The residual of the whole Riccati equation of the delayed plant, and the stability of its loop.
 void test_delayed_law_solves_the_equation_of_the_whole_state() {
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Problem problem = regulator_alone(random_sampled_problem(seed));
     problem.plant.delay = 0.15 * static_cast<double>(seed % 8);  // half periods
     if (seed % 5 == 0) problem.regulator->input_rate = MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
@@ -172,6 +172,33 @@ void test_delayed_law_solves_the_equation_of_the_whole_state() {
     TEST_ASSERT_TRUE(solve_stein(closed, e.Q).has_value());
     TEST_ASSERT_EQUAL(e.A.rows(), found.regulator->poles.size());
   }
+}
+
+// K. J. Åström, B. Wittenmark, "Computer-Controlled Systems", 3rd edition, 1997, section 2.3: a double integrator with
+// the delay τ has Γ1 = [τ(h − τ/2); τ] of the old input and Γ0 = [(h − τ)²/2; h − τ] of the new one.
+void test_delayed_double_integrator_has_the_textbook_matrices() {
+  Problem problem = regulator_alone(double_integrator(0.5));
+  problem.plant.delay = 0.2;
+  const Solution found = solved(problem);
+  const Digits scope(60);
+  const Real h = 0.5, late = 0.2;
+  TEST_ASSERT_TRUE(to_double(found.plant.A(0, 2)) == to_double(late * (h - late / 2)));
+  TEST_ASSERT_TRUE(to_double(found.plant.A(1, 2)) == to_double(late));
+  TEST_ASSERT_TRUE(to_double(found.plant.B(0, 0)) == to_double((h - late) * (h - late) / 2));
+  TEST_ASSERT_TRUE(to_double(found.plant.B(1, 0)) == to_double(h - late) && found.plant.B(2, 0) == 1);
+}
+
+// The last line of reference.py.
+void test_delay_integral_and_rate_together_have_the_reference_gain() {
+  Problem problem = regulator_alone(two_mass());
+  problem.plant.delay = 0.7;
+  problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 0.75)};
+  problem.regulator->input_rate = MatrixXd::Constant(1, 1, 0.2);
+  const RealMatrix K = solved(problem).regulator->K;
+  const double expected[] = {2.2200599978928235,  2.8996242532084393, -0.045917108296585636, 0.76913549470509812,
+                             0.54043952325392364, 1.0159457328862918, -0.48624417247271345,  0.87390218919270723};
+  TEST_ASSERT_EQUAL(8, K.cols());
+  for (Index i = 0; i < 8; ++i) TEST_ASSERT_TRUE(to_double(K(0, i)) == expected[i]);
 }
 
 // Whole periods: K of the plant without delay, of the state as it will be.
@@ -322,6 +349,8 @@ int main() {
   RUN_TEST(test_settling_time_is_met_by_every_pole);
   RUN_TEST(test_fractional_delay_is_the_sum_over_short_parts);
   RUN_TEST(test_delayed_law_solves_the_equation_of_the_whole_state);
+  RUN_TEST(test_delayed_double_integrator_has_the_textbook_matrices);
+  RUN_TEST(test_delay_integral_and_rate_together_have_the_reference_gain);
   RUN_TEST(test_whole_delay_predicts_the_state);
   RUN_TEST(test_filter_of_a_delayed_plant_leaves_the_known_inputs_alone);
   RUN_TEST(test_delayed_D_is_part_of_C);
