@@ -35,7 +35,7 @@ bool has_steady_loop(const Problem& problem, const Draft& draft) {
 std::optional<SteadyCost> cost_of_loop(const SampledStage& last, const Solution& solution) {
   const Estimator& kalman = *last.problem.estimator;
   const Compensator controller = compensator(last.problem, solution);
-  if (kalman.gain == Gain::schedule && kalman.horizon > 0)
+  if ((kalman.gain == Gain::schedule && kalman.horizon > 0) || kalman.structure.size() > 0)
     return steady_cost(last.problem, last.samples, controller);
   return steady_cost(last.problem, last.samples, controller, *solution.estimator);
 }

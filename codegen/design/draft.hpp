@@ -12,6 +12,7 @@ struct Draft {
   Solution solution;
   std::vector<ComplexReal> regulator_poles, estimator_poles;
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
+  std::optional<EstimatorSolution> full_filter;  // without the structure that its gain has
   std::optional<Real> cost_per_sample, cost_per_second;
   bool has_steady_loop = false;  // stable, with margins
   Findings findings;             // with an error: the rest is not complete

@@ -4,6 +4,7 @@
 #include "design/draft_parts.hpp"
 #include "design/placed.hpp"
 #include "design/schedule.hpp"
+#include "design/structured.hpp"
 
 namespace lqg::design {
 
@@ -42,6 +43,8 @@ void draft_steady(const SampledStage& last, const Draft* coarser, Draft& result)
   take_condition(found, result.solution);
   result.solution.estimator = filter_of(last.samples, found.X);
   result.estimator_poles = poles_of_filter(last.samples, result.solution.estimator->L_predictor);
+  if (last.problem.estimator->structure.size() > 0)
+    keep_estimator_structure(last.problem, last.samples, coarser, result);
 }
 
 void take_tables(const GainSchedule& schedule, Draft& result) {

@@ -6,6 +6,7 @@
 #include "design/placed.hpp"
 #include "design/reference.hpp"
 #include "design/regulator.hpp"
+#include "design/structured.hpp"
 
 namespace lqg::design {
 
@@ -47,6 +48,8 @@ void draft_steady(const SampledStage& last, const Draft* coarser, Draft& result)
   result.solution.regulator->K = found.riccati.K;
   result.solution.regulator->X = found.riccati.X;
   result.regulator_poles = found.poles;
+  if (last.problem.regulator->structure.size() > 0)
+    keep_regulator_structure(last.problem, last.samples, coarser, result);
   if (last.problem.regulator->cost == Cost::continuous && !is_stable(found.poles))
     add_error(result.findings, "lqr.cost",
               "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");

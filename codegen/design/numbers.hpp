@@ -39,6 +39,7 @@ void visit_regulator(A& regulator, Visit visit) {
   visit("lqr.Q_final", Place::report, regulator.Q_final);
   visit("lqr.K", Place::target, regulator.K);
   visit("lqr.X", Place::report, regulator.X);
+  if (regulator.structure) visit("lqr.structure", Place::report, regulator.structure->full);
   for (auto& K : regulator.K_schedule) visit("lqr.schedule", Place::target, K);
   visit("lqr.X0", Place::report, regulator.X0);
   visit("lqr.Nx", Place::target, regulator.Nx);
@@ -55,6 +56,7 @@ void visit_estimator(A& estimator, Visit visit) {
   visit("kalman.P_prior", Place::report, estimator.P_prior);
   visit("kalman.P_posterior", Place::report, estimator.P_posterior);
   visit("kalman.S", Place::report, estimator.S);
+  if (estimator.structure) visit("kalman.structure", Place::report, estimator.structure->full);
   for (auto& L : estimator.L_schedule) visit("kalman.schedule", Place::target, L);
   for (auto& M : estimator.M_schedule) visit("kalman.schedule", Place::target, M);
 }

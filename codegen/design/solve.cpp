@@ -12,6 +12,7 @@
 #include "design/rounded_loop.hpp"
 #include "design/rounding.hpp"
 #include "design/settle.hpp"
+#include "design/structured.hpp"
 #include "design/stages.hpp"
 
 namespace lqg::design {
@@ -85,6 +86,7 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
     const Compensator controller = compensator(problem, solution);
     solution.loop.at_input = margins(open_at_inputs(plant, controller), poles);
     if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), poles);
+    add_full_margins(problem, draft);
   }
   check_representable(solution, problem.code.real, findings);
   check_rounded(problem, solution, findings);
@@ -102,6 +104,7 @@ void check_matrices(const Problem& problem, Findings& findings) {
 
 bool is_well_posed(const Problem& problem, Findings& findings) {
   check_kinds(problem, findings);
+  check_structure(problem, findings);
   check_matrices(problem, findings);
   const std::vector<Problem> problems = problems_of_stages(problem);
   for (std::size_t i = 1; i < problems.size() && !has_error(findings); ++i) {

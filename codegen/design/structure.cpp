@@ -137,8 +137,28 @@ StructureProblem shrunk(const StructureProblem& problem, const Real& gamma) {
   return result;
 }
 
-// A stabilising gain of that structure.
-std::optional<Point> first_point(const StructureProblem& problem, const RealMatrix& full) {
+// From the full gain on, its other entries fade away in steps, the kept ones following.
+std::optional<Point> faded_in(const StructureProblem& problem, const RealMatrix& full) {
+  std::optional<Point> point = point_at(problem, full);
+  Real left = 1, step = 0.5;
+  while (point && step > 1e-3) {
+    const Real next = left > step ? Real(left - step) : Real(0);
+    const RealMatrix kept = kept_entries(problem.kept, point->K), others = point->K - kept;
+    const std::optional<Point> less = point_at(problem, kept + (next / left) * others);
+    if (!less) {
+      step /= 2;
+      continue;
+    }
+    if (next.is_zero()) return less;
+    point = descend(problem, *less, 5);
+    left = next;
+    step *= 1.5;
+  }
+  return std::nullopt;
+}
+
+// A stabilising gain of that structure, from the plant shrunk until one stabilises it.
+std::optional<Point> grown_into(const StructureProblem& problem, const RealMatrix& full) {
   RealMatrix K = kept_entries(problem.kept, full);
   const RiccatiEquation& e = problem.equation;
   Real gamma = 0;
@@ -169,7 +189,8 @@ StructureProblem rounded(const StructureProblem& problem) {
 std::optional<RealMatrix> rough_gain(const StructureProblem& problem, const RealMatrix& full) {
   const Digits few(30);
   const StructureProblem few_digits = rounded(problem);
-  const std::optional<Point> first = first_point(few_digits, in_present_digits(full));
+  std::optional<Point> first = faded_in(few_digits, in_present_digits(full));
+  if (!first) first = grown_into(few_digits, in_present_digits(full));
   if (!first) return std::nullopt;
   return descend(few_digits, *first, 200).K;
 }

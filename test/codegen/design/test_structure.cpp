@@ -128,6 +128,86 @@ void test_unstable_mode_that_the_structure_cannot_move_is_named() {
   expect_small(abs(fixed[0].re - 1.5), 1e-30, "the distance to 1.5");
 }
 
+void test_decoupled_regulator_of_two_masses_tells_what_it_costs() {
+  Problem problem = two_mass();
+  const Solution full = solved(problem);
+  problem.regulator->structure = (MatrixXd(1, 4) << 1, 1, 0, 0).finished();
+  const Solution kept = solved(problem);
+  TEST_ASSERT_TRUE(kept.regulator->K(0, 2).is_zero() && kept.regulator->K(0, 3).is_zero());
+  TEST_ASSERT_FALSE(kept.regulator->K(0, 0).is_zero());
+  const StructureReport& report = *kept.regulator->structure;
+  expect_rounded(full.regulator->K, report.full, "the full gain");
+  TEST_ASSERT_TRUE(report.full_poles == full.regulator->poles);
+  TEST_ASSERT_TRUE(report.cost_ratio > 1 && *kept.loop.cost_per_sample > *full.loop.cost_per_sample);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, *full.loop.at_input.disk, *report.full_margins.disk);
+  for (const std::complex<double>& pole : kept.loop.poles) TEST_ASSERT_TRUE(std::abs(pole) < 1);
+}
+
+// P_prior = F P_prior Fᵀ + GWGᵀ + L_p V L_pᵀ − G Swv L_pᵀ − L_p SwvᵀGᵀ with F = A − L_p C: of any gain.
+void expect_covariance_of_gain(const Solution& found) {
+  const Digits scope(found.numerics.digits);
+  const SampledPlant& plant = found.plant;
+  const EstimatorSolution& filter = *found.estimator;
+  const RealMatrix told = multiply_transpose(multiply(plant.G, filter.noise.Swv), filter.L_predictor);
+  const RealMatrix drive = congruence(plant.G, filter.noise.W) + congruence(filter.L_predictor, filter.noise.V)
+                           - told - told.transpose();
+  const RealMatrix closed = plant.A - multiply(filter.L_predictor, plant.C);
+  const std::optional<RealMatrix> P = solve_stein(closed.transpose(), drive);
+  TEST_ASSERT_TRUE_MESSAGE(P.has_value(), "the filter is not stable");
+  expect_small(distance(filter.P_prior, *P), 1e-30, "the prior covariance's error");
+}
+
+// Cross noise and both forms: seeds 1 … 40, each without its last entry of the gain.
+void test_structured_filters_have_the_covariance_of_their_gain() {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Problem problem = random_problem(seed);
+    problem.estimator->gain = Gain::steady;
+    problem.estimator->structure = MatrixXd::Ones(problem.plant.A.rows(), problem.plant.C.rows());
+    if (problem.estimator->structure.size() == 1) continue;
+    problem.estimator->structure.bottomRightCorner(1, 1).setZero();
+    Findings findings;
+    const std::optional<Solution> solution = solve(problem, findings);
+    if (!solution) continue;
+    ++found;
+    const EstimatorSolution& filter = *solution->estimator;
+    const bool filtered = problem.estimator->form == Form::filter;
+    const RealMatrix& gain = filtered ? filter.L : filter.L_predictor;
+    TEST_ASSERT_TRUE(gain(gain.rows() - 1, gain.cols() - 1).is_zero());
+    TEST_ASSERT_TRUE(filter.structure->cost_ratio >= 1);
+    expect_covariance_of_gain(*solution);
+  }
+  TEST_ASSERT_TRUE(found >= 28);
+}
+
+void expect_refusal(const Problem& problem, const char* key, const char* part) {
+  Findings findings;
+  TEST_ASSERT_FALSE_MESSAGE(solve(problem, findings).has_value(), part);
+  TEST_ASSERT_EQUAL_STRING(key, findings[0].key.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(findings[0].message.find(part) != std::string::npos, findings[0].message.c_str());
+}
+
+void test_structures_that_no_gain_can_have() {
+  Problem problem = two_mass();
+  problem.regulator->structure = MatrixXd::Zero(1, 4);
+  expect_refusal(problem, "lqr.structure", "keeps no entry");
+  problem.regulator->structure.setOnes();
+  problem.regulator->cost = Cost::continuous;
+  expect_refusal(problem, "lqr.structure", "cost");
+  problem = two_mass();
+  problem.estimator->structure = MatrixXd::Ones(4, 2);
+  problem.estimator->gain = Gain::online;
+  expect_refusal(problem, "kalman.structure", "gain = \"steady\"");
+}
+
+void test_mode_that_the_structure_leaves_alone_is_the_reason() {
+  MatrixXd A(2, 2);
+  A << 0.5, 0, 0, 1.5;
+  Problem problem = problem_of(Domain::discrete, 1, A, MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2));
+  problem.regulator->structure = (MatrixXd(2, 2) << 1, 0, 1, 0).finished();
+  expect_refusal(problem, "lqr.structure", "the mode at z = 1.5 is moved by no gain of this structure");
+}
+
 }  // namespace
 
 int main() {
@@ -137,5 +217,9 @@ int main() {
   RUN_TEST(test_decoupled_plants_lose_nothing);
   RUN_TEST(test_start_that_does_not_stabilise_is_led_to_one_that_does);
   RUN_TEST(test_unstable_mode_that_the_structure_cannot_move_is_named);
+  RUN_TEST(test_decoupled_regulator_of_two_masses_tells_what_it_costs);
+  RUN_TEST(test_structured_filters_have_the_covariance_of_their_gain);
+  RUN_TEST(test_structures_that_no_gain_can_have);
+  RUN_TEST(test_mode_that_the_structure_leaves_alone_is_the_reason);
   return UNITY_END();
 }
