@@ -12,4 +12,8 @@ std::string advance_counters(const Controller& controller) {
   return out;
 }
 
+std::string only_update_body(const Controller& controller) {
+  return "    return " + controller.problem.name + "_update(self, &y_" + controller.problem.plant.outputs[0].name + ");\n";
+}
+
 }  // namespace lqg::emit

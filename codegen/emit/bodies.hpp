@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "emit/controller.hpp"
 
@@ -13,11 +14,18 @@ struct Bodies {
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
   std::string init, update, control, predict, set_input;
+  std::vector<std::string> updates_alone;  // of each output that can_update_alone
   bool resets = false;    // they call NAME_reset
 };
 
 // What predict does to the counters at its end.
 std::string advance_counters(const Controller& controller);
+
+// The update by one output alone where there is no other.
+std::string only_update_body(const Controller& controller);
+
+// Straight-line code in either style: who does not call it does not pay for it.
+std::string innovation_body(const Controller& controller);
 
 Bodies unrolled_bodies(const Controller& controller);
 Bodies compact_bodies(const Controller& controller);

@@ -37,6 +37,7 @@ Words call_words(const Controller& controller) {
   words["kalman"] = controller.keeps_gain_row() ? "&kalman" : fill("&{NAME}_KALMAN", words);
   words["servo"] = controller.keeps_sample() ? "&servo" : fill("&{NAME}_SERVO", words);
   words["lqr"] = controller.keeps_sample() ? "&lqr" : fill("&{NAME}_LQR", words);
+  words["variances"] = controller.filter() == step::Filter::steady ? fill("{NAME}_KALMAN_S, ", words) : "";
   const bool integrates = controller.nxi() > 0;
   words["r"] = controller.nr() ? "self->r" : "NULL";
   words["memory"] = integrates ? "self->xi, self->error, self->demand, " : "NULL, NULL, NULL, ";
@@ -80,16 +81,43 @@ std::string init_body(const Controller& controller, const Words& words) {
   if (controller.nr()) out += "    for (int i = 0; i < {NAME}_NR; i++)\n        self->r[i] = 0;\n";
   for (const Field& field : state_fields(controller))
     if (field.kind == Kind::counter) out += "    self->" + field.name + " = 0;\n";
+  if (controller.gates()) out += "    for (int i = 0; i < {NAME}_NY; i++)\n        self->gated[i] = 0;\n";
   return fill(out, words);
+}
+
+// What the library is told of the gate.
+std::string watch(const Controller& controller) {
+  if (!controller.gates()) return "";
+  return "    const lqg_watch_t watch = {NULL, " + trace::literal(controller.problem.estimator->gate, controller.is_double()) +
+         ", self->gated, NULL, NULL};\n";
 }
 
 std::string update_body(const Controller& controller, const Words& words) {
   const std::string work = "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
-  const std::string call = "lqg_kalman_{filter}_update({kalman}, {state}, y, work);\n";
-  if (!needs_reset(controller)) return fill(work + "\n    return " + call, words);
-  return fill(work + gains_of_sample(controller) + "    const lqg_status status = " + call + "\n" +
+  const std::string call = controller.gates() ? "lqg_kalman_{filter}_update_watched({kalman}, {state}, y, {variances}&watch, work);\n"
+                                              : "lqg_kalman_{filter}_update({kalman}, {state}, y, work);\n";
+  if (!needs_reset(controller)) return fill(work + watch(controller) + "\n    return " + call, words);
+  return fill(work + gains_of_sample(controller) + watch(controller) + "    const lqg_status status = " + call + "\n" +
                   (controller.nxi() ? "    lqg_servo_observe(&{NAME}_SERVO, self->r, self->error, y);\n" : "") +
                   end(controller), words);
+}
+
+// The update by one output, and r − y of it where it is integrated.
+std::string update_alone_body(const Controller& controller, Words words, int output) {
+  const bool is_steady = controller.filter() == step::Filter::steady;
+  words["i"] = std::to_string(output);
+  words["y"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+  words["watch"] = controller.gates() ? "&watch" : "NULL";
+  words["s"] = !is_steady ? "" : controller.gates() ? words["variances"] : "NULL, ";
+  words["scratch"] = is_steady ? "" : ", work";
+  std::string out = is_steady ? "" : "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
+  out += gains_of_sample(controller) + watch(controller) +
+         "    const lqg_status status = lqg_kalman_{filter}_update_output({kalman}, {state}, {i}, {y}, {s}{watch}{scratch});\n\n";
+  for (int k = 0; k < controller.nxi(); ++k)
+    if (controller.integral()[static_cast<std::size_t>(k)] == output)
+      out += fill("    const lqg_real error = self->r[{NAME}_R_{OUTPUT}] - {y};\n    self->error[{k}] = error - error == 0 ? error : 0;\n",
+                  {{"k", std::to_string(k)}, {"OUTPUT", upper(words["y"].substr(2))}, {"NAME", words["NAME"]}, {"y", words["y"]}});
+  return fill("    LQG_STRICT_BODY\n" + out + end(controller), words);
 }
 
 std::string predict_body(const Controller& controller, const Words& words) {
@@ -178,8 +206,7 @@ std::string options_check(const Controller& controller) {
 
 Bodies compact_bodies(const Controller& controller) {
   Bodies bodies;
-  const bool multiplies = controller.is_fused() && !controller.has_filter() && controller.nxi() > 0;
-  bodies.includes = std::string(multiplies ? "#include <math.h>\n" : "") +
+  bodies.includes = std::string(controller.is_fused() ? "#include <math.h>\n" : "") +
                     "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   const Words words = call_words(controller);
   bodies.resets = needs_reset(controller);
@@ -188,6 +215,9 @@ Bodies compact_bodies(const Controller& controller) {
     bodies.constants = kalman_constants(controller);
     bodies.update = update_body(controller, words);
     bodies.predict = predict_body(controller, words);
+    for (int i = 0; i < controller.ny() && controller.ny() > 1; ++i)
+      if (controller.can_update_alone(i)) bodies.updates_alone.push_back(update_alone_body(controller, words, i));
+    if (controller.ny() == 1) bodies.updates_alone = {only_update_body(controller)};
   }
   if (controller.has_regulator()) {
     bodies.constants += controller.has_servo() ? servo_constants(controller) : lqr_constants(controller);

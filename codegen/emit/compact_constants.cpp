@@ -79,6 +79,7 @@ RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
 std::string steady_fields(const Controller& controller, Tables& tables) {
   const design::SampledPlant& plant = controller.solution.plant;
   std::string out = plant_fields(controller, plant.C, plant.D, tables);
+  if (controller.gates()) tables.add("S", design::RealMatrix(controller.solution.estimator->S.diagonal()));
   return out + "    " + fields({tables.add("L", stacked(controller.filters, 0)),
                                 controller.keeps_innovation() ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
                                 initial_state(controller, tables)}) + "  /* L, M, x0 */\n";

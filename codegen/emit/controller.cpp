@@ -30,6 +30,14 @@ bool Controller::keeps_innovation() const {
 
 bool Controller::keeps_sample() const { return laws.size() > 1; }
 
+bool Controller::has_variance() const {
+  return solution.online || (solution.estimator && solution.estimator->S.size() > 0);
+}
+
+bool Controller::can_update_alone(int output) const {
+  return !solution.online || is_zero(solution.online->E.row(output).head(output));
+}
+
 const std::vector<int>& Controller::integral() const {
   static const std::vector<int> none;
   return has_regulator() && problem.regulator->integral ? problem.regulator->integral->outputs : none;

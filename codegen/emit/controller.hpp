@@ -49,6 +49,9 @@ struct Controller {
   bool keeps_innovation() const;  // predict needs the last outputs: w and v are correlated
   bool keeps_sample() const;      // the number of the sample chooses gains of the law
   bool keeps_gain_row() const { return filters.size() > 1; }
+  bool gates() const { return has_filter() && problem.estimator->gate > 0; }
+  bool has_variance() const;      // of the innovations
+  bool can_update_alone(int output) const;  // no other output is needed to make its noise independent
   const std::vector<int>& integral() const;  // the outputs that are integrated, ξ by ξ
   std::vector<int> references() const;       // the outputs that r names, rising
   int nr() const { return static_cast<int>(references().size()); }

@@ -22,22 +22,88 @@ static inline void {name}_init({name}_t *self)
 )", words);
 }
 
-std::string update_function(const Controller& controller, const Bodies& bodies) {
+// What happens to an output that cannot be used, and what an update may say.
+Words update_words(const Controller& controller) {
   Words words = common_words(controller);
-  words["law"] = controller.has_feedthrough() ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)";
-  words["covariance"] = controller.filter() == step::Filter::steady ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P";
-  words["left_out"] = controller.filter() == step::Filter::steady
-                          ? "An output that is not finite is taken as having come as expected."
-                          : "An output that is not finite is left out of this sample.";
+  const std::string gate = controller.gates() ? ", or is further than " + rounded(controller.problem.estimator->gate) +
+                                                    " σ from what is expected," : "";
+  words["unusable"] = "that is not finite" + gate;
+  words["gated"] = controller.gates() ? " LQG_OUTPUT_GATED," : "";
   words["not_positive"] = controller.filter() == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : "";
+  words["gain"] = controller.filter() == step::Filter::steady ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P";
+  words["law"] = controller.has_feedthrough() ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)";
+  return words;
+}
+
+std::string update_function(const Controller& controller, const Bodies& bodies) {
+  Words words = update_words(controller);
+  words["left_out"] = controller.filter() == step::Filter::steady ? "is taken as having come as expected"
+                                                                   : "is left out of this sample";
   words["body"] = bodies.update;
   return fill(R"(
-/* {law}{covariance}
+/* {law}{gain}
  *
- * y  in: the outputs, in their units. {left_out}
+ * y  in: the outputs, in their units. An output {unusable} {left_out}.
  *
- * Status: LQG_OUTPUT_NOT_FINITE,{not_positive} LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE,{gated}{not_positive} LQG_STATE_RESET. */
 static inline lqg_status {name}_update({name}_t *self, const {real} y[{NAME}_NY])
+{
+{body}}
+)", words);
+}
+
+// Why an update by one output alone is what it is.
+std::string company(const Controller& controller) {
+  if (controller.ny() == 1) return " There is no other: it is the update.";
+  if (controller.filter() == step::Filter::steady)
+    return " An approximation: its gain is the best in the company of the other outputs only.";
+  if (controller.keeps_innovation()) return " At most one such call between two predictions: w and v are correlated.";
+  return " Exact, in any order, as often as there is something to hear.";
+}
+
+std::string update_alone_functions(const Controller& controller, const Bodies& bodies) {
+  std::string out;
+  std::size_t at = 0;
+  for (int i = 0; i < controller.ny(); ++i) {
+    if (!controller.can_update_alone(i)) continue;
+    const design::Signal& signal = controller.problem.plant.outputs[static_cast<std::size_t>(i)];
+    Words words = update_words(controller);
+    words["output"] = signal.name;
+    words["unit"] = signal.unit.empty() ? "in its unit" : "in " + signal.unit;
+    words["company"] = company(controller);
+    words["body"] = bodies.updates_alone[at++];
+    out += fill(R"(
+/* The update by {output} alone, for a sensor with a rate of its own; any number of predictions may lie between two.
+ *{company}
+ *
+ * y_{output}  in: the output, {unit}. One {unusable} is left out.
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE,{gated}{not_positive} LQG_STATE_RESET. */
+static inline lqg_status {name}_update_{output}({name}_t *self, const {real} y_{output})
+{
+{body}}
+)", words);
+  }
+  return out;
+}
+
+std::string innovation_function(const Controller& controller) {
+  Words words = common_words(controller);
+  words["law"] = controller.has_feedthrough() ? "y − C x̂ − D u" : "y − C x̂";
+  words["and"] = !controller.has_variance() ? "" : controller.filter() == step::Filter::steady ? " and the steady variance of each"
+                                                                                             : " and the variance of each, C P Cᵀ + V";
+  words["S"] = controller.has_variance() ? " * S   out: the variances; nu²/S is 1 in the mean as long as the model holds\n " : " ";
+  words["parameter"] = fill(controller.has_variance() ? ", {real} S[{NAME}_NY]" : "", words);
+  words["body"] = innovation_body(controller);
+  return fill(R"(
+/* How far the outputs are from what is expected, {law}{and}:
+ * to be called before update by those who watch the health of sensors and model.
+ *
+ * y   in: the outputs, in their units
+ * nu  out: the innovations
+{S}*/
+static inline void {name}_innovation(const {name}_t *self, const {real} y[{NAME}_NY],
+    {real} nu[{NAME}_NY]{parameter})
 {
 {body}}
 )", words);
@@ -151,13 +217,21 @@ std::string reset_function(const Controller& controller) {
     keep += "    const unsigned sample = self->sample;\n";
     restore += "    self->sample = sample;\n";
   }
-  if (controller.nr()) keep += "\n    for (int i = 0; i < {NAME}_NR; i++)\n        r[i] = self->r[i];\n";
+  if (controller.gates()) {
+    keep += "    unsigned long gated[{NAME}_NY];\n";
+    restore += "    for (int i = 0; i < {NAME}_NY; i++)\n        self->gated[i] = gated[i];\n";
+  }
+  const std::string copies = std::string(controller.nr() ? "    for (int i = 0; i < {NAME}_NR; i++)\n        r[i] = self->r[i];\n" : "") +
+                             (controller.gates() ? "    for (int i = 0; i < {NAME}_NY; i++)\n        gated[i] = self->gated[i];\n" : "");
+  if (!copies.empty()) keep += "\n" + copies;
   else if (!keep.empty()) keep += "\n";
   words["keep"] = fill(keep, words);
   words["restore"] = fill(restore, words);
-  words["but"] = keep.empty() ? "" : controller.nr() && controller.keeps_sample() ? ", but for r and the time"
-                                 : controller.nr()                              ? ", but for r"
-                                                                                : ", but for the time";
+  std::string kept;
+  for (const auto& [is_kept, what] : {std::pair(controller.nr() > 0, "r"), std::pair(controller.keeps_sample(), "the time"),
+                                      std::pair(controller.gates(), "what was counted")})
+    if (is_kept) kept += std::string(kept.empty() ? ", but for " : " and ") + what;
+  words["but"] = kept;
   return fill(R"(
 /* Begins anew{but}: the state was not finite. */
 #ifdef __GNUC__
@@ -231,7 +305,7 @@ std::string functions(const Controller& controller, const Bodies& bodies) {
   if (controller.has_regulator()) out += control_function(controller, bodies);
   if (controller.has_filter())
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
-           set_state_function(controller, bodies);
+           update_alone_functions(controller, bodies) + innovation_function(controller) + set_state_function(controller, bodies);
   if (controller.can_set_input()) out += set_input_function(controller, bodies);
   return out;
 }

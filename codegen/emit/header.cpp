@@ -43,8 +43,7 @@ std::string state_type(const Controller& controller) {
   if (!controller.has_state()) return "";
   std::string fields;
   for (const Field& field : state_fields(controller)) {
-    fields += field.kind == Kind::counter ? "    unsigned " + field.name
-                                          : "    {real} " + field.name + "[" + field.dimension + "]";
+    fields += "    " + declaration(field);
     fields += field.comment.empty() ? ";\n" : ";  /* " + field.comment + " */\n";
   }
   return fill("\n/* The whole state of the controller: no pointers inside, may be copied. Begin it with {name}_init. */\n"

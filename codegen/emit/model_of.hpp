@@ -56,6 +56,7 @@ void convert_steady(const Controller& controller, Round round, std::size_t sampl
   if (controller.has_feedthrough()) model.D = convert<S>(controller.solution.plant.D, round);
   model.L = convert<S>(gains[0], round);
   if (controller.keeps_innovation()) model.M = convert<S>(gains[1], round);
+  if (controller.has_variance()) model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
 }
 
 // The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
@@ -123,6 +124,7 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
     const Eigen::VectorXd x0 = controller.x0();
     model.x0.resize(model.nx);
     for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
+    if (controller.gates()) model.gate = round(design::Real(controller.problem.estimator->gate));
     if (solution.online) convert_online(controller, round, model);
     else convert_steady(controller, round, sample, model);
   }

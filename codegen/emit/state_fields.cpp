@@ -50,13 +50,24 @@ std::vector<Field> state_fields(const Controller& controller) {
     fields.push_back({"sample", Kind::counter, 1, "", "how many samples are over; stops with the last that has gains of its own", {}});
   if (controller.keeps_gain_row())
     fields.push_back({"gain_row", Kind::counter, 1, "", "the same for the filter's gains; 0 after a reset", {}});
+  if (controller.gates())
+    fields.push_back({"gated", Kind::counters, controller.ny(), "{NAME}_NY", "how often the gate left an output out", {}});
   return fields;
 }
 
+std::string declaration(const Field& field) {
+  switch (field.kind) {
+    case Kind::counter: return "unsigned " + field.name;
+    case Kind::counters: return "unsigned long " + field.name + "[" + field.dimension + "]";
+    default: return "{real} " + field.name + "[" + field.dimension + "]";
+  }
+}
+
+// Counters have four bytes on the targets.
 long state_bytes(const Controller& controller) {
   const long real = controller.is_double() ? 8 : 4;
   long bytes = 0;
-  for (const Field& field : state_fields(controller)) bytes += field.kind == Kind::reals ? real * field.count : 4;
+  for (const Field& field : state_fields(controller)) bytes += (field.kind == Kind::reals ? real : 4) * field.count;
   return (bytes + real - 1) / real * real;
 }
 

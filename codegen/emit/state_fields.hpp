@@ -8,7 +8,7 @@
 
 namespace lqg::emit {
 
-enum class Kind { reals, counter };
+enum class Kind { reals, counter, counters };  // counters: an array of unsigned long
 
 struct Field {
   std::string name;
@@ -22,7 +22,10 @@ struct Field {
 // In their order; none where the controller needs no memory.
 std::vector<Field> state_fields(const Controller& controller);
 
-// sizeof(NAME_t)
+// "{real} x[{NAME}_NX]"
+std::string declaration(const Field& field);
+
+// sizeof(NAME_t) on the targets
 long state_bytes(const Controller& controller);
 
 }  // namespace lqg::emit

@@ -1,8 +1,10 @@
 #include "emit/traced.hpp"
 
+#include "design/linear_algebra.hpp"
 #include "emit/gains.hpp"
 #include "emit/model_of.hpp"
 #include "emit/rounding.hpp"
+#include "step/innovation.hpp"
 #include "step/loop.hpp"
 #include "trace/expr.hpp"
 
@@ -21,6 +23,7 @@ const char* status_name(step::Event event) {
     case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
     case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
     case step::Event::input_limited: return "LQG_INPUT_LIMITED";
+    case step::Event::output_gated: return "LQG_OUTPUT_GATED";
     case step::Event::reference_not_finite: return "LQG_REFERENCE_NOT_FINITE";
     default: return "LQG_STATE_RESET";
   }
@@ -50,6 +53,10 @@ class Recorder {
   Condition accept(const Condition& usable, step::Event reason) { return accept_or(usable, flag(reason)); }
   Condition accept(const Condition& usable, const Condition& finite, step::Event if_finite, step::Event if_not) {
     return accept_or(usable, choice(finite, flag(if_finite), flag(if_not)));
+  }
+  void gate(const Condition& gated, int output) {
+    raise(step::Event::output_gated, gated);
+    function_.gates.emplace_back(output, gated.node);
   }
 
  private:
@@ -207,6 +214,13 @@ TracedFunction trace_update(const Controller& controller, const std::vector<bool
   });
 }
 
+TracedFunction trace_update_alone(const Controller& controller, const std::vector<bool>& pattern, int output) {
+  return trace_step(controller, pattern, [&](const Model& model, State& state, Recorder& recorder) {
+    const std::string& name = controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+    return step::update_alone(model, state, Expr::of(trace::graph().input("y_" + name, "y")), output, recorder);
+  });
+}
+
 TracedFunction trace_predict(const Controller& controller, const std::vector<bool>& pattern) {
   return trace_step(controller, pattern, [](const Model& model, State& state, Recorder& recorder) {
     return step::predict(model, state, load(trace::graph(), "u", "u", model.nu), recorder);
@@ -279,6 +293,7 @@ std::vector<int> TracedFunction::results() const {
   for (const trace::Store& store : stores) nodes.push_back(store.node);
   nodes.insert(nodes.end(), statuses.begin(), statuses.end());
   if (finite >= 0) nodes.push_back(finite);
+  for (const auto& [output, gated] : gates) nodes.push_back(gated);
   return nodes;
 }
 
@@ -292,12 +307,45 @@ std::vector<bool> covariance_pattern(const Controller& controller) {
   return pattern;
 }
 
+// The outputs as they are, not made uncorrelated: V = E⁻¹ diag(V) E⁻ᵀ.
+Model model_of_outputs(const Controller& controller) {
+  Model model = symbolic_model(controller);
+  const auto round = [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.is_double())); };
+  model.C = convert<Expr>(controller.solution.plant.C, round);
+  if (controller.has_feedthrough()) model.D = convert<Expr>(controller.solution.plant.D, round);
+  if (!controller.solution.online) return model;
+  const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
+  const design::OnlineSolution& online = *controller.solution.online;
+  const design::RealMatrix inverse = *design::solve(online.E, design::identity(online.E.rows()));
+  model.V = convert<Expr>(design::congruence(inverse, online.V.asDiagonal()).diagonal(), round);
+  return model;
+}
+
+TracedFunction trace_innovation(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  function.is_void = true;
+  const trace::Recording recording(*function.graph);
+  const Model model = model_of_outputs(controller);
+  const State state = load_state(model, covariance_pattern(controller));
+  Recorder recorder(controller, function);
+  const Symbols nu = step::innovations(model, state, load(*function.graph, "y", "y", model.ny), recorder);
+  for (int i = 0; i < model.ny; ++i) store(function, element("nu", i), nu(i));
+  if (!controller.has_variance()) return function;
+  for (int i = 0; i < model.ny; ++i) {
+    recorder.section("S = C P Cᵀ + V", i);
+    store(function, element("S", i), step::innovation_variance(model, state, i, recorder));
+  }
+  return function;
+}
+
 TracedController trace_controller(const Controller& controller) {
   TracedController traced;
   if (controller.has_filter()) {
     const std::vector<bool> pattern = covariance_pattern(controller);
     traced.update = trace_update(controller, pattern);
     traced.predict = trace_predict(controller, pattern);
+    for (int i = 0; i < controller.ny() && controller.ny() > 1; ++i)
+      if (controller.can_update_alone(i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
   }
   if (controller.has_regulator()) traced.control = trace_control(controller);
   if (controller.can_set_input()) traced.set_input = trace_set_input(controller);

@@ -16,13 +16,19 @@ struct TracedFunction {
   std::vector<trace::Store> stores;
   std::vector<int> statuses;  // joined by |
   int finite = -1;  // condition; −1: cannot become infinite
+  bool is_void = false;
+  std::vector<std::pair<int, int>> gates;  // output, and the condition that it was gated
 
   std::vector<int> results() const;
 };
 
 struct TracedController {
   TracedFunction update, control, predict, set_input;
+  std::vector<TracedFunction> updates_alone;
 };
+
+// nu[] and S[] of y[].
+TracedFunction trace_innovation(const Controller& controller);
 
 TracedController trace_controller(const Controller& controller);
 

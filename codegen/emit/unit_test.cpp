@@ -94,7 +94,7 @@ std::string sample(const Controller& controller, const std::string& after_update
   if (!controller.has_filter())
     return reference + "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(" +
            (controller.has_state() ? "&self, " : "") + "x_in[k], u){limited});\n" + after_update + after_control;
-  const std::string update = "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_update(&self, y_in[k]));\n";
+  const std::string update = "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_update(&self, y_in[k]){gated});\n";
   const std::string control =
       controller.has_regulator() ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, u){limited});\n" : "";
   const std::string predict = controller.nu() ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
@@ -209,6 +209,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["samples"] = std::to_string(vectors.samples.size());
   words["every"] = std::to_string(samples_per_covariance);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
+  words["gated"] = controller.gates() ? " & ~LQG_OUTPUT_GATED" : "";
   words["huge"] = controller.is_double() ? "1e308" : "3e38f";
   words["tiny"] = controller.is_double() ? "5e-324" : "1e-45f";
   words["within"] = "";

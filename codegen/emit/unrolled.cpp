@@ -19,6 +19,7 @@ std::string status(const Controller& controller, const TracedFunction& function,
     raised += raised.empty() ? bits : " | " + bits;
   }
   if (raised.empty()) raised = "LQG_OK";
+  if (function.finite < 0 && function.is_void) return "";
   if (function.finite < 0) return "    return " + raised + ";\n";
   return fill(R"({status}
     if (!({finite}))
@@ -43,12 +44,17 @@ std::string rows(const Controller& controller, const std::string& statements) {
 std::string body(const Controller& controller, const TracedFunction& function,
                  std::initializer_list<const char*> parameters, const std::string& last = "") {
   const trace::Printer printer(*function.graph, function.results());
-  const std::string statements = printer.statements(function.stores), end = last + status(controller, function, printer);
+  std::string statements = printer.statements(function.stores);
+  if (!function.gates.empty()) statements += "\n";
+  for (const auto& [output, gated] : function.gates)
+    statements += "    self->gated[" + std::to_string(output) + "] += " + printer.operand(gated) + " ? 1 : 0;\n";
+  const std::string end = last + status(controller, function, printer);
   std::string unused;
   for (const std::string parameter : parameters)
     if ((statements + end).find(parameter == "self" ? "self" : " " + parameter + "[") == std::string::npos)
       unused += "    (void)" + parameter + ";\n";
-  return "    LQG_STRICT_BODY\n" + unused + rows(controller, statements) + statements + "\n" + end;
+  return "    LQG_STRICT_BODY\n" + unused + rows(controller, statements) + statements +
+         (end.empty() ? "" : "\n") + end;
 }
 
 template <class Values>
@@ -80,9 +86,10 @@ std::string initial_state(const Controller& controller) {
   std::string values;
   for (const Field& field : fields) {
     const std::vector<double> zeros(static_cast<std::size_t>(field.count), 0);
-    const std::string value = field.kind == Kind::counter
-                                  ? "0"
-                                  : initializer(field.initial.empty() ? zeros : field.initial, controller.is_double());
+    const std::string value = field.kind == Kind::counter    ? "0"
+                              : field.kind == Kind::counters ? "{0}"
+                                                             : initializer(field.initial.empty() ? zeros : field.initial,
+                                                                           controller.is_double());
     values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "\n" : ",\n");
   }
   return fill(R"(    static const {name}_t initial = {
@@ -112,6 +119,8 @@ Bodies unrolled_bodies(const Controller& controller) {
     bodies.predict = controller.nu() ? body(controller, traced.predict, {"self", "u"}, advance)
                                      : body(controller, traced.predict, {"self"}, advance);
     if (controller.has_regulator()) bodies.control = body(controller, traced.control, {"self"});
+    for (const TracedFunction& update : traced.updates_alone) bodies.updates_alone.push_back(body(controller, update, {"self"}));
+    if (controller.ny() == 1) bodies.updates_alone = {only_update_body(controller)};
   } else if (controller.has_state()) {
     bodies.control = body(controller, traced.control, {"self", "x"}, advance);
   } else {
@@ -121,6 +130,10 @@ Bodies unrolled_bodies(const Controller& controller) {
     bodies.set_input = controller.has_filter() ? body(controller, traced.set_input, {"self", "u"})
                                                : body(controller, traced.set_input, {"self", "x", "u"});
   return bodies;
+}
+
+std::string innovation_body(const Controller& controller) {
+  return body(controller, trace_innovation(controller), {"self", "y"});
 }
 
 }  // namespace lqg::emit

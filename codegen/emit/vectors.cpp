@@ -113,6 +113,12 @@ std::vector<double> references(const Controller& controller, std::size_t sample)
   return r;
 }
 
+// Now and then something far off, for the gate.
+void add_outlier(std::size_t sample, std::vector<double>& y) {
+  constexpr std::size_t every = 17;
+  if (sample % every == 0) y[sample / every % y.size()] = 1024;
+}
+
 // The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
 template <class S>
 std::vector<Sample> simulate(const Controller& controller, const Timeline<S>& models) {
@@ -135,6 +141,7 @@ std::vector<Sample> simulate(const Controller& controller, const Timeline<S>& mo
     };
     if (model.predictor_form) act();
     for (const double y : doubles(plant.measure(applied))) sample.y.push_back(to_target(y, controller.is_double()));
+    if (controller.gates()) add_outlier(samples.size(), sample.y);
     step::update(model, state, vector_of<S>(sample.y), listener);
     if (!model.predictor_form) act();
     for (int i = 0; i < model.nu; ++i) applied(i) = to_target(applied(i), controller.is_double());

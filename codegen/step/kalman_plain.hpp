@@ -27,6 +27,11 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
   listener.name(nu, "measured");
   auto usable = listener.accept(is_usable(nu, variance), is_finite(nu), Event::innovation_not_positive,
                                 Event::output_not_finite);
+  if (!is_zero(model.gate)) {
+    const S likely = select(usable, nu, S(0));
+    listener.name(likely, "finite_innovation");
+    usable = pass_gate(model, likely, variance, usable, i, listener);
+  }
   S reciprocal = select(usable, S(1) / variance, S(0));
   listener.name(reciprocal, "reciprocal");
   nu = select(usable, nu, S(0));
@@ -53,6 +58,16 @@ auto update_plain(const Model<S>& model, State<S>& state, const Vector<S>& measu
   std::vector<decltype(is_finite(y(0)))> usable;
   for (int i = 0; i < model.ny; ++i) usable.push_back(update_plain_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
+  Total<S> total;
+  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
+  return is_finite(total.sum);
+}
+
+// The same of output i alone: as if the others were not there.
+template <class S, class Listener>
+auto update_plain_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
+  auto usable = update_plain_output(model, state, y, i, listener);
+  keep_residual_alone(model, state, y, usable, i, listener);
   Total<S> total;
   for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
   return is_finite(total.sum);

@@ -5,31 +5,55 @@
 
 namespace lqg::step {
 
-// x̂ ← x̂ + L(y − C x̂ − D u). An output that is not finite counts as one that came as expected.
+// The innovation of output i, 0 where it is not finite or beyond the gate: it counts as one that came as expected.
 template <class S, class Listener>
-auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
-  Vector<S> innovation(model.ny);
-  for (int i = 0; i < model.ny; ++i) {
-    listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not finite"
-                                    : "innovation = y − C x̂, 0 if it is not finite", i);
-    S nu = residual(model, state, S(y(i)), i);
-    listener.name(nu, "measured");
-    auto usable = listener.accept(is_finite(nu), Event::output_not_finite);
-    nu = select(usable, nu, S(0));
-    listener.name(nu, "innovation");
-    innovation(i) = nu;
-  }
+S innovate(const Model<S>& model, const State<S>& state, const S& y, int i, Listener& listener) {
+  const std::string otherwise = is_zero(model.gate) ? ", 0 if it is not finite" : ", 0 if it is not finite or beyond the gate";
+  listener.section((model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + otherwise, i);
+  S nu = residual(model, state, y, i);
+  listener.name(nu, "measured");
+  auto usable = listener.accept(is_finite(nu), Event::output_not_finite);
+  nu = select(usable, nu, S(0));
+  listener.name(nu, "innovation");
+  if (is_zero(model.gate)) return nu;
+  auto passed = pass_gate(model, nu, S(model.variance(i)), usable, i, listener);
+  nu = select(passed, nu, S(0));
+  listener.name(nu, "likely");
+  return nu;
+}
+
+// x̂ ← x̂ + L innovation over the outputs from `first` on.
+template <class S, class Listener>
+auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& innovation, int first, Listener& listener) {
   listener.section("x̂ ← x̂ + L innovation");
   Total<S> total;
   for (int j = 0; j < model.nx; ++j) {
     S sum = state.x(j);
-    for (int i = 0; i < model.ny; ++i) sum = multiply_add(S(model.L(j, i)), S(innovation(i)), sum);
+    for (int i = 0; i < innovation.size(); ++i) sum = multiply_add(S(model.L(j, first + i)), S(innovation(i)), sum);
     listener.name(sum, "posterior", j);
     state.x(j) = sum;
     total.add(sum, listener);
   }
-  if (model.M.cols()) state.innovation = innovation;
   return is_finite(total.sum);
+}
+
+// x̂ ← x̂ + L(y − C x̂ − D u)
+template <class S, class Listener>
+auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
+  Vector<S> innovation(model.ny);
+  for (int i = 0; i < model.ny; ++i) innovation(i) = innovate(model, state, S(y(i)), i, listener);
+  auto finite = correct_steady(model, state, innovation, 0, listener);
+  if (model.M.cols()) state.innovation = innovation;
+  return finite;
+}
+
+// The same of output i alone: an approximation, since its gain is the best in the company of the others only.
+template <class S, class Listener>
+auto update_steady_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
+  const S nu = innovate(model, state, y, i, listener);
+  auto finite = correct_steady(model, state, Vector<S>(Vector<S>::Constant(1, nu)), i, listener);
+  if (model.M.cols()) state.innovation(i) = nu;
+  return finite;
 }
 
 template <class S, class Listener>

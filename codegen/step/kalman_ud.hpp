@@ -7,6 +7,15 @@
 
 namespace lqg::step {
 
+// S = V + Σ f (D f), rounded like the α that ends as S.
+template <class S, class Listener>
+S variance_ud(const Model<S>& model, const State<S>& state, const Vector<S>& f, int i, Listener& listener) {
+  S variance = model.V(i);
+  for (int j = 0; j < model.nx; ++j) variance = multiply_add(S(f(j)), S(state.D[j] * f(j)), variance);
+  listener.name(variance, "S");
+  return variance;
+}
+
 // Bierman: column by column α_j = α_{j−1} + f_j g_j, f = Uᵀ Cᵀ, g = D f, α_{−1} = V; S = α at the end.
 // The reciprocal of α is carried along, so that one division a column is enough; f = 0 changes nothing, to the bit.
 template <class S, class Listener>
@@ -25,10 +34,18 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
   for (int j = 0; j < nx; ++j) {
     S sum = model.C(i, j);
     for (int k = 0; k < j; ++k) sum = multiply_add(S(state.U[strict_triangle(k, j)]), S(model.C(i, k)), sum);
-    sum = select(usable, sum, S(0));
-    listener.name(sum, "f", j);
     f(j) = sum;
-    g(j) = state.D[j] * sum;
+  }
+  if (!is_zero(model.gate)) {
+    for (int j = 0; j < nx; ++j) listener.name(f(j), "projected", j);
+    usable = pass_gate(model, nu, variance_ud(model, state, f, i, listener), usable, i, listener);
+    nu = select(usable, nu, S(0));
+    listener.name(nu, "likely");
+  }
+  for (int j = 0; j < nx; ++j) {
+    f(j) = select(usable, S(f(j)), S(0));
+    listener.name(f(j), "f", j);
+    g(j) = state.D[j] * f(j);
     listener.name(g(j), "g", j);
   }
 
@@ -74,6 +91,16 @@ auto update_ud(const Model<S>& model, State<S>& state, const Vector<S>& measured
   std::vector<decltype(is_finite(y(0)))> usable;
   for (int i = 0; i < model.ny; ++i) usable.push_back(update_ud_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
+  Total<S> total;
+  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
+  return is_finite(total.sum);
+}
+
+// The same of output i alone: as if the others were not there.
+template <class S, class Listener>
+auto update_ud_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
+  auto usable = update_ud_output(model, state, y, i, listener);
+  keep_residual_alone(model, state, y, usable, i, listener);
   Total<S> total;
   for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
   return is_finite(total.sum);

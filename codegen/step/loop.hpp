@@ -18,6 +18,17 @@ auto update(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener
   }
 }
 
+// The update by output i alone.
+template <class S, class Listener>
+auto update_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
+  observe_alone(model, state, y, i, listener);
+  switch (model.filter) {
+    case Filter::plain: return update_plain_alone(model, state, y, i, listener);
+    case Filter::ud: return update_ud_alone(model, state, y, i, listener);
+    default: return update_steady_alone(model, state, y, i, listener);
+  }
+}
+
 // x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is finite.
 template <class S, class Listener>
 auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {

@@ -28,6 +28,8 @@ struct Model {
   Matrix<S> M;                 // nx × ny: what the innovation (steady) or the residual (online) tells of w
   Matrix<S> E;                 // ny × ny unit lower triangular, online
   Vector<S> V;                 // ny, online
+  S gate = S(0);               // σ: an innovation beyond it leaves its output out; 0: no gate
+  Vector<S> variance;          // ny, steady, with a gate: of the innovations
   Matrix<S> A_free, W;         // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
   Matrix<S> G;                 // nx × nq, ud: W = G diag(w) Gᵀ
   Vector<S> w;                 // nq, ud
@@ -104,7 +106,7 @@ void begin_anew(const Model<S>& model, State<S>& state) {
   state.r = r;
 }
 
-enum class Event { output_not_finite, innovation_not_positive, input_limited, state_reset, reference_not_finite };
+enum class Event { output_not_finite, innovation_not_positive, input_limited, state_reset, reference_not_finite, output_gated };
 
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {
@@ -127,6 +129,8 @@ struct Listener {
   bool accept(bool usable, bool finite, Event if_finite, Event if_not) {
     return accept(usable, finite ? if_finite : if_not);
   }
+  // A gate left the output out, which is counted.
+  void gate(bool gated, int) { raise(Event::output_gated, gated); }
 };
 
 }  // namespace lqg::step

@@ -20,17 +20,22 @@ Vector<S> decorrelate(const Model<S>& model, const Vector<S>& y, Listener& liste
   return out;
 }
 
-// What is left of the outputs after the update: it tells predict about the noise that w and v share.
+// What is left of an output after the update: it tells predict about the noise that w and v share.
+template <class S, class Listener, class Condition>
+void keep_residual_alone(const Model<S>& model, State<S>& state, const S& y, const Condition& usable, int i,
+                         Listener& listener) {
+  if (!model.M.cols()) return;
+  listener.section("what the output tells of w: y − C x̂ − D u after all updates", i);
+  S left = select(usable, residual(model, state, y, i), S(0));
+  listener.name(left, "residual");
+  state.innovation(i) = left;
+}
+
 template <class S, class Listener, class Condition>
 void keep_residual(const Model<S>& model, State<S>& state, const Vector<S>& y,
                    const std::vector<Condition>& usable, Listener& listener) {
-  if (!model.M.cols()) return;
-  for (int i = 0; i < model.ny; ++i) {
-    listener.section("what the output tells of w: y − C x̂ − D u after all updates", i);
-    S left = select(usable[static_cast<std::size_t>(i)], residual(model, state, S(y(i)), i), S(0));
-    listener.name(left, "residual");
-    state.innovation(i) = left;
-  }
+  for (int i = 0; i < model.ny; ++i)
+    keep_residual_alone(model, state, S(y(i)), usable[static_cast<std::size_t>(i)], i, listener);
 }
 
 }  // namespace lqg::step

@@ -42,6 +42,7 @@ S select(bool condition, const S& yes, const S& no) {
   return condition ? yes : no;
 }
 inline bool either(bool a, bool b) { return a || b; }
+inline bool both(bool a, bool b) { return a && b; }
 inline bool negation(bool a) { return !a; }
 
 // A float or double whose multiply-adds round once, as those of a target with hardware for it do.

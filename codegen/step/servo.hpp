@@ -6,18 +6,23 @@
 
 namespace lqg::step {
 
-// r − y of the integrated outputs, for predict; 0, which leaves its ξ alone, where it is not finite.
+// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where it is not finite.
 template <class S, class Listener>
-void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
+void observe_alone(const Model<S>& model, State<S>& state, const S& y, int output, Listener& listener) {
   for (std::size_t i = 0; i < model.integral.size(); ++i) {
-    const int output = model.integral[i];
+    if (model.integral[i] != output) continue;
     listener.section("r − y, which predict adds to ξ; 0 if it is not finite", output);
-    S error = state.r(model.wanted[i]) - y(output);
+    S error = state.r(model.wanted[i]) - y;
     listener.name(error, "error");
     error = select(is_finite(error), error, S(0));
     listener.name(error, "kept_error");
     state.error(static_cast<Eigen::Index>(i)) = error;
   }
+}
+
+template <class S, class Listener>
+void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
+  for (const int output : model.integral) observe_alone(model, state, S(y(output)), output, listener);
 }
 
 // ξ + H (u − v): the law that gave v with ξ gives u with this one, or as nearly as it can.

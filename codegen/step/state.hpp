@@ -14,6 +14,21 @@ S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {
   return nu;
 }
 
+// Of a usable output: whether ν² ≤ gate² s too. ν is 0 for one that is not usable.
+template <class S, class Condition, class Listener>
+Condition pass_gate(const Model<S>& model, const S& nu, const S& variance, const Condition& usable, int i,
+                    Listener& listener) {
+  if (is_zero(model.gate)) return usable;
+  const S square = nu * nu;
+  auto beyond = is_less(S(S(model.gate * model.gate) * variance), square);
+  auto gated = both(usable, beyond);
+  listener.name(gated, "gated");
+  listener.gate(gated, i);
+  auto passed = both(usable, negation(beyond));
+  listener.name(passed, "passed");
+  return passed;
+}
+
 // x ← A x + B u + M innovation;  innovation ← 0; what the regulator has to remember of u and of this sample
 template <class S, class Listener>
 void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<S>& total, Listener& listener) {

@@ -56,6 +56,7 @@ inline Condition is_finite(const Expr& a) { return {graph().make(Op::finite, a.n
 inline Condition is_less(const Expr& a, const Expr& b) { return {graph().make(Op::less, a.node, b.node)}; }
 inline Condition is_usable(const Expr& a, const Expr& b) { return {graph().make(Op::usable, a.node, b.node)}; }
 inline Condition either(const Condition& a, const Condition& b) { return {graph().make(Op::either, a.node, b.node)}; }
+inline Condition both(const Condition& a, const Condition& b) { return {graph().make(Op::both, a.node, b.node)}; }
 inline Condition negation(const Condition& a) { return {graph().make(Op::negation, a.node)}; }
 
 }  // namespace lqg::trace

@@ -28,21 +28,22 @@ double compute(Op op, bool fused, T a, T b, T c) {
     case Op::less: return a < b;
     case Op::usable: return a - a < b;
     case Op::either: return a != 0 || b != 0;
+    case Op::both: return a != 0 && b != 0;
     case Op::negation: return a == 0;
     default: return a != 0 ? b : c;  // select
   }
 }
 
 bool commutes(Op op) {
-  return op == Op::add || op == Op::multiply || op == Op::either ||
+  return op == Op::add || op == Op::multiply || op == Op::either || op == Op::both ||
          op == Op::multiply_add || op == Op::multiply_subtract;  // the two factors
 }
 
 }  // namespace
 
 bool is_condition(Op op) {
-  return op == Op::finite || op == Op::less || op == Op::either || op == Op::negation ||
-         op == Op::usable || op == Op::same;
+  return op == Op::finite || op == Op::less || op == Op::either || op == Op::both ||
+         op == Op::negation || op == Op::usable || op == Op::same;
 }
 
 int Graph::insert(Node node) {
@@ -175,6 +176,10 @@ int Graph::fold_condition(Op op, int a, int b, int c) {
     case Op::either:
       if (is_constant(a)) return nodes_[a].value != 0 ? a : b;
       if (is_constant(b)) return nodes_[b].value != 0 ? b : a;
+      return a == b ? a : -1;
+    case Op::both:
+      if (is_constant(a)) return nodes_[a].value != 0 ? b : a;
+      if (is_constant(b)) return nodes_[b].value != 0 ? a : b;
       return a == b ? a : -1;
     case Op::negation:
       return nodes_[a].op == Op::negation ? nodes_[a].a : -1;

@@ -15,7 +15,7 @@ enum class Op {
   multiply_add,       // a b + c
   multiply_subtract,  // c − a b
   select,             // a ? b : c
-  finite, less, either, negation,  // conditions
+  finite, less, either, both, negation,  // conditions
   usable,             // a finite and b positive
   flag,               // a status, by its name in C; select chooses between statuses too
   same,               // a == b, of statuses

@@ -144,6 +144,7 @@ std::string Printer::print_operation(int node, int level) const {
       return bracketed(print(at.a, sum) + " - " + print(at.a, product) + " < " + print(at.b, sum), comparison, level);
     case Op::same: return binary(" == ", comparison);
     case Op::either: return bracketed(print(at.a, comparison) + " || " + print(at.b, comparison), logical, level);
+    case Op::both: return bracketed(print(at.a, comparison) + " && " + print(at.b, comparison), logical, level);
     case Op::negation: return "!" + print(at.a, unary + 1);
     default: return at.text;
   }

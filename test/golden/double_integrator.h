@@ -226,6 +226,41 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
     return status;
 }
 
+/* The update by position alone, for a sensor with a rate of its own; any number of predictions may lie between two.
+ * There is no other: it is the update.
+ *
+ * y_position  in: the output, in m. One that is not finite is left out.
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET. */
+static inline lqg_status double_integrator_update_position(double_integrator_t *self, const float y_position)
+{
+    return double_integrator_update(self, &y_position);
+}
+
+/* How far the outputs are from what is expected, y − C x̂ and the variance of each, C P Cᵀ + V:
+ * to be called before update by those who watch the health of sensors and model.
+ *
+ * y   in: the outputs, in their units
+ * nu  out: the innovations
+ * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ */
+static inline void double_integrator_innovation(const double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
+    float nu[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float P_00 = self->P[0];
+    const float y_0 = y[0];
+
+    /* output 0, position [m]: innovation = y − C x̂ */
+    const float innovation_position = y_0 - x_0;
+    nu[0] = innovation_position;
+
+    /* output 0, position [m]: S = C P Cᵀ + V */
+    const float S_position = 1e-06f + P_00;
+    S[0] = S_position;
+}
+
 /* x̂ ← x, by hand; its covariance stays.
  *
  * x  in: the state, in its units

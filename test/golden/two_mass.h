@@ -235,6 +235,116 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
     return status;
 }
 
+/* The update by dy1 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
+ * An approximation: its gain is the best in the company of the other outputs only.
+ *
+ * y_dy1  in: the output, in m. One that is not finite is left out.
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
+static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1)
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float x_1 = self->x[1];
+    const float x_2 = self->x[2];
+    const float x_3 = self->x[3];
+    const float y = y_dy1;
+
+    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not finite */
+    const float measured_dy1 = y - x_0;
+    const lqg_status fault_dy1 = measured_dy1 - measured_dy1 == 0.0f ? LQG_OK
+        : LQG_OUTPUT_NOT_FINITE;
+    const int usable_dy1 = fault_dy1 == LQG_OK;
+    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
+
+    /* x̂ ← x̂ + L innovation */
+    const float posterior_0 = x_0 + 0.7008788f * innovation_dy1;
+    self->x[0] = posterior_0;
+    const float posterior_1 = x_1 + 0.8304034f * innovation_dy1;
+    self->x[1] = posterior_1;
+    const float sum = posterior_0 + posterior_1;
+    const float posterior_2 = x_2 + 0.03500962f * innovation_dy1;
+    self->x[2] = posterior_2;
+    const float sum_a = sum + posterior_2;
+    const float posterior_3 = x_3 + 0.17161791f * innovation_dy1;
+    self->x[3] = posterior_3;
+    const float sum_b = sum_a + posterior_3;
+
+    const lqg_status status = fault_dy1;
+    if (!(sum_b - sum_b == 0.0f))
+        return two_mass_reset(self, status);
+    return status;
+}
+
+/* The update by dy2 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
+ * An approximation: its gain is the best in the company of the other outputs only.
+ *
+ * y_dy2  in: the output, in m. One that is not finite is left out.
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
+static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2)
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float x_1 = self->x[1];
+    const float x_2 = self->x[2];
+    const float x_3 = self->x[3];
+    const float y = y_dy2;
+
+    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not finite */
+    const float measured_dy2 = y - x_2;
+    const lqg_status fault_dy2 = measured_dy2 - measured_dy2 == 0.0f ? LQG_OK
+        : LQG_OUTPUT_NOT_FINITE;
+    const int usable_dy2 = fault_dy2 == LQG_OK;
+    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
+
+    /* x̂ ← x̂ + L innovation */
+    const float posterior_0 = x_0 + 0.03500962f * innovation_dy2;
+    self->x[0] = posterior_0;
+    const float posterior_1 = x_1 - 0.105838105f * innovation_dy2;
+    self->x[1] = posterior_1;
+    const float sum = posterior_0 + posterior_1;
+    const float posterior_2 = x_2 + 0.26355246f * innovation_dy2;
+    self->x[2] = posterior_2;
+    const float sum_a = sum + posterior_2;
+    const float posterior_3 = x_3 + 0.078661025f * innovation_dy2;
+    self->x[3] = posterior_3;
+    const float sum_b = sum_a + posterior_3;
+
+    const lqg_status status = fault_dy2;
+    if (!(sum_b - sum_b == 0.0f))
+        return two_mass_reset(self, status);
+    return status;
+}
+
+/* How far the outputs are from what is expected, y − C x̂ and the steady variance of each:
+ * to be called before update by those who watch the health of sensors and model.
+ *
+ * y   in: the outputs, in their units
+ * nu  out: the innovations
+ * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ */
+static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO_MASS_NY],
+    float nu[TWO_MASS_NY], float S[TWO_MASS_NY])
+{
+    LQG_STRICT_BODY
+    const float x_0 = self->x[0];
+    const float x_2 = self->x[2];
+    const float y_0 = y[0];
+    const float y_1 = y[1];
+
+    /* output 0, dy1 [m]: innovation = y − C x̂ */
+    const float innovation_dy1 = y_0 - x_0;
+    nu[0] = innovation_dy1;
+
+    /* output 1, dy2 [m]: innovation = y − C x̂ */
+    const float innovation_dy2 = y_1 - x_2;
+    nu[1] = innovation_dy2;
+
+    S[0] = 0.0033618314f;
+    S[1] = 0.0013654674f;
+}
+
 /* x̂ ← x, by hand.
  *
  * x  in: the state, in its units

@@ -1,0 +1,46 @@
+// How far the outputs are from what the estimate expects, for those who watch a filter.
+#pragma once
+
+#include "step/kalman_ud.hpp"
+
+namespace lqg::step {
+
+// Uᵀ C_iᵀ
+template <class S>
+Vector<S> projection(const Model<S>& model, const State<S>& state, int i) {
+  Vector<S> f(model.nx);
+  for (int j = 0; j < model.nx; ++j) {
+    f(j) = model.C(i, j);
+    for (int k = 0; k < j; ++k) f(j) = multiply_add(S(state.U[strict_triangle(k, j)]), S(model.C(i, k)), S(f(j)));
+  }
+  return f;
+}
+
+// C_i P C_iᵀ + V_i
+template <class S, class Listener>
+S innovation_variance(const Model<S>& model, const State<S>& state, int i, Listener& listener) {
+  if (model.filter == Filter::steady) return model.variance(i);
+  if (model.filter == Filter::ud) return variance_ud(model, state, projection(model, state, i), i, listener);
+  S variance = model.V(i);
+  for (int j = 0; j < model.nx; ++j) {
+    S sum = S(0);
+    for (int k = 0; k < model.nx; ++k) sum = multiply_add(S(state.P[triangle(j, k)]), S(model.C(i, k)), sum);
+    variance = multiply_add(S(model.C(i, j)), sum, variance);
+  }
+  listener.name(variance, "S");
+  return variance;
+}
+
+// y_i − C_i x̂ − D_i u of each output by itself, before the update, with C, D and V of the outputs as they are.
+template <class S, class Listener>
+Vector<S> innovations(const Model<S>& model, const State<S>& state, const Vector<S>& y, Listener& listener) {
+  Vector<S> nu(model.ny);
+  for (int i = 0; i < model.ny; ++i) {
+    listener.section(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂", i);
+    nu(i) = residual(model, state, S(y(i)), i);
+    listener.name(nu(i), "innovation");
+  }
+  return nu;
+}
+
+}  // namespace lqg::step

@@ -1,0 +1,162 @@
+// Outputs that are watched: the gate, updates by one output alone, innovations and their variances.
+#include <cmath>
+#include <cstdlib>
+
+#include <unity.h>
+
+#include "emit/header.hpp"
+#include "emitted.hpp"
+#include "servo_design.hpp"
+
+using namespace lqg_test;
+using lqg::design::Problem;
+using lqg::design::Solution;
+using lqg::emit::Controller;
+
+extern "C" {
+void setUp(void) {}
+void tearDown(void) {}
+}
+
+namespace {
+
+void gate_at_three(Problem& problem, Solution&) { problem.estimator->gate = 3; }
+
+struct Kind {
+  const char *gain, *covariance;
+};
+const Kind kinds[] = {{"steady", ""}, {"online", "ud"}, {"online", "plain"}};
+
+DesignText design_of(const Kind& kind, DesignText design = double_integrators(2)) {
+  design.gain = kind.gain, design.covariance = kind.covariance;
+  design.name = "loop";
+  return design;
+}
+
+void test_a_gate_in_every_filter() {
+  for (const Kind& kind : kinds)
+    expect_emitted_to_pass(changed(design_of(kind), gate_at_three), {Language::c, Language::cxx});
+}
+
+// Feed-through, cross noise and correlated outputs, fused.
+void test_a_gate_beside_everything_else() {
+  for (const Kind& kind : kinds) {
+    DesignText design = design_of(kind);
+    design.D = (Eigen::MatrixXd(2, 2) << 0.3, 0, 0.1, -0.2).finished();
+    design.V << 0.01, 0.004, 0.004, 0.02;
+    design.Swv = (Eigen::MatrixXd(2, 2) << 0.01, 0, -0.005, 0.02).finished();
+    design.arithmetic = "fused", design.form = "predictor";
+    expect_emitted_to_pass(changed(design, gate_at_three), {Language::c});
+  }
+}
+
+// What a program prints in either style.
+std::string run_in_both_styles(Controller controller, const std::string& body) {
+  std::string printed[2];
+  for (const bool compact : {false, true}) {
+    controller.style = compact ? lqg::design::Style::compact : lqg::design::Style::unrolled;
+    printed[compact] = run_with_header(controller, "#include <stdio.h>\n#include <string.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
+                                                   "    static loop_t self, other;\n    float y[LOOP_NY] = {0}, u[LOOP_NU] = {0};\n"
+                                                   "    unsigned status = 0;\n\n    (void)y;\n    (void)u;\n    (void)status;\n"
+                                                   "    loop_init(&self);\n    loop_init(&other);\n" + body + "    return 0;\n}\n");
+  }
+  TEST_ASSERT_EQUAL_STRING(printed[0].c_str(), printed[1].c_str());
+  return printed[0];
+}
+
+// Far off: left out, reported and counted, in that output alone; a reset keeps the count.
+void test_an_unlikely_output_is_left_out_and_counted() {
+  for (const Kind& kind : kinds) {
+    const std::string printed = run_in_both_styles(changed(design_of(kind), gate_at_three), R"(
+    y[1] = 100;
+    printf("%u ", loop_update(&self, y));
+    printf("%lu %lu %g %g ", self.gated[0], self.gated[1], (double)self.x[2], (double)self.x[3]);
+    y[1] = 0.01f;
+    printf("%u ", loop_update(&self, y));
+    u[0] = 1e38f * 10;
+    printf("%u %lu", loop_predict(&self, u), self.gated[1]);
+)");
+    TEST_ASSERT_EQUAL_STRING("2 0 1 0 0 0 16 1", printed.c_str());
+  }
+}
+
+// The threshold is gate² S: just inside and just outside of it.
+void test_the_gate_is_where_the_variance_says() {
+  for (const Kind& kind : kinds) {
+    const std::string printed = run_in_both_styles(changed(design_of(kind, double_integrator()), gate_at_three), R"(
+    float nu[LOOP_NY], S[LOOP_NY], low = 0, high = 1000;
+
+    loop_innovation(&self, y, nu, S);
+    for (int k = 0; k < 60; k++) {
+        loop_t copy = self;
+        y[0] = (low + high) / 2;
+        if (loop_update(&copy, y) & LQG_OUTPUT_GATED)
+            high = y[0];
+        else
+            low = y[0];
+    }
+    printf("%.5f", (double)(low * low / S[0]));
+)");
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 9, std::strtod(printed.c_str(), nullptr));
+  }
+}
+
+// One output after the other is the update by all of them, to the bit; with constant gains only because these axes know
+// nothing of each other, and the header says so.
+void test_updates_by_one_output_each_are_the_update_by_all() {
+  for (const Kind& kind : kinds) {
+    const Controller controller = changed(design_of(kind), [](Problem&, Solution&) {});
+    const std::string printed = run_in_both_styles(controller, R"(
+    y[0] = 0.3f;
+    y[1] = -0.2f;
+    status |= loop_update(&self, y);
+    status |= loop_update_y0(&other, y[0]);
+    status |= loop_update_y1(&other, y[1]);
+    printf("%u %d", status, memcmp(&self, &other, sizeof self) == 0);
+)");
+    TEST_ASSERT_EQUAL_STRING("0 1", printed.c_str());
+    const bool says_so = lqg::emit::header(controller).find("An approximation: its gain") != std::string::npos;
+    TEST_ASSERT_EQUAL_INT(controller.filter() == lqg::step::Filter::steady, says_so);
+  }
+}
+
+// An output that is decorrelated by another one has no update of its own.
+void test_an_output_that_needs_another_has_no_update_of_its_own() {
+  DesignText design = design_of(kinds[1]);
+  design.V << 0.01, 0.004, 0.004, 0.02;
+  const std::string header = lqg::emit::header(changed(design, [](Problem&, Solution&) {}));
+  TEST_ASSERT_TRUE(header.find("loop_update_y0(") != std::string::npos);
+  TEST_ASSERT_TRUE(header.find("loop_update_y1(") == std::string::npos);
+}
+
+// P0 = I: S of the position is 1 + V, whatever makes the outputs uncorrelated.
+void test_innovation_and_variance_are_those_of_the_outputs_as_they_are() {
+  for (const Kind& kind : {kinds[1], kinds[2]}) {
+    DesignText design = design_of(kind);
+    design.V << 0.01, 0.004, 0.004, 0.02;
+    const std::string printed = run_in_both_styles(changed(design, [](Problem&, Solution&) {}), R"(
+    float nu[LOOP_NY], S[LOOP_NY];
+
+    self.x[0] = 1;
+    y[0] = 1.5f;
+    y[1] = -0.25f;
+    loop_innovation(&self, y, nu, S);
+    printf("%g %g %.5g %.5g", (double)nu[0], (double)nu[1], (double)S[0], (double)S[1]);
+)");
+    TEST_ASSERT_EQUAL_STRING("0.5 -0.25 1.01 1.02", printed.c_str());
+  }
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(test_a_gate_in_every_filter);
+  RUN_TEST(test_a_gate_beside_everything_else);
+  RUN_TEST(test_an_unlikely_output_is_left_out_and_counted);
+  RUN_TEST(test_the_gate_is_where_the_variance_says);
+  RUN_TEST(test_updates_by_one_output_each_are_the_update_by_all);
+  RUN_TEST(test_an_output_that_needs_another_has_no_update_of_its_own);
+  RUN_TEST(test_innovation_and_variance_are_those_of_the_outputs_as_they_are);
+  return UNITY_END();
+}
