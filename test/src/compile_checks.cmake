@@ -48,6 +48,17 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(LQG_PROCESSOR_HAS_FMA TRUE)
 endif()
 
+if(UNIX)
+  set(allow_fma)
+  if(LQG_PROCESSOR_HAS_FMA)
+    set(allow_fma ${fma_flag})
+  endif()
+  add_test(NAME src.bits_are_the_same_with_all_options
+           COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_C_COMPILER} -DFMA=${allow_fma} -DLIBRARY=${library_folder}
+                   -DTESTS=${CMAKE_CURRENT_SOURCE_DIR} -DINCLUDE=${include_folder} -DWORK=${CMAKE_CURRENT_BINARY_DIR}
+                   -P ${CMAKE_CURRENT_SOURCE_DIR}/bits_everywhere.cmake)
+endif()
+
 if(LQG_PROCESSOR_HAS_FMA)
   # What each compiler does of itself in gnu99; clang lets no pragma overrule an explicit "fast".
   set(allowed fast)
