@@ -65,6 +65,32 @@ bool overwrites_design(const Arguments& arguments, const std::vector<emit::File>
   return false;
 }
 
+// What takes long is told on one line of a terminal, which is gone in the end.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const Arguments& arguments) : shows_(!arguments.quiet && ::isatty(STDERR_FILENO)) {}
+  ~ProgressLine() {
+    if (has_line_) std::cerr << "\r\033[K" << std::flush;
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const std::string& line) {
+    if (!shows_) return;
+    std::cerr << "\r\033[K" << line << " …" << std::flush;
+    has_line_ = true;
+  }
+
+ private:
+  bool shows_, has_line_ = false;
+};
+
+std::optional<design::Solution> solve(const Arguments& arguments, const design::Problem& problem,
+                                      design::Findings& findings) {
+  ProgressLine progress(arguments);
+  return design::solve(problem, findings, [&](const std::string& line) { progress.show(line); });
+}
+
 int generate(const Arguments& arguments) {
   const input::DesignFile file = input::read_design_file(arguments.design_file);
   report(arguments, file, file.findings);
@@ -74,7 +100,7 @@ int generate(const Arguments& arguments) {
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
   design::Findings findings;
-  std::optional<design::Solution> solution = design::solve(problem, findings);
+  std::optional<design::Solution> solution = solve(arguments, problem, findings);
   std::optional<emit::Controller> controller;
   if (solution && !design::has_error(findings)) {
     const std::string file_name = std::filesystem::path(arguments.design_file).filename().string();
