@@ -375,6 +375,15 @@ void test_tracked_outputs_come_to_rest_at_r() {
   }
 }
 
+// Masses that rest wherever they are: u is 0, exactly.
+void test_set_point_that_needs_no_input_has_an_exact_zero() {
+  Problem problem = regulator_alone(two_mass());
+  problem.regulator->track = {1};
+  const Solution found = solved(problem);
+  TEST_ASSERT_TRUE(is_zero(found.regulator->Nu) && found.regulator->Nx(1, 0).is_zero());
+  for (const Index position : {0, 2}) TEST_ASSERT_TRUE(to_double(found.regulator->Nx(position, 0)) == 1);
+}
+
 // Two inputs that do the same: the one that costs a quarter does four fifths.
 void test_set_point_of_many_takes_the_least_input() {
   const MatrixXd one = MatrixXd::Constant(1, 1, 1);
@@ -421,6 +430,7 @@ int main() {
   RUN_TEST(test_steady_gain_and_stages_of_the_filter_exclude_each_other);
   RUN_TEST(test_online_filter_of_a_constant_bias_needs_no_steady_one);
   RUN_TEST(test_tracked_outputs_come_to_rest_at_r);
+  RUN_TEST(test_set_point_that_needs_no_input_has_an_exact_zero);
   RUN_TEST(test_set_point_of_many_takes_the_least_input);
   RUN_TEST(test_set_points_that_do_not_exist_are_refused_with_the_reason);
   return UNITY_END();
