@@ -97,8 +97,10 @@ void check_set_points(const SampledPlant& plant, const std::vector<int>& outputs
     return add_error(findings, key,
                      std::to_string(nu) + (nu == 1 ? " input" : " inputs") + " cannot hold "
                          + std::to_string(held) + " outputs: at most as many as there are inputs");
-  const RealMatrix M = above(beside(plant.A - identity(nx), plant.B),
-                             beside(rows_of(plant.C, outputs), rows_of(plant.D, outputs)));
+  const RealMatrix CD = beside(rows_of(plant.C, outputs), rows_of(plant.D, outputs));
+  if (eliminated(CD).rank < held)
+    return add_error(findings, key, "these outputs depend on each other: they have no set points of their own");
+  const RealMatrix M = above(beside(plant.A - identity(nx), plant.B), CD);
   if (eliminated(M).rank < nx + held)
     add_error(findings, key,
               "the plant has a zero at z = 1 (s = 0) from its inputs to these outputs: no constant input holds "

@@ -31,6 +31,14 @@ RealMatrix weight_of_constant_input(const Problem& problem, const SampledCost& c
   return cost.R + across + across.transpose() + transpose_congruence(same, Q);
 }
 
+// A plant that rests anywhere needs no input for it: what elimination leaves of such a zero is one.
+RealMatrix without_rounding(RealMatrix a) {
+  const Real least = negligible(0.6) * largest_entry(a);
+  for (Index i = 0; i < a.size(); ++i)
+    if (abs(a.data()[i]) <= least) a.data()[i] = 0;
+  return a;
+}
+
 }  // namespace
 
 std::vector<int> reference_outputs(const Regulator& regulator) {
@@ -60,8 +68,8 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
   RealMatrix of_u = zeros(nx + nu, nx + nu), of_x = of_u;
   of_u.bottomRightCorner(nu, nu) = weight_of_constant_input(problem, cost);
   of_x.topLeftCorner(nx, nx) = identity(nx);
-  const Freedom point = least(least({all.particular, all.null}, of_u), of_x);
-  return SetPoint{point.particular.topRows(nx), point.particular.bottomRows(nu)};
+  const RealMatrix point = without_rounding(least(least({all.particular, all.null}, of_u), of_x).particular);
+  return SetPoint{point.topRows(nx), point.bottomRows(nu)};
 }
 
 RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const SetPoint& set_point) {

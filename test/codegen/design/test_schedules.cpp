@@ -247,11 +247,10 @@ void test_scheduled_gains_are_those_of_the_information_filter() {
     const SampledPlant& plant = found.plant;
     const SampledNoise& noise = found.estimator->noise;
     const Index nx = plant.A.rows(), ny = plant.C.rows();
-    RealMatrix P = real(problem.estimator->P0) ;
+    RealMatrix P = real(problem.estimator->P0);
     for (const RealMatrix& L : found.estimator->L_schedule) {
       const RealMatrix VC = *solve(noise.V, plant.C);
-      const RealMatrix one = identity(nx), posterior =
-          *solve(identity(nx) + multiply(P, transpose_multiply(plant.C, VC)), P);
+      const RealMatrix posterior = *solve(identity(nx) + multiply(P, transpose_multiply(plant.C, VC)), P);
       expect_small(distance(L, multiply_transpose(posterior, VC)), 1e-14, "L");
       P = congruence(plant.A, symmetric_part(posterior)) + congruence(plant.G, noise.W);
     }
@@ -375,6 +374,15 @@ void test_tracked_outputs_come_to_rest_at_r() {
   }
 }
 
+// Masses that rest wherever they are: u is 0, exactly.
+void test_set_point_that_needs_no_input_has_an_exact_zero() {
+  Problem problem = regulator_alone(two_mass());
+  problem.regulator->track = {1};
+  const Solution found = solved(problem);
+  TEST_ASSERT_TRUE(is_zero(found.regulator->Nu) && found.regulator->Nx(1, 0).is_zero());
+  for (const Index position : {0, 2}) TEST_ASSERT_TRUE(to_double(found.regulator->Nx(position, 0)) == 1);
+}
+
 // Two inputs that do the same: the one that costs a quarter does four fifths.
 void test_set_point_of_many_takes_the_least_input() {
   const MatrixXd one = MatrixXd::Constant(1, 1, 1);
@@ -395,7 +403,18 @@ void test_set_points_that_do_not_exist_are_refused_with_the_reason() {
   problem.regulator->track = {0};
   problem.plant.C.row(0) << 0, 1, 0, 0;  // a speed
   TEST_ASSERT_TRUE(is_refused(problem, "lqr.track", "zero at z = 1"));
-  problem.regulator->track = {};
+  problem.plant.B = MatrixXd::Identity(4, 2);
+  problem.plant.D = MatrixXd::Zero(2, 2);
+  problem.plant.C.row(0) = -2 * problem.plant.C.row(1);
+  problem.regulator->R = MatrixXd::Identity(2, 2);
+  problem.regulator->N = MatrixXd::Zero(4, 2);
+  problem.regulator->track = {0, 1};
+  TEST_ASSERT_TRUE(is_refused(problem, "lqr.track", "depend on each other"));
+}
+
+void test_integral_of_a_speed_is_refused_with_the_reason() {
+  Problem problem = regulator_alone(two_mass());
+  problem.plant.C.row(0) << 0, 1, 0, 0;
   problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 1)};
   TEST_ASSERT_TRUE(is_refused(problem, "lqr.integral", "zero at z = 1"));
 }
@@ -421,7 +440,9 @@ int main() {
   RUN_TEST(test_steady_gain_and_stages_of_the_filter_exclude_each_other);
   RUN_TEST(test_online_filter_of_a_constant_bias_needs_no_steady_one);
   RUN_TEST(test_tracked_outputs_come_to_rest_at_r);
+  RUN_TEST(test_set_point_that_needs_no_input_has_an_exact_zero);
   RUN_TEST(test_set_point_of_many_takes_the_least_input);
   RUN_TEST(test_set_points_that_do_not_exist_are_refused_with_the_reason);
+  RUN_TEST(test_integral_of_a_speed_is_refused_with_the_reason);
   return UNITY_END();
 }
