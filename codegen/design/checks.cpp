@@ -1,11 +1,10 @@
 #include "design/checks.hpp"
 
-#include <cstdio>
-
 #include "design/augmentation.hpp"
 #include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"
+#include "design/poles.hpp"
 #include "design/noise.hpp"
 #include "design/rounding.hpp"
 #include "design/weights.hpp"
@@ -13,21 +12,6 @@
 namespace lqg::design {
 
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-// Parts that are rounding beside the rest are left out, so that the text does not depend on the digits.
-std::string short_complex(const ComplexReal& value, const Real& scale) {
-  const Real size = std::max<Real>(hypot(value.re, value.im), scale) * 1e-14;
-  const double re = abs(value.re) <= size ? 0 : to_double(value.re);
-  const double im = abs(value.im) <= size ? 0 : to_double(value.im);
-  if (im == 0) return short_number(re);
-  return (re == 0 ? "±" : short_number(re) + " ± ") + short_number(im) + "j";
-}
 
 std::string name_states(const Plant& plant, const std::vector<Index>& states) {
   const std::size_t most = 8;
@@ -165,9 +149,17 @@ void add_once(Findings& findings, const std::string& key, const std::string& mes
   add_error(findings, key, message);
 }
 
-// The matrix is not positive semidefinite by more than what typing rounded numbers explains.
+Real least_eigenvalue(const RealMatrix& weight) {
+  Real least;
+  for (const ComplexReal& value : eigenvalues(weight)) least = std::min<Real>(least, value.re);
+  return least;
+}
+
+// The matrix is not positive semidefinite by more than what typing rounded numbers explains, whatever the units of
+// its rows, or what computing it in double leaves beside its norm.
 bool is_indefinite(const RealMatrix& weight) {
-  return !positive_definite(weight) && least_scaled_eigenvalue(weight) < -1e-9;
+  if (positive_definite(weight) || least_scaled_eigenvalue(weight) >= -1e-9) return false;
+  return least_eigenvalue(weight) < -2.3e-16 * static_cast<double>(weight.rows()) * norm(weight);
 }
 
 RealMatrix joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b) {
@@ -185,11 +177,8 @@ void check_joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix&
   const std::string expected = "expected a positive semidefinite matrix, found the eigenvalue ";
   const std::size_t before = findings.size();
   for (const auto& [matrix, key] : {std::make_pair(&a, &key_a), std::make_pair(&b, &key_b)})
-    if (is_indefinite(*matrix)) {
-      Real least;
-      for (const ComplexReal& value : eigenvalues(*matrix)) least = std::min<Real>(least, value.re);
-      add_error(findings, *key, expected + short_number(to_double(least)));
-    }
+    if (is_indefinite(*matrix))
+      add_error(findings, *key, expected + short_number(to_double(least_eigenvalue(*matrix))));
   if (findings.size() == before && is_indefinite(joint(a, cross, b)))
     add_error(findings, key_cross, "with this cross term the weights together are not positive semidefinite");
 }
@@ -336,13 +325,24 @@ void check_regulator_definiteness(const Problem& problem, Findings& findings) {
   if (lqr.integral) check_semidefinite(lqr.integral->Q, "lqr.integral", findings);
 }
 
+// The first output whose noise is none, or follows from that of the outputs before it.
+void check_measurement_noise(const Plant& plant, const RealMatrix& V, Findings& findings) {
+  const Factors factors = lower_factors(V);
+  for (Index i = 0; i < V.rows(); ++i) {
+    if (factors.d(i) > 0) continue;
+    const std::size_t k = static_cast<std::size_t>(i);
+    const std::string name = k < plant.outputs.size() ? plant.outputs[k].name : "y" + std::to_string(i);
+    return add_error(findings, "kalman.measurement_noise",
+                     "expected a positive definite matrix: every output needs some noise of its own, " + name
+                         + (V(i, i) > 0 ? " has only that of the outputs before it" : " has none"));
+  }
+}
+
 void check_estimator_definiteness(const Problem& problem, Findings& findings) {
   const Estimator& kalman = *problem.estimator;
   check_joint(real(kalman.W), real(kalman.Swv), real(kalman.V), "kalman.process_noise", "kalman.cross_noise",
               "kalman.measurement_noise", findings);
-  if (!has_error(findings) && !positive_definite(noise_of(problem).V))
-    add_error(findings, "kalman.measurement_noise",
-              "expected a positive definite matrix: every output needs some noise");
+  if (!has_error(findings)) check_measurement_noise(problem.plant, noise_of(problem).V, findings);
   if (kalman.gain != Gain::steady)
     check_semidefinite(kalman.P0, "kalman.initial_covariance", findings);
 }
@@ -405,22 +405,51 @@ bool check_observable(const Problem& problem, const SampledPlant& sampled, const
   return certain;
 }
 
-// The modes of (A − BR⁻¹Nᵀ, Q − NR⁻¹Nᵀ) that are not observable: with R > 0 the only ones that cost nothing.
+namespace {
+
+// A pair whose modes on the stability limit all have to be reached, for X or P to be stabilising.
+struct LimitPair {
+  RealMatrix A, weight;   // weight: symmetric, or any columns that reach
+  bool is_continuous;
+
+  bool on_limit(const ComplexReal& value) const {
+    return is_continuous ? on_axis(value, norm(A)) : on_circle(value);
+  }
+};
+
+// Modes on the limit that carry no weight, or, as rounded numbers may have it, less than none: vᴴ weight v < 0.
+std::vector<Mode> unweighted_on_limit(const LimitPair& pair) {
+  std::vector<Mode> found;
+  const Unreached unreached = pair.is_continuous ? unreached_modes(pair.A, pair.weight)
+                                                 : unreached_sampled_modes(pair.A, pair.weight);
+  for (const Mode& mode : unreached.modes)
+    if (pair.on_limit(mode.value)) found.push_back(mode);
+  if (!found.empty() || pair.weight.rows() != pair.weight.cols() || positive_definite(pair.weight)) return found;
+  for (const ComplexReal& value : eigenvalues(pair.A)) {
+    if (value.im < 0 || !pair.on_limit(value)) continue;
+    const LeftEigenvector v = left_eigenvector(pair.A, value);
+    const RealMatrix own = transpose_congruence(v.re, pair.weight) + transpose_congruence(v.im, pair.weight);
+    if (own(0, 0) < -no_coupling() * largest_entry(pair.weight)) found.push_back({value, v.states});
+  }
+  return found;
+}
+
+// (A − BR⁻¹Nᵀ)ᵀ and Q − NR⁻¹Nᵀ: with R > 0 its unobservable modes are the only ones that cost nothing. With a singular
+// R those of (A, [Q N]) are some of them.
+LimitPair weighted_modes(const RiccatiEquation& e, bool is_continuous) {
+  if (!positive_definite(e.R)) return {e.A.transpose(), beside(e.Q, e.N), is_continuous};
+  const RealMatrix weighed = *solve(e.R, e.N.transpose());
+  return {(e.A - multiply(e.B, weighed)).transpose(), symmetric_part(e.Q - multiply(e.N, weighed)), is_continuous};
+}
+
+}  // namespace
+
 void check_weights_on_limit(const Problem& problem, const RiccatiEquation& e, Findings& findings) {
   const bool is_continuous = problem.regulator->cost == Cost::continuous;
-  if (!positive_definite(e.R)) return;
-  const RealMatrix weighed = *solve(e.R, e.N.transpose());
-  const RealMatrix free = e.A - multiply(e.B, weighed);
-  const RealMatrix weight = e.Q - multiply(e.N, weighed);
-  const Unreached unweighed = is_continuous ? unreached_modes(free.transpose(), weight)
-                                            : unreached_sampled_modes(free.transpose(), weight);
-  for (const Mode& mode : unweighed.modes) {
-    const bool on_limit = is_continuous ? on_axis(mode.value, norm(free)) : on_circle(mode.value);
-    if (on_limit)
-      add_once(findings, "lqr.Q",
-               name_mode(with_regulated_states(problem), without_decay(problem, mode), is_continuous)
-                   + " is on the stability limit and carries no weight: no stabilising gain is optimal");
-  }
+  for (const Mode& mode : unweighted_on_limit(weighted_modes(e, is_continuous)))
+    add_once(findings, "lqr.Q",
+             name_mode(with_regulated_states(problem), without_decay(problem, mode), is_continuous)
+                 + " is on the stability limit and carries no weight: no stabilising gain is optimal");
 }
 
 // The modes of (A − G Swv V⁻¹C, G(W − Swv V⁻¹Swvᵀ)Gᵀ) that are not reached.
@@ -432,12 +461,11 @@ void check_noise_on_limit(const Problem& problem, const Samples& samples, Findin
   const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
   const RealMatrix own =
       congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
-  for (const Mode& mode : unreached_sampled_modes(free, own).modes)
-    if (on_circle(mode.value))
-      add_once(findings, "kalman.process_noise",
-               name_mode(problem.plant, mode, false)
-                   + " is on the stability limit and driven by no process noise: "
-                     "no stable steady filter is optimal");
+  for (const Mode& mode : unweighted_on_limit({free, own, false}))
+    add_once(findings, "kalman.process_noise",
+             name_mode(problem.plant, mode, false)
+                 + " is on the stability limit and driven by no process noise: "
+                   "no stable steady filter is optimal");
 }
 
 }  // namespace lqg::design

@@ -120,6 +120,20 @@ Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B, cons
   return result;
 }
 
+// (A − λ)ᵀ(A − λ̄)ᵀ takes a real v to 0; then (A − λ)ᵀv is an eigenvector, or 0.
+LeftEigenvector left_eigenvector(const RealMatrix& A, const ComplexReal& value) {
+  LeftEigenvector result;
+  const RealMatrix v = null_vector(annihilator(A, value).transpose());
+  result.re = v;
+  result.im = zeros(v.rows(), 1);
+  if (!value.im.is_zero()) {
+    result.re = transpose_multiply(A, v) - value.re * v;
+    result.im = value.im * v;
+  }
+  result.states = states_of(identity(A.rows()), A, value);
+  return result;
+}
+
 bool on_or_outside_circle(const ComplexReal& z) { return hypot(z.re, z.im) >= 1 - limit(); }
 
 bool on_circle(const ComplexReal& z) { return abs(hypot(z.re, z.im) - 1) <= limit(); }

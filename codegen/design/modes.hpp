@@ -27,6 +27,14 @@ Unreached unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& 
 Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B,
                                   const Real& coupling = no_coupling());
 
+// v with vᴴA = λvᴴ, unscaled, and the states in it.
+struct LeftEigenvector {
+  RealMatrix re, im;  // columns
+  std::vector<Index> states;
+};
+
+LeftEigenvector left_eigenvector(const RealMatrix& A, const ComplexReal& value);
+
 // Is the mode on the limit of stability or beyond? 10^(−digits/6) inside of it still counts as on it.
 bool on_or_outside_circle(const ComplexReal& z);
 bool on_circle(const ComplexReal& z);

@@ -118,12 +118,63 @@ bool is_well_posed(const Problem& problem, Findings& findings) {
   return !has_error(findings);
 }
 
+// The pole nearest to the unit circle, and how near it is.
+struct Nearest {
+  ComplexReal pole = {Real(0), Real(0)};
+  Real distance = 1;
+};
+
+Nearest nearest_to_circle(const std::vector<ComplexReal>& poles) {
+  Nearest nearest;
+  for (const ComplexReal& pole : poles) {
+    const Real distance = abs(1 - hypot(pole.re, pole.im));
+    if (distance < nearest.distance) nearest = {pole, distance};
+  }
+  return nearest;
+}
+
+// Has a pole no place but the circle to go to? From run to run it comes nearer, as near as the digits let it.
+class Tendency {
+ public:
+  // True when that was so twice.
+  bool continues(const std::vector<ComplexReal>& coarse, const std::vector<ComplexReal>& fine) {
+    const Nearest now = nearest_to_circle(fine);
+    const bool nearer = now.distance < 1e-9 && now.distance < 1e-4 * nearest_to_circle(coarse).distance;
+    times_ = nearer ? times_ + 1 : 0;
+    limit_ = now.pole;
+    return times_ >= 2;
+  }
+  std::string pole() const { return short_complex({limit_.re, abs(limit_.im)}, 1); }
+
+ private:
+  int times_ = 0;
+  ComplexReal limit_ = {Real(0), Real(0)};
+};
+
+struct Tendencies {
+  Tendency regulator, estimator;
+};
+
+// Refuses what no digits can settle: a solution that is not stabilising.
+void check_tendencies(const Draft& coarse, const Draft& fine, Tendencies& tendencies, Findings& findings) {
+  const std::string limit = " on the stability limit: that mode carries no ";
+  if (tendencies.regulator.continues(coarse.regulator_poles, fine.regulator_poles))
+    add_error(findings, "lqr.Q",
+              "a closed-loop pole tends to z = " + tendencies.regulator.pole() + limit
+                  + "weight, and no stabilising gain is optimal");
+  if (tendencies.estimator.continues(coarse.estimator_poles, fine.estimator_poles))
+    add_error(findings, "kalman.process_noise",
+              "a pole of the filter tends to z = " + tendencies.estimator.pole() + limit
+                  + "noise, and no stable steady filter is optimal");
+}
+
 }  // namespace
 
 std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress) {
   const ProgressScope reporting(progress);
   std::optional<Draft> coarse;
   unsigned coarse_digits = 0;
+  Tendencies tendencies;
   for (const unsigned digits : runs) {
     const Digits scope(digits);
     if (!coarse && !is_well_posed(problem, findings)) return std::nullopt;
@@ -144,6 +195,8 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
       if (has_error(findings)) return std::nullopt;
       return fine.solution;
     }
+    if (has_start && !failed) check_tendencies(*coarse, fine, tendencies, findings);
+    if (has_error(findings)) return std::nullopt;
     coarse = std::move(fine);
     coarse_digits = digits;
   }

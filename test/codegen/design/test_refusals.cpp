@@ -197,6 +197,55 @@ void test_indefinite_weights_and_covariances() {
   expect_refusal(problem, "kalman.measurement_noise", {"every output"});
 }
 
+// x⁺ = x + v + u/2, v⁺ = v + u.
+Problem discrete_integrators(double weight_x, double weight_v) {
+  Problem problem = regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 1, 1, 0, 1).finished(),
+                                    Eigen::Vector2d(0.5, 1));
+  problem.regulator->Q = Eigen::Vector2d(weight_x, weight_v).asDiagonal();
+  return problem;
+}
+
+void test_weight_a_rounding_below_zero_on_a_mode_on_the_limit() {
+  Problem problem = double_integrator(0.1);
+  problem.regulator->Q = Eigen::Vector2d(-1e-17, 1).asDiagonal();
+  expect_refusal(problem, "lqr.Q", {"s = 0 (z = 1; state x0)", "carries no weight"});
+}
+
+void test_weight_a_rounding_below_zero_on_a_stable_mode_is_no_reason() {
+  Problem problem = regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -2).asDiagonal(),
+                                    Eigen::Vector2d(1, 1));
+  problem.regulator->Q = Eigen::Vector2d(-1e-17, 1).asDiagonal();
+  solved(problem);
+}
+
+void test_integrator_without_weight_under_free_inputs() {
+  Problem problem = discrete_integrators(0, 1);
+  problem.regulator->R.setZero();
+  expect_refusal(problem, "lqr.Q", {"z = 1 (state x0)", "carries no weight"});
+}
+
+// With R = 0 the poles go to the zeros from u to what is weighed: x has one at z = −1.
+void test_zero_on_the_circle_under_free_inputs() {
+  Problem problem = discrete_integrators(1, 0);
+  problem.regulator->R.setZero();
+  expect_refusal(problem, "lqr.Q", {"tends to z = -1", "no stabilising gain is optimal"});
+}
+
+void test_free_inputs_are_no_reason_where_every_state_is_weighed() {
+  Problem problem = discrete_integrators(1, 1);
+  problem.regulator->R.setZero();
+  solved(problem);
+}
+
+void test_output_without_noise_is_named() {
+  Problem problem = two_mass();
+  problem.plant.outputs = {{"near", "m"}, {"far", "m"}};
+  problem.estimator->V(1, 1) = 0;
+  expect_refusal(problem, "kalman.measurement_noise", {"every output", "far has none"});
+  problem.estimator->V.setOnes();
+  expect_refusal(problem, "kalman.measurement_noise", {"far has only that of the outputs before it"});
+}
+
 void test_weight_that_is_not_symmetric() {
   Problem problem = double_integrator(0.1);
   problem.regulator->Q(0, 1) = 1e-3;
@@ -271,6 +320,12 @@ int main() {
   RUN_TEST(test_continuous_cost_needs_R);
   RUN_TEST(test_discrete_plant_has_no_trajectory_between_its_samples);
   RUN_TEST(test_indefinite_weights_and_covariances);
+  RUN_TEST(test_weight_a_rounding_below_zero_on_a_mode_on_the_limit);
+  RUN_TEST(test_weight_a_rounding_below_zero_on_a_stable_mode_is_no_reason);
+  RUN_TEST(test_integrator_without_weight_under_free_inputs);
+  RUN_TEST(test_zero_on_the_circle_under_free_inputs);
+  RUN_TEST(test_free_inputs_are_no_reason_where_every_state_is_weighed);
+  RUN_TEST(test_output_without_noise_is_named);
   RUN_TEST(test_weight_that_is_not_symmetric);
   RUN_TEST(test_weight_of_typed_digits_passes_when_they_are_many);
   RUN_TEST(test_sampled_plant_too_large_for_the_target);
