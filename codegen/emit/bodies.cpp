@@ -7,7 +7,7 @@ std::string advance_counters(const Controller& controller) {
     return "    if (self->" + counter + " < " + std::to_string(last) + ")\n        self->" + counter + "++;\n";
   };
   std::string out;
-  if (controller.keeps_sample()) out += advance("sample", controller.laws.size() - 1);
+  if (controller.keeps_sample()) out += advance("sample", controller.last_sample());
   if (controller.keeps_gain_row()) out += advance("gain_row", controller.filters.size() - 1);
   return out;
 }

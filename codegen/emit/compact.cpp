@@ -1,4 +1,6 @@
 // Calls of the library's loops over constant matrices.
+#include <algorithm>
+
 #include "emit/bodies.hpp"
 #include "emit/compact_constants.hpp"
 #include "emit/model_of.hpp"
@@ -11,7 +13,8 @@ namespace {
 
 // The library restores the filter alone after a fault; the rest is up to us.
 bool needs_reset(const Controller& controller) {
-  return controller.nxi() > 0 || controller.continues() || controller.keeps_gain_row() || controller.can_set_input();
+  if (controller.nxi() > 0 || controller.continues() || controller.keeps_gain_row() || controller.can_set_input()) return true;
+  return controller.has_filter() && (controller.nr() > 0 || controller.keeps_sample() || controller.gates());
 }
 
 std::string multiply_add(const Controller& controller, const std::string& a, const std::string& b) {
@@ -28,16 +31,20 @@ Words call_words(const Controller& controller) {
   if (controller.filter() == step::Filter::plain) covariance = "self->P, ";
   if (controller.filter() == step::Filter::ud) {
     covariance = controller.nx() > 1 ? "self->U, self->d, " : "NULL, self->d, ";
-    nq = ", " + std::to_string(controller.solution.online->G.cols());
+    Eigen::Index most = 0;
+    for (const std::size_t start : controller.stage_starts()) most = std::max(most, controller.online_at(start).G.cols());
+    nq = ", " + std::to_string(most);
   }
   words["FILTER"] = upper(words["filter"]);
   words["nq"] = nq;
   words["state"] = "self->x, " + covariance + u_applied + ", " + innovation;
   words["u"] = controller.nu() ? "u" : "NULL";
-  words["kalman"] = controller.keeps_gain_row() ? "&kalman" : fill("&{NAME}_KALMAN", words);
-  words["servo"] = controller.keeps_sample() ? "&servo" : fill("&{NAME}_SERVO", words);
-  words["lqr"] = controller.keeps_sample() ? "&lqr" : fill("&{NAME}_LQR", words);
-  words["variances"] = controller.filter() == step::Filter::steady ? fill("{NAME}_KALMAN_S, ", words) : "";
+  words["plant"] = fill(controller.has_stages() ? "{name}_kalman(self)" : "&{NAME}_KALMAN", words);
+  words["first"] = fill(controller.has_stages() ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", words);
+  words["kalman"] = controller.keeps_gain_row() ? "&kalman" : words["plant"];
+  words["servo"] = controller.has_law_table() ? "&servo" : fill("&{NAME}_SERVO", words);
+  words["lqr"] = controller.has_law_table() ? "&lqr" : fill("&{NAME}_LQR", words);
+  words["variances"] = controller.filter() == step::Filter::steady ? fill(controller.keeps_gain_row() ? "{NAME}_KALMAN_S + self->gain_row * {NAME}_NY, " : "{NAME}_KALMAN_S, ", words) : "";
   const bool integrates = controller.nxi() > 0;
   words["r"] = controller.nr() ? "self->r" : "NULL";
   words["memory"] = integrates ? "self->xi, self->error, self->demand, " : "NULL, NULL, NULL, ";
@@ -51,17 +58,20 @@ Words call_words(const Controller& controller) {
 // Copies of the descriptions that point to the gains of this sample.
 std::string gains_of_sample(const Controller& controller) {
   if (!controller.keeps_gain_row()) return "";
-  return std::string("    lqg_kalman_steady_t kalman = {NAME}_KALMAN;\n") +
+  return std::string("    lqg_kalman_steady_t kalman = *{plant};\n") +
          "    kalman.L += self->gain_row * ({NAME}_NX * {NAME}_NY);\n" +
          (controller.keeps_innovation() ? "    kalman.M += self->gain_row * ({NAME}_NX * {NAME}_NY);\n" : "");
 }
 
 std::string law_of_sample(const Controller& controller) {
-  if (!controller.keeps_sample()) return "";
+  if (!controller.has_law_table()) return "";
+  const std::string last = std::to_string(controller.laws.size() - 1);
+  const std::string row = controller.laws.size() - 1 == controller.last_sample()
+                              ? "self->sample" : "(self->sample < " + last + " ? self->sample : " + last + ")";
   const auto advance = [&](const char* law, const char* matrix, std::size_t at) {
     const design::RealMatrix& gain = controller.laws.front()[at];
     if (gain.size() == 0) return std::string();
-    return "    " + std::string(law) + "." + matrix + " += self->sample * " + std::to_string(gain.size()) + ";\n";
+    return "    " + std::string(law) + "." + matrix + " += " + row + " * " + std::to_string(gain.size()) + ";\n";
   };
   if (!controller.has_servo()) return "    lqg_lqr_t lqr = {NAME}_LQR;\n" + advance("lqr", "K", 0);
   return "    lqg_servo_t servo = {NAME}_SERVO;\n" + advance("servo", "K", 0) + advance("servo", "Nbar", 1) +
@@ -76,7 +86,7 @@ std::string end(const Controller& controller) {
 
 std::string init_body(const Controller& controller, const Words& words) {
   std::string out;
-  if (controller.has_filter()) out += "    lqg_kalman_{filter}_init(&{NAME}_KALMAN, {state});\n";
+  if (controller.has_filter()) out += "    lqg_kalman_{filter}_init({first}, {state});\n";
   if (controller.has_servo()) out += "    lqg_servo_init(&{NAME}_SERVO, {memory});\n";
   if (controller.nr()) out += "    for (int i = 0; i < {NAME}_NR; i++)\n        self->r[i] = 0;\n";
   for (const Field& field : state_fields(controller))

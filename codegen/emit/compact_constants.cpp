@@ -52,10 +52,11 @@ std::string fields(std::initializer_list<std::string> values) {
   return out;
 }
 
-std::string plant_fields(const Controller& controller, const RealMatrix& C, const RealMatrix& D, Tables& tables) {
+std::string plant_fields(const Controller& controller, const design::SampledPlant& plant, const RealMatrix& C,
+                         const RealMatrix& D, Tables& tables) {
   const std::string NAME = upper(controller.problem.name);
   return "    {" + fields({NAME + "_NX", std::to_string(controller.nu()), NAME + "_NY",
-                           tables.add("A", controller.solution.plant.A), tables.add("B", controller.solution.plant.B),
+                           tables.add("A", plant.A), tables.add("B", plant.B),
                            tables.add("C", C), tables.add_unless_zero("D", D)}) +
          "},  /* nx, nu, ny, A, B, C, D */\n";
 }
@@ -76,19 +77,19 @@ RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
   return all;
 }
 
-std::string steady_fields(const Controller& controller, Tables& tables) {
-  const design::SampledPlant& plant = controller.solution.plant;
-  std::string out = plant_fields(controller, plant.C, plant.D, tables);
-  if (controller.gates()) tables.add("S", design::RealMatrix(controller.solution.estimator->S.diagonal()));
+std::string steady_fields(const Controller& controller, const design::SampledPlant& plant, Tables& tables) {
+  std::string out = plant_fields(controller, plant, plant.C, plant.D, tables);
+  if (controller.gates()) tables.add("S", stacked(controller.filters, 2));
   return out + "    " + fields({tables.add("L", stacked(controller.filters, 0)),
                                 controller.keeps_innovation() ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
                                 initial_state(controller, tables)}) + "  /* L, M, x0 */\n";
 }
 
-std::string online_fields(const Controller& controller, Tables& tables) {
-  const design::OnlineSolution& online = *controller.solution.online;
-  const bool has_M = !is_zero(online.M);
-  std::string out = plant_fields(controller, online.C, online.D, tables);
+std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
+                          const design::OnlineSolution& online, Tables& tables) {
+  const design::OnlineSolution& first = *controller.solution.online;
+  const bool has_M = controller.keeps_innovation();
+  std::string out = plant_fields(controller, plant, online.C, online.D, tables);
   out += "    " + fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
          ",  /* E, V */\n";
   const auto add_rest = [&] {
@@ -98,14 +99,14 @@ std::string online_fields(const Controller& controller, Tables& tables) {
   if (controller.filter() == step::Filter::plain) {
     out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
     add_rest();
-    return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(online.P0))}) +
+    return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(first.P0))}) +
            "  /* x0, P0 */\n";
   }
   out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
          ",  /* nq, G, w */\n";
   add_rest();
-  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(online.U0)),
-                                tables.add("D0", as_row(online.D0))}) + "  /* x0, U0, d0 */\n";
+  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
+                                tables.add("D0", as_row(first.D0))}) + "  /* x0, U0, d0 */\n";
 }
 
 // The limits of the file; nothing is defined for those that no input has.
@@ -125,6 +126,25 @@ std::string index_array(const std::string& name, const std::vector<int>& values,
   return name;
 }
 
+// Which of the descriptions is in force.
+std::string stage_function(const Controller& controller) {
+  std::string index;
+  for (const std::size_t start : controller.stage_starts())
+    if (start > 0)
+      index += (index.empty() ? "" : " + ") + std::string("(self->sample >= ") + std::to_string(start) + " ? 1 : 0)";
+  return fill(R"(
+/* The plant of this sample. */
+static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
+{
+    return &{NAME}_KALMAN[{index}];
+}
+)", [&] {
+    Words words = common_words(controller);
+    words["index"] = index;
+    return words;
+  }());
+}
+
 }  // namespace
 
 Tables::Tables(const Controller& controller, const char* owner)
@@ -132,9 +152,13 @@ Tables::Tables(const Controller& controller, const char* owner)
 
 std::string Tables::add(const std::string& suffix, const RealMatrix& matrix) {
   if (matrix.size() == 0) return "NULL";
-  text += "static const lqg_real " + name_ + "_" + suffix + "[" + std::to_string(matrix.size()) + "] = {\n" +
-          array_values(matrix, controller_.is_double()) + "};\n";
-  return name_ + "_" + suffix;
+  const std::string values = array_values(matrix, controller_.is_double());
+  auto& same_suffix = defined_[suffix];
+  const std::string number = same_suffix.empty() ? "" : "_" + std::to_string(same_suffix.size());
+  const auto [at, is_new] = same_suffix.try_emplace(values, name_ + "_" + suffix + number);
+  if (is_new)
+    text += "static const lqg_real " + at->second + "[" + std::to_string(matrix.size()) + "] = {\n" + values + "};\n";
+  return at->second;
 }
 
 std::string Tables::add_unless_zero(const std::string& suffix, const RealMatrix& matrix) {
@@ -143,10 +167,20 @@ std::string Tables::add_unless_zero(const std::string& suffix, const RealMatrix&
 
 std::string kalman_constants(const Controller& controller) {
   Tables tables(controller, "KALMAN");
-  const std::string values =
-      controller.solution.online ? online_fields(controller, tables) : steady_fields(controller, tables);
-  return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", common_words(controller)) +
-         values + "};\n";
+  std::vector<std::string> descriptions;
+  for (const std::size_t start : controller.stage_starts()) {
+    const design::SampledPlant& plant = controller.plant_at(start);
+    descriptions.push_back(controller.solution.online ? online_fields(controller, plant, controller.online_at(start), tables)
+                                                      : steady_fields(controller, plant, tables));
+  }
+  const Words words = common_words(controller);
+  if (descriptions.size() == 1)
+    return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", words) + descriptions[0] + "};\n";
+  std::string all;
+  for (const std::string& description : descriptions)
+    all += "    {\n" + description + (&description == &descriptions.back() ? "    }\n" : "    },\n");
+  return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN[" + std::to_string(descriptions.size()) +
+                            "] = {\n", words) + all + "};\n" + stage_function(controller);
 }
 
 std::string lqr_constants(const Controller& controller) {

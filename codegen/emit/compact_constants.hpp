@@ -1,6 +1,7 @@
 // What the library's loops find in flash.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "emit/controller.hpp"
@@ -12,7 +13,8 @@ class Tables {
  public:
   Tables(const Controller& controller, const char* owner);
 
-  // Defines NAME_<owner>_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it.
+  // Defines NAME_<owner>_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it. Stages
+  // share what is the same.
   std::string add(const std::string& suffix, const design::RealMatrix& matrix);
   std::string add_unless_zero(const std::string& suffix, const design::RealMatrix& matrix);
 
@@ -21,6 +23,7 @@ class Tables {
  private:
   const Controller& controller_;
   std::string name_;
+  std::map<std::string, std::map<std::string, std::string>> defined_;  // by suffix, then by values: the names
 };
 
 std::string kalman_constants(const Controller& controller);

@@ -14,7 +14,10 @@ step::Filter Controller::filter() const {
   return problem.estimator->covariance == design::Covariance::ud ? step::Filter::ud : step::Filter::plain;
 }
 
-bool Controller::has_feedthrough() const { return has_filter() && !is_zero(solution.plant.D); }
+bool Controller::has_feedthrough() const {
+  const std::vector<std::size_t> starts = stage_starts();
+  return has_filter() && std::any_of(starts.begin(), starts.end(), [&](std::size_t at) { return !is_zero(plant_at(at).D); });
+}
 
 bool Controller::gives_change() const { return has_regulator() && problem.regulator->input_rate.size() > 0; }
 
@@ -24,18 +27,59 @@ bool Controller::has_rate_limit() const {
 
 bool Controller::keeps_innovation() const {
   if (!has_filter()) return false;
-  if (solution.online) return !is_zero(solution.online->M);
+  const std::vector<std::size_t> starts = stage_starts();
+  if (solution.online)
+    return std::any_of(starts.begin(), starts.end(), [&](std::size_t at) { return !is_zero(online_at(at).M); });
   return std::any_of(filters.begin(), filters.end(), [](const Gains& row) { return !is_zero(row[1]); });
 }
 
-bool Controller::keeps_sample() const { return laws.size() > 1; }
+namespace {
+
+// The stage that is in force in `sample`; nullptr: the first.
+const design::StageSolution* stage_at(const design::Solution& solution, std::size_t sample) {
+  const design::StageSolution* found = nullptr;
+  for (const design::StageSolution& stage : solution.stages)
+    if (static_cast<std::size_t>(stage.from) <= sample) found = &stage;
+  return found;
+}
+
+}  // namespace
+
+const design::SampledPlant& Controller::plant_at(std::size_t sample) const {
+  const design::StageSolution* stage = stage_at(solution, sample);
+  return stage && has_stages() ? stage->plant : solution.plant;
+}
+
+const design::SampledNoise& Controller::noise_at(std::size_t sample) const {
+  const design::StageSolution* stage = stage_at(solution, sample);
+  return stage && stage->noise ? *stage->noise : solution.estimator->noise;
+}
+
+const design::OnlineSolution& Controller::online_at(std::size_t sample) const {
+  const design::StageSolution* stage = stage_at(solution, sample);
+  return stage && stage->online ? *stage->online : *solution.online;
+}
+
+std::vector<std::size_t> Controller::stage_starts() const {
+  std::vector<std::size_t> starts = {0};
+  if (has_stages())
+    for (const design::StageSolution& stage : solution.stages) starts.push_back(static_cast<std::size_t>(stage.from));
+  return starts;
+}
+
+std::size_t Controller::last_sample() const {
+  return std::max(laws.empty() ? 0 : laws.size() - 1, stage_starts().back());
+}
 
 bool Controller::has_variance() const {
   return solution.online || (solution.estimator && solution.estimator->S.size() > 0);
 }
 
 bool Controller::can_update_alone(int output) const {
-  return !solution.online || is_zero(solution.online->E.row(output).head(output));
+  const std::vector<std::size_t> starts = stage_starts();
+  return !solution.online || std::all_of(starts.begin(), starts.end(), [&](std::size_t at) {
+    return is_zero(online_at(at).E.row(output).head(output));
+  });
 }
 
 const std::vector<int>& Controller::integral() const {
@@ -58,17 +102,43 @@ Eigen::VectorXd Controller::x0() const {
   return x0;
 }
 
+namespace {
+
+// What the engine can design and the target cannot have.
+void check_emittable(const Controller& controller, design::Findings& findings) {
+  const auto refuse = [&](const char* key, const char* why) {
+    findings.push_back({design::Severity::error, key, why});
+  };
+  if (controller.has_stages() && controller.problem.code.style == design::Style::unrolled)
+    refuse("code.style", "expected \"compact\" or \"auto\": straight-line code is of one plant, the stages are of several");
+  if (!controller.has_filter() && controller.nxi() && !controller.solution.stages.empty())
+    refuse("lqr.integral", "expected a [kalman]: without one the outputs are made of the states, by one C for all stages");
+  if (controller.gates() && controller.has_stages() && !controller.solution.online)
+    refuse("kalman.gate", "expected 0, or gain = \"online\": tables of gains for several stages come without variances");
+  if (controller.gates() && !controller.has_variance())
+    refuse("kalman.gate", "expected 0: there is no variance of the innovations to compare with");
+}
+
+design::Style style_of(const Controller& controller, const Figures& unrolled, const Figures& compact) {
+  const design::Code& code = controller.problem.code;
+  if (code.style != design::Style::automatic) return code.style;
+  if (controller.has_stages()) return design::Style::compact;
+  return unrolled.flash <= code.flash || unrolled.flash <= compact.flash ? design::Style::unrolled
+                                                                         : design::Style::compact;
+}
+
+}  // namespace
+
 std::optional<Controller> make_controller(design::Problem problem, design::Solution solution, Source source,
                                           design::Findings& findings) {
   Controller controller{std::move(problem), std::move(solution), std::move(source), {}, {}, {}, {}};
+  check_emittable(controller, findings);
+  if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
   const design::Code& code = controller.problem.code;
   const Figures unrolled = unrolled_figures(controller), compact = compact_figures(controller);
-  const bool prefers_unrolled = unrolled.flash <= code.flash || unrolled.flash <= compact.flash;
-  controller.style = code.style != design::Style::automatic ? code.style
-                     : prefers_unrolled                      ? design::Style::unrolled
-                                                             : design::Style::compact;
+  controller.style = style_of(controller, unrolled, compact);
   controller.figures = controller.style == design::Style::unrolled ? unrolled : compact;
   if (controller.figures.flash > code.flash) {
     findings.push_back({code.style == design::Style::automatic ? design::Severity::error : design::Severity::note,

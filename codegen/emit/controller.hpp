@@ -23,7 +23,8 @@ struct Figures {
   long stack = 0;          // bytes of the deepest function
 };
 
-// The gains of one sample: of a law {K, Nbar, H}, of a filter with given gains {L, M}.
+// The gains of one sample: of a law {K, Nbar, H}, of a filter with given gains {L, M, variances of the innovations if a
+// gate needs them}.
 using Gains = std::vector<design::RealMatrix>;
 
 struct Controller {
@@ -47,7 +48,14 @@ struct Controller {
   bool continues() const { return gives_change() || has_rate_limit(); }  // the law begins with the last input
   bool keeps_input() const { return has_feedthrough() || continues(); }
   bool keeps_innovation() const;  // predict needs the last outputs: w and v are correlated
-  bool keeps_sample() const;      // the number of the sample chooses gains of the law
+  bool has_stages() const { return has_filter() && !solution.stages.empty(); }  // the plant that is told of changes
+  const design::SampledPlant& plant_at(std::size_t sample) const;
+  const design::SampledNoise& noise_at(std::size_t sample) const;  // before the first stage: of the filter that is held
+  const design::OnlineSolution& online_at(std::size_t sample) const;
+  std::vector<std::size_t> stage_starts() const;  // 0, and the `from` of the others
+  std::size_t last_sample() const;  // from here on nothing changes
+  bool keeps_sample() const { return last_sample() > 0; }  // its number chooses the law's gains, or the stage
+  bool has_law_table() const { return laws.size() > 1; }
   bool keeps_gain_row() const { return filters.size() > 1; }
   bool gates() const { return has_filter() && problem.estimator->gate > 0; }
   bool has_variance() const;      // of the innovations

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emit/gains.hpp"
 #include "emit/model_of.hpp"
 #include "emit/state_fields.hpp"
 #include "emit/traced.hpp"
@@ -102,22 +103,29 @@ void add_function(Figures& figures, const Controller& controller, const TracedFu
 
 // ---- the library's loops
 
+long numbers_of(const std::vector<Gains>& rows) {
+  long numbers = 0;
+  for (const design::RealMatrix& matrix : rows.empty() ? Gains{} : rows.front())
+    numbers += static_cast<long>(matrix.size()) * static_cast<long>(rows.size());
+  return numbers;
+}
+
 // Numbers in flash: the constants of a filter.
 long filter_constants(const Controller& controller) {
   const long nx = controller.nx(), nu = controller.nu(), ny = controller.ny();
-  long numbers = nx * nx + nx * nu + ny * nx + (controller.keeps_input() ? ny * nu : 0) +
-                 (controller.keeps_innovation() ? nx * ny : 0);
+  const long stages = static_cast<long>(controller.stage_starts().size());
+  long numbers = stages * (nx * nx + nx * nu + ny * nx + (controller.has_feedthrough() ? ny * nu : 0));
   if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
-  if (controller.filter() == step::Filter::steady) return numbers + nx * ny;
+  if (controller.filter() == step::Filter::steady) return numbers + numbers_of(controller.filters);
   const design::OnlineSolution& online = *controller.solution.online;
-  numbers += ny + triangle(nx) + (online.E.isIdentity(0) ? 0 : ny * ny) +
-             (controller.keeps_innovation() ? nx * nx : 0);
-  return numbers + (controller.filter() == step::Filter::plain ? triangle(nx) : (nx + 1) * online.G.cols());
+  const long innovation = controller.keeps_innovation() ? nx * nx + nx * ny : 0;
+  const long noise = controller.filter() == step::Filter::plain ? triangle(nx) : (nx + 1) * online.G.cols();
+  return numbers + triangle(nx) + stages * (ny + (online.E.isIdentity(0) ? 0 : ny * ny) + innovation + noise);
 }
 
 // One output's innovation, and the check that it is finite.
 long innovation_cost(const Controller& controller) {
-  return controller.nx() + (controller.keeps_input() ? controller.nu() : 0) + 1;
+  return controller.nx() + (controller.has_feedthrough() ? controller.nu() : 0) + 1;
 }
 
 // What the filters that carry P do besides: decorrelated outputs, and what cross noise keeps.
@@ -182,9 +190,12 @@ Figures unrolled_figures(const Controller& controller) {
   for (const TracedFunction* function : {&traced.update, &traced.control, &traced.predict})
     add_function(figures, controller, *function);
   figures.ram = state_bytes(controller);
-  const long initial_state = controller.has_filter() ? std::min(30 + 2 * figures.ram, 300L) : 0;
+  const long initial_state = controller.has_state() ? std::min(30 + 2 * figures.ram, 300L) : 0;
+  const long entries = static_cast<long>(changing_places(controller.laws, controller.is_double()).size() * controller.laws.size() +
+                                         changing_places(controller.filters, controller.is_double()).size() * controller.filters.size());
   const bool divides = controller.has_filter() && controller.filter() != step::Filter::steady;
-  figures.flash += bytes.numbers_in_software + (divides ? bytes.division_in_software : 0) + initial_state;
+  figures.flash += bytes.numbers_in_software + (divides ? bytes.division_in_software : 0) + initial_state +
+                   bytes_of_real(controller) * entries;
   return figures;
 }
 
@@ -196,8 +207,9 @@ Figures compact_figures(const Controller& controller) {
     numbers += filter_constants(controller);
   }
   if (controller.has_regulator()) {
-    figures.multiply_adds += controller.nu() * (controller.nx() + 1);
-    numbers += controller.nu() * (controller.nx() + (controller.problem.limits ? 2 : 0));
+    const Gains& law = controller.laws.front();
+    figures.multiply_adds += static_cast<long>(law[0].size() + law[1].size() + law[2].size()) + controller.nu();
+    numbers += numbers_of(controller.laws) + controller.nu() * (controller.problem.limits ? 2 : 0);
   }
   figures.ram = state_bytes(controller);
   figures.flash = filter_code(controller) + bytes_of_real(controller) * numbers;

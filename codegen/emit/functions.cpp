@@ -305,7 +305,8 @@ std::string functions(const Controller& controller, const Bodies& bodies) {
   if (controller.has_regulator()) out += control_function(controller, bodies);
   if (controller.has_filter())
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
-           update_alone_functions(controller, bodies) + innovation_function(controller) + set_state_function(controller, bodies);
+           update_alone_functions(controller, bodies) + (controller.has_stages() ? "" : innovation_function(controller)) +
+           set_state_function(controller, bodies);
   if (controller.can_set_input()) out += set_input_function(controller, bodies);
   return out;
 }

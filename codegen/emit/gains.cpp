@@ -49,6 +49,13 @@ RealMatrix feed_forward(const Controller& controller, const RealMatrix& K) {
   return of_state + design::multiply(K.rightCols(controller.nu()), regulator.Nu);
 }
 
+// C L = I − V S⁻¹ of an optimal gain, hence S = (I − C L)⁻¹ V.
+RealMatrix innovation_variances(const Controller& controller, const RealMatrix& L, std::size_t sample) {
+  const RealMatrix& C = controller.plant_at(sample).C;
+  const RealMatrix left = design::identity(C.rows()) - design::multiply(C, L);
+  return design::solve(left, controller.noise_at(sample).V)->diagonal();
+}
+
 }  // namespace
 
 std::vector<Gains> law_gains(const Controller& controller) {
@@ -67,11 +74,15 @@ std::vector<Gains> law_gains(const Controller& controller) {
 
 std::vector<Gains> filter_gains(const Controller& controller) {
   if (controller.filter() != step::Filter::steady) return {};
+  const design::Digits digits(std::max(controller.solution.numerics.digits, least_digits));
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   std::vector<Gains> rows;
-  for (std::size_t k = 0; k < estimator.L_schedule.size(); ++k)
+  for (std::size_t k = 0; k < estimator.L_schedule.size(); ++k) {
     rows.push_back({estimator.L_schedule[k], k < estimator.M_schedule.size() ? estimator.M_schedule[k] : estimator.M});
+    if (controller.gates()) rows.back().push_back(innovation_variances(controller, estimator.L_schedule[k], k));
+  }
   rows.push_back({estimator.L, estimator.M});
+  if (controller.gates()) rows.back().push_back(estimator.S.diagonal());
   cut_off_what_is_held(rows, controller.is_double());
   return rows;
 }

@@ -23,12 +23,12 @@ step::Matrix<S> convert(const design::RealMatrix& from, Round round) {
 }
 
 template <class S, class Round>
-void convert_online(const Controller& controller, Round round, step::Model<S>& model) {
-  const design::OnlineSolution& online = *controller.solution.online;
+void convert_online(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
+  const design::OnlineSolution &online = controller.online_at(sample), &first = *controller.solution.online;
   model.E = convert<S>(online.E, round);
   model.C = convert<S>(online.C, round);
   if (controller.has_feedthrough()) model.D = convert<S>(online.D, round);
-  if (!is_zero(online.M)) model.M = convert<S>(online.M, round);
+  if (controller.keeps_innovation()) model.M = convert<S>(online.M, round);
   model.V = convert<S>(online.V, round);
   model.A_free = convert<S>(online.A_free, round);
   model.W = convert<S>(online.W, round);
@@ -36,12 +36,12 @@ void convert_online(const Controller& controller, Round round, step::Model<S>& m
   model.w = convert<S>(online.w, round);
   for (int i = 0; i < model.nx; ++i) {
     for (int j = 0; j <= i; ++j)
-      if (model.filter == step::Filter::plain) model.P0.push_back(round(online.P0(i, j)));
-    if (model.filter == step::Filter::ud) model.D0.push_back(round(online.D0(i)));
+      if (model.filter == step::Filter::plain) model.P0.push_back(round(first.P0(i, j)));
+    if (model.filter == step::Filter::ud) model.D0.push_back(round(first.D0(i)));
   }
   if (model.filter != step::Filter::ud) return;
   for (int j = 0; j < model.nx; ++j)
-    for (int k = 0; k < j; ++k) model.U0.push_back(round(online.U0(k, j)));
+    for (int k = 0; k < j; ++k) model.U0.push_back(round(first.U0(k, j)));
 }
 
 // The gains of a sample; the last ones are held.
@@ -52,11 +52,13 @@ inline const Gains& row_of(const std::vector<Gains>& rows, std::size_t sample) {
 template <class S, class Round>
 void convert_steady(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
   const Gains& gains = row_of(controller.filters, sample);
-  model.C = convert<S>(controller.solution.plant.C, round);
-  if (controller.has_feedthrough()) model.D = convert<S>(controller.solution.plant.D, round);
+  const design::SampledPlant& plant = controller.plant_at(sample);
+  model.C = convert<S>(plant.C, round);
+  if (controller.has_feedthrough()) model.D = convert<S>(plant.D, round);
   model.L = convert<S>(gains[0], round);
   if (controller.keeps_innovation()) model.M = convert<S>(gains[1], round);
-  if (controller.has_variance()) model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
+  if (controller.gates()) model.variance = convert<S>(gains[2], round);
+  else if (controller.has_variance()) model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
 }
 
 // The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
@@ -116,8 +118,8 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
   model.nu = controller.nu();
   model.ny = controller.ny();
   model.delayed = controller.delayed();
-  model.A = convert<S>(solution.plant.A, round);
-  model.B = convert<S>(solution.plant.B, round);
+  model.A = convert<S>(controller.plant_at(sample).A, round);
+  model.B = convert<S>(controller.plant_at(sample).B, round);
   model.D.resize(model.ny, 0);
   model.M.resize(model.nx, 0);
   if (controller.has_filter()) {
@@ -125,7 +127,7 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
     model.x0.resize(model.nx);
     for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
     if (controller.gates()) model.gate = round(design::Real(controller.problem.estimator->gate));
-    if (solution.online) convert_online(controller, round, model);
+    if (solution.online) convert_online(controller, round, sample, model);
     else convert_steady(controller, round, sample, model);
   }
   if (controller.has_regulator()) convert_regulator(controller, round, sample, model);

@@ -53,20 +53,21 @@ design::RealMatrix assumed_noise(const design::SampledPlant& plant) {
 }
 
 // Of G w and v.
-Matrix<double> joint_covariance(const Controller& controller) {
+Matrix<double> joint_covariance(const Controller& controller, std::size_t sample) {
   const design::Solution& solution = controller.solution;
   const design::Digits digits(std::max(solution.numerics.digits, 50u));
   design::RealMatrix all;
-  if (const auto& online = solution.online) {  // v = E⁻¹ v', w = M v' + the noise that v' does not tell
-    const design::RealMatrix V = online->V.asDiagonal(), MV = design::multiply(online->M, V);
-    const design::RealMatrix inverse = *design::solve(online->E, design::identity(V.rows()));
-    all = joint(online->W + design::multiply_transpose(MV, online->M), design::multiply_transpose(MV, inverse),
+  if (solution.online) {  // v = E⁻¹ v', w = M v' + the noise that v' does not tell
+    const design::OnlineSolution& online = controller.online_at(sample);
+    const design::RealMatrix V = online.V.asDiagonal(), MV = design::multiply(online.M, V);
+    const design::RealMatrix inverse = *design::solve(online.E, design::identity(V.rows()));
+    all = joint(online.W + design::multiply_transpose(MV, online.M), design::multiply_transpose(MV, inverse),
                 design::congruence(inverse, V));
   } else if (solution.estimator->noise.V.size() == 0) {
     all = assumed_noise(solution.plant);
   } else {
-    const design::SampledNoise& noise = solution.estimator->noise;
-    const design::RealMatrix& G = solution.plant.G;
+    const design::SampledNoise& noise = controller.noise_at(sample);
+    const design::RealMatrix& G = controller.plant_at(sample).G;
     all = joint(design::congruence(G, noise.W), design::multiply(G, noise.Swv), noise.V);
   }
   return convert<double>(all, design::to_double);
@@ -90,23 +91,33 @@ double Noise::normal() {
 }
 
 PlantSimulation::PlantSimulation(const Controller& controller, std::uint64_t seed)
-    : noise_(seed),
-      A_(convert<double>(controller.solution.plant.A, design::to_double)),
-      B_(convert<double>(controller.solution.plant.B, design::to_double)),
-      C_(convert<double>(controller.solution.plant.C, design::to_double)),
-      D_(convert<double>(controller.solution.plant.D, design::to_double)),
-      factor_(square_root(joint_covariance(controller))),
-      x_(controller.x0()) {}
+    : noise_(seed), starts_(controller.stage_starts()), x_(controller.x0()) {
+  for (const std::size_t start : starts_) {
+    const design::SampledPlant& plant = controller.plant_at(start);
+    const auto in_doubles = [](const design::RealMatrix& matrix) { return convert<double>(matrix, design::to_double); };
+    stages_.push_back({in_doubles(plant.A), in_doubles(plant.B), in_doubles(plant.C), in_doubles(plant.D),
+                       square_root(joint_covariance(controller, start))});
+  }
+}
+
+const PlantSimulation::Stage& PlantSimulation::stage() const {
+  std::size_t at = 0;
+  while (at + 1 < starts_.size() && starts_[at + 1] <= sample_) ++at;
+  return stages_[at];
+}
 
 Vector<double> PlantSimulation::measure(const Vector<double>& u) {
-  Vector<double> white(factor_.rows());
+  const Stage& now = stage();
+  Vector<double> white(now.factor.rows());
   for (int i = 0; i < white.size(); ++i) white(i) = noise_.normal();
-  drawn_ = product(factor_, white);
-  return product(C_, x_) + product(D_, u) + drawn_.tail(C_.rows());
+  drawn_ = product(now.factor, white);
+  return product(now.C, x_) + product(now.D, u) + drawn_.tail(now.C.rows());
 }
 
 void PlantSimulation::advance(const Vector<double>& u) {
-  x_ = product(A_, x_) + product(B_, u) + drawn_.head(A_.rows());
+  const Stage& now = stage();
+  x_ = product(now.A, x_) + product(now.B, u) + drawn_.head(now.A.rows());
+  ++sample_;
 }
 
 }  // namespace lqg::emit

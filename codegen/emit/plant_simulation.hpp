@@ -29,8 +29,15 @@ class PlantSimulation {
   const step::Vector<double>& state() const { return x_; }
 
  private:
+  struct Stage {
+    step::Matrix<double> A, B, C, D, factor;  // factor: square root of the joint covariance of G w and v
+  };
+  const Stage& stage() const;
+
   Noise noise_;
-  step::Matrix<double> A_, B_, C_, D_, factor_;  // factor_: square root of the joint covariance of G w and v
+  std::vector<std::size_t> starts_;  // of the stages
+  std::vector<Stage> stages_;
+  std::size_t sample_ = 0;
   step::Vector<double> x_, drawn_;
 };
 

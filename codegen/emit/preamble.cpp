@@ -57,6 +57,8 @@ std::string plant(const Controller& controller) {
   if (!controller.has_filter()) return out;
   out += matrix_comment("C", plant.C, is_double);
   if (controller.nu()) out += matrix_comment("D", plant.D, is_double);
+  for (const std::size_t start : controller.stage_starts())
+    if (start > 0) out += " *   from sample " + std::to_string(start) + " on another plant, whose numbers stand below\n";
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "emit/gains.hpp"
 #include "emit/model_of.hpp"
 #include "emit/rounding.hpp"
+#include "emit/text.hpp"
 #include "step/innovation.hpp"
 #include "step/loop.hpp"
 #include "trace/expr.hpp"
@@ -191,7 +192,9 @@ Model symbolic_model(const Controller& controller) {
     return Expr(rounded_to_target(value, is_double));
   });
   read_row(controller.laws, is_double, "law", {"K", "Nbar", "H"}, {&model.K, &model.Nbar, &model.H}, model.nx);
-  read_row(controller.filters, is_double, "gains", {"L", "M"}, {&model.L, &model.M}, model.nx);
+  step::Matrix<Expr> variance = model.variance;
+  read_row(controller.filters, is_double, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance}, model.nx);
+  if (controller.gates()) model.variance = variance;
   return model;
 }
 
@@ -313,7 +316,13 @@ Model model_of_outputs(const Controller& controller) {
   const auto round = [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.is_double())); };
   model.C = convert<Expr>(controller.solution.plant.C, round);
   if (controller.has_feedthrough()) model.D = convert<Expr>(controller.solution.plant.D, round);
-  if (!controller.solution.online) return model;
+  if (!controller.solution.online) {
+    if (controller.style == design::Style::compact && controller.gates() && controller.keeps_gain_row())
+      for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
+        model.variance(i) = Expr::of(trace::graph().input(
+            fill("{NAME}_KALMAN_S[self->gain_row * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
+    return model;
+  }
   const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
   const design::OnlineSolution& online = *controller.solution.online;
   const design::RealMatrix inverse = *design::solve(online.E, design::identity(online.E.rows()));

@@ -69,7 +69,7 @@ class Timeline {
  public:
   template <class Round>
   Timeline(const Controller& controller, Round round) {
-    const std::size_t rows = std::max({std::size_t{1}, controller.laws.size(), controller.filters.size()});
+    const std::size_t rows = std::max(controller.last_sample() + 1, controller.filters.size());
     for (std::size_t k = 0; k < std::min(rows, sample_count); ++k) models_.push_back(model_of<S>(controller, round, k));
   }
   const step::Model<S>& at(std::size_t sample) const { return models_[std::min(sample, models_.size() - 1)]; }

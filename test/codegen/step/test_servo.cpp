@@ -1,0 +1,208 @@
+// The law with a memory, library and templates: they agree in every bit, whatever r, y and the applied u are.
+//
+// Built once for each variant of the library.
+#include <limits>
+
+#include <unity.h>
+
+#include "lqg/lqg.h"
+#include "random_model.hpp"
+
+using namespace lqg_test;
+using lqg::step::Event;
+using lqg::step::Listener;
+
+extern "C" {
+void setUp(void) {}
+void tearDown(void) {}
+}
+
+namespace {
+
+#ifdef LQG_FUSED
+using S = Fused<lqg_real>;
+#else
+using S = lqg_real;
+#endif
+
+using Numbers = std::vector<lqg_real>;
+using Limits = std::numeric_limits<lqg_real>;
+
+constexpr int laws = 300, samples = 60, ny = 3;
+
+lqg_real number(const S& value) { return static_cast<lqg_real>(to_double(value)); }
+
+template <class Values>
+Numbers numbers_of(const Values& values) {
+  Numbers out;
+  for (int i = 0; i < values.rows(); ++i)
+    for (int j = 0; j < values.cols(); ++j) out.push_back(number(values(i, j)));
+  return out;
+}
+
+const lqg_real* pointer(const Numbers& numbers) { return numbers.empty() ? nullptr : numbers.data(); }
+lqg_real* pointer(Numbers& numbers) { return numbers.empty() ? nullptr : numbers.data(); }
+
+Matrix<S> random_matrix(Random& random, int rows, int columns) {
+  Matrix<S> out(rows, columns);
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) out(i, j) = rounded<S>(random.uniform());
+  return out;
+}
+
+Model<S> random_law(Random& random) {
+  Model<S> model;
+  model.nx = random.between(1, 6), model.nu = random.between(1, 3), model.ny = ny;
+  model.gives_change = random.one_in(2);
+  model.nr = random.between(0, ny);
+  const int nxi = random.between(0, model.nr);
+  for (int i = 0; i < nxi; ++i) {
+    model.integral.push_back(random.between(0, ny - 1));
+    model.wanted.push_back(i);
+  }
+  model.K = random_matrix(random, model.nu, model.nx + nxi + (model.gives_change ? model.nu : 0));
+  if (random.one_in(2)) model.Nbar = random_matrix(random, model.nu, model.nr);
+  model.H = random_matrix(random, nxi, model.nu);
+  model.T = rounded<S>(0.1);
+  model.D.resize(ny, 0);
+  const Vector<S> positive = Vector<S>::Constant(model.nu, rounded<S>(0.3));
+  if (random.one_in(2)) model.u_step = positive;
+  if (random.one_in(2)) {
+    model.u_max = positive;
+    model.u_min = Vector<S>::Constant(model.nu, rounded<S>(-0.2));
+  }
+  return model;
+}
+
+// What a caller may hand over: as a rule something honest, now and then anything.
+Vector<S> any_vector(Random& random, int size, int one_hostile_in) {
+  Vector<S> out(size);
+  for (int i = 0; i < size; ++i)
+    out(i) = random.one_in(one_hostile_in) ? S(random.pattern<lqg_real>()) : rounded<S>(random.normal());
+  return out;
+}
+
+lqg_status status_of(unsigned events) {
+  const auto bit = [&](Event event, lqg_status status) {
+    return events >> static_cast<unsigned>(event) & 1 ? status : LQG_OK;
+  };
+  return bit(Event::input_limited, LQG_INPUT_LIMITED) | bit(Event::state_reset, LQG_STATE_RESET) |
+         bit(Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE);
+}
+
+class Comparison {
+ public:
+  explicit Comparison(const Model<S>& model)
+      : model_(model), state_(lqg::step::initial_state(model)), K_(numbers_of(model.K)), Nbar_(numbers_of(model.Nbar)),
+        H_(numbers_of(model.H)), u_min_(numbers_of(model.u_min)), u_max_(numbers_of(model.u_max)),
+        u_step_(numbers_of(model.u_step)), output_(model.integral.begin(), model.integral.end()),
+        reference_(model.wanted.begin(), model.wanted.end()), xi_(output_.size()), error_(output_.size()),
+        demand_(static_cast<std::size_t>(state_.demand.size())), u_applied_(static_cast<std::size_t>(state_.u.size())) {
+    const auto size = [](auto count) { return static_cast<unsigned>(count); };
+    servo_ = {size(model.nx), size(model.nu), size(model.nr), size(output_.size()), model.gives_change ? 1u : 0u, number(model.T),
+              pointer(K_), pointer(Nbar_), pointer(H_), output_.data(), reference_.data(), pointer(u_min_), pointer(u_max_), pointer(u_step_)};
+    lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
+  }
+
+  lqg_status observe_and_control(const Vector<S>& x, const Vector<S>& r, const Vector<S>& y) {
+    Listener listener;
+    state_.x = x, state_.r = r;
+    lqg::step::observe(model_, state_, y, listener);
+    const Vector<S> u = lqg::step::control(model_, state_, listener);
+    const Numbers x_of_library = numbers_of(x), y_of_library = numbers_of(y), wanted = numbers_of(r);
+    Numbers found(static_cast<std::size_t>(model_.nu));
+    lqg_servo_observe(&servo_, pointer(wanted), pointer(error_), y_of_library.data());
+    const lqg_status status = lqg_servo_control(&servo_, x_of_library.data(), pointer(wanted), pointer(xi_), pointer(demand_),
+                                                pointer(u_applied_), found.data());
+    expect(status, listener.events);
+    TEST_ASSERT_TRUE(found == numbers_of(u));
+    return status;
+  }
+  // What was applied, by the loop or by hand.
+  template <class Templates, class Library>
+  lqg_status apply(const Vector<S>& u, Templates templates, Library library) {
+    Listener listener;
+    const bool finite = templates(u, listener);
+    const Numbers applied = numbers_of(u);
+    const lqg_status status = library(applied);
+    // A u that nothing remembers is the filter's to refuse.
+    if (!finite && !state_.u.size()) return forget();
+    listener.raise(Event::state_reset, !finite);
+    if (!finite) lqg::step::begin_anew(model_, state_);
+    expect(status, listener.events);
+    return status;
+  }
+  lqg_status advance(const Vector<S>& u) {
+    return apply(u, [&](const Vector<S>& applied, Listener& listener) {
+      lqg::step::Total<S> total;
+      lqg::step::remember(model_, state_, applied, total, listener);
+      return lqg::step::is_finite(total.sum);
+    }, [&](const Numbers& applied) {
+      return lqg_servo_advance(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_), applied.data());
+    });
+  }
+  lqg_status set_input(const Vector<S>& u) {
+    return apply(u, [&](const Vector<S>& applied, Listener& listener) {
+      return lqg::step::set_input(model_, state_, applied, listener);
+    }, [&](const Numbers& applied) {
+      const Numbers x = numbers_of(state_.x), r = numbers_of(state_.r);
+      return lqg_servo_set_input(&servo_, x.data(), pointer(r), pointer(xi_), pointer(error_), pointer(demand_),
+                                 pointer(u_applied_), applied.data());
+    });
+  }
+
+ private:
+  lqg_status forget() {
+    lqg::step::begin_anew(model_, state_);
+    lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
+    return LQG_OK;
+  }
+  void expect(lqg_status status, unsigned events) {
+    TEST_ASSERT_EQUAL_HEX(status_of(events), status);
+    TEST_ASSERT_TRUE(xi_ == numbers_of(state_.xi));
+    TEST_ASSERT_TRUE(error_ == numbers_of(state_.error));
+    TEST_ASSERT_TRUE(demand_ == numbers_of(state_.demand));
+    TEST_ASSERT_TRUE(u_applied_ == numbers_of(state_.u));
+  }
+
+  const Model<S>& model_;
+  State<S> state_;
+  Numbers K_, Nbar_, H_, u_min_, u_max_, u_step_;
+  std::vector<unsigned> output_, reference_;
+  Numbers xi_, error_, demand_, u_applied_;
+  lqg_servo_t servo_{};
+};
+
+// One hostile number in `one_hostile_in`.
+lqg_status compare(int one_hostile_in) {
+  lqg_status seen = LQG_OK;
+  for (std::uint64_t seed = 0; seed < laws; ++seed) {
+    Random random(seed);
+    const Model<S> model = random_law(random);
+    Comparison comparison(model);
+    for (int k = 0; k < samples; ++k) {
+      const auto any = [&](int size) { return any_vector(random, size, one_hostile_in); };
+      const Vector<S> x = any_vector(random, model.nx, std::numeric_limits<int>::max());
+      seen |= comparison.observe_and_control(x, any(model.nr), any(ny));
+      seen |= random.one_in(6) ? comparison.set_input(any(model.nu)) : comparison.advance(any(model.nu));
+    }
+  }
+  return seen;
+}
+
+void test_library_and_templates_agree_in_every_bit() {
+  TEST_ASSERT_EQUAL_HEX(LQG_INPUT_LIMITED, compare(std::numeric_limits<int>::max()));
+}
+
+void test_library_and_templates_agree_on_anything() {
+  TEST_ASSERT_EQUAL_HEX(LQG_INPUT_LIMITED | LQG_STATE_RESET | LQG_REFERENCE_NOT_FINITE, compare(20));
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(test_library_and_templates_agree_in_every_bit);
+  RUN_TEST(test_library_and_templates_agree_on_anything);
+  return UNITY_END();
+}
