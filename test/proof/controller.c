@@ -102,8 +102,8 @@ int main(void)
     OF(t) loop;
 
     OF(init)(&loop);
-#ifdef LAST_GAIN_ROW
-    /*@ loop widen_hints loop.gain_row, LAST_GAIN_ROW; */
+#ifdef LAST_ROWS
+    /*@ loop widen_hints "all", LAST_ROWS; */
 #endif
     while (any_int) {
 #ifdef HAS_NR

@@ -23,7 +23,8 @@ mkdir -p "$scratch"
   [ "$(value arithmetic)" != fused ] || echo "#define LQG_FUSED"
   for part in NU NR; do ! grep -q "^#define ${name^^}_$part " "$emitted/$name.h" || echo "#define HAS_$part"; done
   for call in control set_state set_input; do ! grep -q "^static inline .*${name}_$call(" "$emitted/$name.h" || echo "#define HAS_$call"; done
-  sed -n 's/.*if (self->gain_row < \([0-9]*\))$/#define LAST_GAIN_ROW \1/p' "$emitted/$name.h"
+  rows=$(sed -n 's/^ *if (self->[a-z_]* < \([0-9]*\))$/, \1/p' "$emitted/$name.h" | tr -d '\n')
+  [ -z "$rows" ] || echo "#define LAST_ROWS ${rows#, }"
   [ -z "$(numbers u_min)" ] || printf '#define U_MIN %s\n#define U_MAX %s\n' "$(numbers u_min)" "$(numbers u_max)"
 } >"$scratch/design.h"
 [ "$real" = float ] || variant=f64
