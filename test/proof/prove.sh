@@ -30,7 +30,8 @@ mkdir -p "$scratch"
 [ "$real" = float ] || variant=f64
 [ "$(value arithmetic)" != fused ] || variant+=_fused
 
-sed "$break" "$emitted/$name.h" | awk -f "$here/restate.awk" >"$scratch/$name.h"
+# One statement a line, then restated.
+sed -z 's/\n *\([-+?:] \)/ \1/g' "$emitted/$name.h" | sed "$break" | awk -f "$here/restate.awk" >"$scratch/$name.h"
 sources=("$here/controller.c") control=
 grep -q "^static inline .*${name}_control(" "$scratch/$name.h" && control=${name}_control
 if [ "$style" = compact ]; then
