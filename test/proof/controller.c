@@ -1,5 +1,5 @@
-/* A controller, called in any order, for ever, with anything. HEADER, NAME and UPPER_NAME are its own; U_MIN and U_MAX
- * its limits, if it has some. */
+/* A controller, called in any order, for ever, with anything. HEADER, NAME and UPPER_NAME are its own; U_MIN
+ * and U_MAX its limits, if it has some. */
 #include <math.h>
 
 #include "unknown.h"
@@ -10,7 +10,10 @@
 #define OF(part) JOIN(NAME, part)
 #define SIZE(part) JOIN(UPPER_NAME, part)
 
-enum { NX = SIZE(NX), NY = SIZE(NY), NU = SIZE(NU), UPDATE = 0, CONTROL = 1, PREDICT = 2 };
+enum { NX = SIZE(NX), NY = SIZE(NY) };
+#ifdef HAS_NU
+enum { NU = SIZE(NU) };
+#endif
 
 volatile int any_int;
 volatile lqg_real any_real;
@@ -41,6 +44,7 @@ static void look_at_state(const OF(t) * loop)
     }
 }
 
+#ifdef HAS_control
 static void look_at_input(const lqg_real u[])
 {
 #ifdef U_MIN
@@ -53,25 +57,59 @@ static void look_at_input(const lqg_real u[])
 #endif
     }
 }
+#endif
+
+/* One of the calls, with anything. */
+static void call_any(OF(t) * loop)
+{
+        const int call = any_int;
+    lqg_real y[NY];
+        say_anything(y, NY);
+#ifdef HAS_NU
+    lqg_real u[NU];
+        say_anything(u, NU);
+#endif
+
+    if (call == 0)
+        OF(update)(loop, y);
+#ifdef HAS_NU
+    if (call == 1)
+        OF(predict)(loop, u);
+#else
+    if (call == 1)
+        OF(predict)(loop);
+#endif
+#ifdef HAS_control
+    if (call == 2) {
+        OF(control)(loop, u);
+            look_at_input(u);
+    }
+#endif
+#ifdef HAS_set_state
+    lqg_real x[NX];
+    say_anything(x, NX);
+    if (call == 3)
+        OF(set_state)(loop, x);
+#endif
+#ifdef HAS_set_input
+    if (call == 4)
+        OF(set_input)(loop, u);
+#endif
+}
 
 int main(void)
 {
     OF(t) loop;
-    lqg_real y[NY], u[NU];
 
     OF(init)(&loop);
+#ifdef LAST_ROWS
+    /*@ loop widen_hints "all", LAST_ROWS; */
+#endif
     while (any_int) {
-        const int call = any_int;
-        say_anything(y, NY);
-        say_anything(u, NU);
-        if (call == UPDATE)
-            OF(update)(&loop, y);
-        if (call == CONTROL) {
-            OF(control)(&loop, u);
-            look_at_input(u);
-        }
-        if (call == PREDICT)
-            OF(predict)(&loop, u);
+#ifdef HAS_NR
+        say_anything(loop.r, SIZE(NR));
+#endif
+        call_any(&loop);
         look_at_state(&loop);
     }
     return 0;
