@@ -76,9 +76,10 @@ Model<S> random_law(Random& random) {
 
 // What a caller may hand over: as a rule something honest, now and then anything.
 Vector<S> any_vector(Random& random, int size, int one_hostile_in) {
+  const lqg_real hostile[] = {Limits::quiet_NaN(), Limits::infinity(), -Limits::max(), random.pattern<lqg_real>()};
   Vector<S> out(size);
   for (int i = 0; i < size; ++i)
-    out(i) = random.one_in(one_hostile_in) ? S(random.pattern<lqg_real>()) : rounded<S>(random.normal());
+    out(i) = random.one_in(one_hostile_in) ? S(hostile[random.below(4)]) : rounded<S>(random.normal());
   return out;
 }
 
