@@ -67,13 +67,15 @@ double structured_norm(const MatrixXcd& H) {
   VectorXd exponents = balance(H);
   double norm = scaled_norm(H, exponents);
   const bool is_small = H.rows() <= 3;  // with more channels a sweep costs more and is no longer exact anyway
-  for (double power = 8; power < 1e4; power *= is_small ? 4 : 16) {
-    for (int sweep = 0; sweep < (is_small ? 4 : 2); ++sweep) {
+  double reach = 2;
+  for (double power = 2; power < 1e4; power *= is_small ? 4 : 16) {
+    for (int sweep = 0; sweep < (is_small ? 6 : 2); ++sweep) {
       const VectorXd before = exponents;
-      for (Index i = 1; i < H.rows(); ++i) descend(H, exponents, VectorXd::Unit(H.rows(), i), 2, power);
+      for (Index i = 1; i < H.rows(); ++i) descend(H, exponents, VectorXd::Unit(H.rows(), i), reach, power);
       descend(H, exponents, exponents - before, 8, power);
     }
     norm = std::min(norm, scaled_norm(H, exponents));
+    reach = std::max(reach / 3, 1e-3);
   }
   return norm;
 }

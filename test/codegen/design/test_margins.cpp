@@ -83,23 +83,31 @@ void expect_phase_margin(const Loop& loop, double degrees, double tolerance) {
   TEST_ASSERT_DOUBLE_WITHIN(tolerance, 1, worst);
 }
 
-double structured_difference(const Loop& loop, double angle) {
+MatrixXcd difference(const Loop& loop, double angle) {
   const Index n = loop.A.rows(), nu = loop.B.cols();
   const MatrixXcd closed = loop.A - loop.B * loop.C;
   const MatrixXcd T =
       loop.C * (std::polar(1.0, angle) * MatrixXcd::Identity(n, n) - closed).partialPivLu().solve(loop.B);
-  return lqg::design::structured_norm(0.5 * MatrixXcd::Identity(nu, nu) - T);
+  return 0.5 * MatrixXcd::Identity(nu, nu) - T;
+}
+
+// The largest on a grid with as many points to every decade of the angle. The structured norm, which takes long, is
+// asked only where the balanced one, which is never less, leaves it a chance.
+double largest_on_grid(const Loop& loop) {
+  double largest = 0;
+  const int points = 4000;
+  for (int k = 0; k <= points; ++k) {
+    const MatrixXcd H = difference(loop, std::acos(-1.0) * std::pow(10, -6.0 * k / points));
+    if (lqg::design::balanced_norm(H) > largest) largest = std::max(largest, lqg::design::structured_norm(H));
+  }
+  return largest;
 }
 
 void expect_disk_margin(const Loop& loop, double disk) {
-  double largest = 0;
-  const int points = 4000;
-  for (int k = 0; k <= points; ++k) {  // as many points to every decade of the angle
-    const double angle = std::acos(-1.0) * std::pow(10, -6.0 * k / points);
-    largest = std::max(largest, structured_difference(loop, angle));
-  }
-  const double own_error =
-      1e-9 + 1e-14 * largest;  // a resonance that high stands on poles that near to the circle
+  const double largest = largest_on_grid(loop);
+  // Of one channel a resonance that high stands on poles that near to the circle; the structured norm of several is
+  // minimised to some six digits.
+  const double own_error = (loop.B.cols() > 1 ? 1e-5 : 1e-9) + 1e-14 * largest;
   TEST_ASSERT_TRUE_MESSAGE(1 / largest > disk * (1 - own_error), "a point on the grid is worse");
   TEST_ASSERT_DOUBLE_WITHIN(0.01 * disk, disk, 1 / largest);
 }
