@@ -43,6 +43,7 @@ std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
       std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
       angles.end());
   std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());  // repeated poles
   return angles;
 }
 
@@ -246,7 +247,7 @@ std::vector<Place> disk_places(const Search& search) {
 Real least_in(const Place& place, const Function& f) {
   const auto at = [&](double share) { return to_double(f(place.low + share * (place.high - place.low))); };
   boost::uintmax_t most = 40;
-  return Real(boost::math::tools::brent_find_minima(at, 0.0, 1.0, 20, most).second);
+  return Real(boost::math::tools::brent_find_minima(at, 0.0, 1.0, 10, most).second);
 }
 
 Outcome least_disk(const Search& search, const Refining& refining) {

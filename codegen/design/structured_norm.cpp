@@ -33,6 +33,16 @@ double smooth_norm(const MatrixXcd& H, const VectorXd& exponents, double power) 
   return std::sqrt(largest) * std::pow(sum, 0.5 / power);
 }
 
+// Of two channels only one ratio counts.
+double norm_of_two(const MatrixXcd& H, VectorXd exponents) {
+  const auto norm_at = [&](double exponent) {
+    exponents(1) = exponent;
+    return scaled_norm(H, exponents);
+  };
+  const double middle = exponents(1);
+  return boost::math::tools::brent_find_minima(norm_at, middle - 4, middle + 4, 26).second;
+}
+
 // Along `direction` to the least smooth norm, which is convex.
 void descend(const MatrixXcd& H, VectorXd& exponents, const VectorXd& direction, double reach, double power) {
   const auto norm_at = [&](double length) { return smooth_norm(H, exponents + length * direction, power); };
@@ -65,11 +75,12 @@ double balanced_norm(const MatrixXcd& H) { return scaled_norm(H, balance(H)); }
 
 double structured_norm(const MatrixXcd& H) {
   VectorXd exponents = balance(H);
+  if (H.rows() == 2) return std::min(scaled_norm(H, exponents), norm_of_two(H, exponents));
   double norm = scaled_norm(H, exponents);
   const bool is_small = H.rows() <= 3;  // with more channels a sweep costs more and is no longer exact anyway
   double reach = 2;
   for (double power = 2; power < 1e4; power *= is_small ? 4 : 16) {
-    for (int sweep = 0; sweep < (is_small ? 6 : 2); ++sweep) {
+    for (int sweep = 0; sweep < (is_small ? 4 : 1); ++sweep) {
       const VectorXd before = exponents;
       for (Index i = 1; i < H.rows(); ++i) descend(H, exponents, VectorXd::Unit(H.rows(), i), reach, power);
       descend(H, exponents, exponents - before, 8, power);
