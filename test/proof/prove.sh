@@ -6,6 +6,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd) root=$here/../..
 design=$1 style=$2 real=$3 emitted=$4 scratch=$5 break=${6:-}
 
+source "$here/restate_library.sh"
 stop() { echo "$*" >&2; exit 1; }
 value() { sed -n "s/^$1 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$design"; }
 numbers() { sed -n "s/^$1 *= *\[\([^]]*\)\].*/{\1}/p" "$design"; }
@@ -35,13 +36,7 @@ sed -z 's/\n *\([-+?:] \)/ \1/g' "$emitted/$name.h" | sed "$break" | awk -f "$he
 sources=("$here/controller.c") control=
 grep -q "^static inline .*${name}_control(" "$scratch/$name.h" && control=${name}_control
 if [ "$style" = compact ]; then
-  cp "$root"/src/*.[ch] "$scratch"
-  sed -i 's/return a - a == 0;/return FINITE(a);/' "$scratch/kernel.h"
-  sed -i -e 's/^    if (is_finite(sum))$/    if (perhaps_all_finite(x, kalman->plant.nx))/' \
-    -e 's/^    if (is_finite(add_all(0, x, kalman->plant.nx)))$/    if (perhaps_all_finite(x, kalman->plant.nx))/' "$scratch"/kalman_*.c
-  sed -i 's/^    if (is_finite(sum))$/    if (perhaps_all_finite(xi, servo->nxi) \&\& (!u_applied || perhaps_all_finite(u_applied, servo->nu)))/' \
-    "$scratch/servo.c"
-  [ "$(grep -l perhaps_all_finite "$scratch"/{kalman_*,servo}.c | wc -l)" = 4 ] || stop "the library's test of its state reads otherwise than it did"
+  restate_library "$scratch"
   for source in "$scratch"/{kalman_plain,kalman_steady,kalman_ud,factors,plant,lqr,servo}.c; do sources+=("$source"); done
   control=$(grep -o 'lqg_[a-z]*_control' "$scratch/$name.h" | tail -n 1 || true)
   control=${control:+${control}_$variant}
