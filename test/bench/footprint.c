@@ -14,6 +14,8 @@ extern function *const roots[];
 __attribute__((section(".roots"))) function *const roots[] = {
     (function *)OF(init),
     (function *)OF(update),
+#ifndef ESTIMATES
     (function *)OF(control),
+#endif
     (function *)OF(predict),
 };

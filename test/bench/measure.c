@@ -1,5 +1,6 @@
 /* What the controller in HEADER costs on a Cortex-M4F: instructions executed and stack used by each of its
- * functions, for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar.
+ * functions, for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES
+ * says that it has no input.
  *
  * Made for QEMU with -icount shift=8, where every instruction takes 256 ns of virtual time: SysTick, at 25 MHz,
  * then counts instructions. On a board it would count cycles. */
@@ -16,7 +17,7 @@
 #define OF(part) JOIN(NAME, part)
 #define SIZE(part) JOIN(UPPER_NAME, part)
 
-enum { SAMPLES = sizeof y_in / sizeof y_in[0], NY = SIZE(NY), NU = SIZE(NU) };
+enum { SAMPLES = sizeof y_in / sizeof y_in[0], NY = SIZE(NY) };
 
 /* ---- the instruments --------------------------------------------------------------------------------- */
 
@@ -122,15 +123,22 @@ static void measure(record_t *record, unsigned sample, function *f, void *object
 static void run(unsigned left_out)
 {
     OF(t) self;
-    REAL y[NY], u[NU];
+    REAL y[NY];
+#ifndef ESTIMATES
+    REAL u[SIZE(NU)];
+#endif
 
     OF(init)(&self);
     for (unsigned k = 0; k < SAMPLES; k++) {
         for (unsigned i = 0; i < NY; i++)
             y[i] = i == left_out && k % 3 == 1 ? (REAL)NAN : y_in[k][i];
         measure(&records[UPDATE], k, (function *)OF(update), &self, y);
+#ifdef ESTIMATES
+        measure(&records[PREDICT], k, (function *)OF(predict), &self, NULL);
+#else
         measure(&records[CONTROL], k, (function *)OF(control), &self, u);
         measure(&records[PREDICT], k, (function *)OF(predict), &self, u_out[k]);
+#endif
     }
 }
 

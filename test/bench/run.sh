@@ -51,6 +51,7 @@ make_controller() {
       "${compiler[@]}" "${definitions[@]}" -c "$source" -o "$4/$(basename "$source" .c).o"
     done
   fi
+  grep -q '^B *=' "$1" || definitions+=(-DESTIMATES)
   definitions+=("-DHEADER=\"$name.h\"" '-DVECTORS="vectors.h"' "-DNAME=$name" "-DUPPER_NAME=${name^^}" "-DREAL=$3")
   "${compiler[@]}" "${definitions[@]}" -I"$4" -c "$bench/measure.c" -o "$4/measure.main"
   "${compiler[@]}" "${definitions[@]}" -I"$4" -c "$bench/footprint.c" -o "$4/footprint.main"
