@@ -1,6 +1,5 @@
 # What tinylqg::design is built on: Eigen, Boost.Multiprecision, MPFR, GMP. Those that are not found stand in
 # LQG_DESIGN_MISSING. MPFR and GMP bring no targets: tinylqg_mpfr is theirs.
-include_guard(DIRECTORY)
 if(POLICY CMP0167)
   cmake_policy(SET CMP0167 NEW)  # Boost is found by its own package
 endif()
@@ -17,6 +16,7 @@ foreach(need IN ITEMS Eigen3_FOUND Boost_FOUND MPFR_INCLUDE_DIR MPFR_LIBRARY GMP
     list(APPEND LQG_DESIGN_MISSING ${package})
   endif()
 endforeach()
+list(REMOVE_DUPLICATES LQG_DESIGN_MISSING)
 
 if(NOT LQG_DESIGN_MISSING AND NOT TARGET tinylqg_mpfr)
   add_library(tinylqg_mpfr INTERFACE IMPORTED GLOBAL)

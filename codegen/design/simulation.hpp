@@ -24,11 +24,10 @@ class NoiseSource {
 struct SimulationOptions {
   int samples = 0;
   std::uint64_t seed = 1;
-  bool noise = true;              // w and v as the design has them; false: none
-  Eigen::VectorXd x0;             // of the sampled plant (nx), or of the plant without its delayed inputs; empty: 0
-  Eigen::VectorXd r;              // the reference of the followed outputs, or empty: 0
-  // u of sample k, nu × 1, where there is no regulator; none: 0.
-  std::function<Eigen::VectorXd(int)> input;
+  bool noise = true;   // w and v as the design has them (none without an estimator that has noise); false: none
+  Eigen::VectorXd x0;  // of the sampled plant (nx), or of the plant without its delayed inputs; empty: 0
+  Eigen::VectorXd r;   // of the outputs named in `integral` or `track`, by rising number; empty: 0
+  std::function<Eigen::VectorXd(int)> input;  // u of sample k, nu × 1, where there is no regulator; none: 0
 };
 
 // Column k belongs to sample k.
@@ -36,13 +35,15 @@ struct Trajectory {
   Eigen::MatrixXd x;         // nx × samples + 1
   Eigen::MatrixXd estimate;  // nx × samples: what u was made of; x itself without a filter
   Eigen::MatrixXd u, y;      // nu × samples, ny × samples
-  double cost = 0;           // Σ xᵀQx + uᵀRu + 2xᵀNu in the sampled weights, where x and u carry them
+  Eigen::VectorXd cost;      // samples: xᵀQx + uᵀRu + 2xᵀNu of `SampledCost`; 0 without one
 };
 
-// Runs `solution` of `problem` around its own sampled plant, in double, every sum in ascending order: the same bits
-// on every host. Schedules, online covariance, stages' gains, integral, input_rate, track and limits are followed;
-// the plant is that of the beginning. As on the target: in filter form y is sampled while the last u acts, in
-// predictor form while the new one does.
+// Runs `solution` of `problem` (with its defaults) around its own sampled plant, in double, every sum in ascending
+// order: the same bits on every host.
+//   x⁺ = A x + B u + G w,  y = C x + D u + v,  u = −K [x̂; ξ; u[k−1]] + Nbar r,  ξ⁺ = ξ + T (r − y)
+// Schedules, stages, covariance on line, `input_rate` and limits are followed; the target's gate and what it does
+// with ξ when u is limited are not. As on the target, in filter form y is sampled while the last u acts, in predictor
+// form while the new one does.
 Trajectory simulate(const Problem& problem, const Solution& solution, const SimulationOptions& options);
 
 }  // namespace lqg::design
