@@ -1,5 +1,5 @@
-# What `cmake --install` brings: the headers, the library's four variants, lqgen where it was built, and the
-# package that find_package(tinylqg) finds.
+# What `cmake --install` brings: the headers, the library's four variants, lqgen and the design engine where they were
+# built, and the package that find_package(tinylqg) finds.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -19,6 +19,14 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tinylqg)
 install(DIRECTORY include/lqg DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS ${targets} EXPORT tinylqg)
 install(EXPORT tinylqg NAMESPACE tinylqg:: FILE tinylqgTargets.cmake DESTINATION ${package_dir})
+
+# The design engine with its headers, as <design/….hpp>, in a set of its own: it needs packages that firmware does not.
+if(LQG_BUILD_CODEGEN)
+  install(DIRECTORY codegen/design DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tinylqg FILES_MATCHING PATTERN "*.hpp")
+  install(TARGETS lqg_design EXPORT tinylqg_design)
+  install(EXPORT tinylqg_design NAMESPACE tinylqg:: FILE tinylqgDesignTargets.cmake DESTINATION ${package_dir})
+  install(FILES codegen/cmake/LqgDesignDependencies.cmake DESTINATION ${package_dir})
+endif()
 
 configure_package_config_file(codegen/cmake/tinylqgConfig.cmake.in tinylqgConfig.cmake
                               INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
