@@ -260,7 +260,7 @@ double NoiseSource::uniform() {
   z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
   z = (z ^ z >> 27) * 0x94d049bb133111ebu;
   z ^= z >> 31;
-  return (static_cast<double>(z >> 11) + 0.5) / 9007199254740992.0;
+  return (static_cast<double>(z >> 12) + 0.5) / 4503599627370496.0;
 }
 
 double NoiseSource::normal() {

@@ -69,7 +69,7 @@ Problem regulator_alone(Problem problem) {
 void test_uniform_numbers_are_those_of_splitmix64() {
   NoiseSource source(1234567);
   for (const std::uint64_t expected : {6457827717110365317u, 3203168211198807973u, 9817491932198370423u})
-    TEST_ASSERT_TRUE(source.uniform() == std::ldexp(static_cast<double>(expected >> 11) + 0.5, -53));
+    TEST_ASSERT_TRUE(source.uniform() == std::ldexp(static_cast<double>(expected >> 12) + 0.5, -52));
 }
 
 // The fourth cumulant of twelve uniform numbers is −12/120: Var of the mean square is (2 − 0.1)/N.
