@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Builds TinyLQG and passes all its tests; sets up what it needs.
 #
-#   test/run.sh [--sanitize] [option of ctest]…        CC and CXX choose the compilers
+#   test/run.sh [--sanitize | --firmware] [option of ctest]…        CC and CXX choose the compilers
 #
-# --sanitize builds with AddressSanitizer and UndefinedBehaviorSanitizer. The build is in build/, or
-# build-<compiler>-sanitize/ and so on.
+# --sanitize builds with AddressSanitizer and UndefinedBehaviorSanitizer, --firmware leaves out the tests of lqgen's
+# rooms. The build is in build/, or build-<compiler>-sanitize/ and so on.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../codegen/cmake/setup.sh"
 
@@ -46,6 +46,11 @@ if [ "${1:-}" = --sanitize ]; then
   folder+=-sanitize
   flags="-O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
   options+=(-DCMAKE_BUILD_TYPE=Debug "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags")
+fi
+
+if [ "${1:-}" = --firmware ]; then
+  shift
+  options+=(-DLQG_TEST_CODEGEN=OFF)
 fi
 
 lqg_install_packages
