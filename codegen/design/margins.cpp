@@ -311,8 +311,10 @@ Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loo
   const Response in_few_digits = response.in_present_digits();
   const std::vector<Real> angles = search_angles(closed_loop_poles);
   const Refining exactly = {[&](const Real& angle) { return in_few_digits.at(angle); }, exact};
-  const auto [result, is_certain] = least_margins(search_with(roughly(response), angles), exactly);
-  return is_certain ? result : least_margins(search_with(exactly.evaluate, angles), exactly).first;
+  auto [result, is_certain] = least_margins(search_with(roughly(response), angles), exactly);
+  if (!is_certain) result = least_margins(search_with(exactly.evaluate, angles), exactly).first;
+  if (loop.B.cols() > 1) keep_six_digits(result.disk);  // of a search in double
+  return result;
 }
 
 Margins rough_margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {

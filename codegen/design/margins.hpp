@@ -11,7 +11,7 @@ namespace lqg::design {
 //   phase  where Re t = 1/2, the loop's gain is 1: the angle 2 atan(1/|2 Im t|) makes it oscillate
 //   disk   1/max μ((S − T)/2) = 1/max μ(I/2 − T), all channels disturbed at once, each in its own way
 // The least of all channels; searched on a grid that follows the poles, refined to the exact place in many
-// digits. Empty where there is no such place.
+// digits; the disk of several channels has six. Empty where there is no such place.
 Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles);
 
 // The same in double, to six digits: a tenth of the time.
