@@ -110,7 +110,6 @@ void check_loop(const Problem& problem, const Solution& rounded, Solution& solut
   RoundedLoop& loop = solution.loop.rounded.emplace();
   loop.poles = sorted_poles(poles);
   loop.at_input = rough_margins(open_at_inputs(plant, controller), poles);
-  if (solution.estimator) loop.at_output = rough_margins(open_at_outputs(plant, controller), poles);
   check_cost(problem, controller, solution, loop, findings);
 }
 
