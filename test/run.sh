@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds TinyLQG and passes all its tests; sets up what it needs.
 #
-#   test/run.sh [--sanitize | --firmware] [option of ctest]…        CC and CXX choose the compilers
+#   test/run.sh [--sanitize] [--firmware] [option of ctest]…        CC and CXX choose the compilers
 #
 # --sanitize builds with AddressSanitizer and UndefinedBehaviorSanitizer, --firmware leaves out the tests of lqgen's
 # rooms. The build is in build/, or build-<compiler>-sanitize/ and so on.
