@@ -6,14 +6,9 @@
 #     cmake --toolchain ports/<port>/toolchain.cmake …
 # Debian: gcc-arm-none-eabi libnewlib-arm-none-eabi. Programs run in QEMU where that is installed
 # (qemu-system-arm), and so do their tests.
-set(CMAKE_SYSTEM_NAME Generic)
+include(${CMAKE_CURRENT_LIST_DIR}/../bare-metal.cmake)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # no program links without start-up code
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
 set(LQG_STARTUP ${CMAKE_CURRENT_LIST_DIR}/startup.c)  # to be compiled into every program
 set(CMAKE_C_FLAGS_INIT "${lqg_cpu} -mthumb -ffunction-sections -fdata-sections")
@@ -22,7 +17,5 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT
 
 find_program(LQG_QEMU_ARM qemu-system-arm)
 if(LQG_QEMU_ARM)
-  set(CMAKE_CROSSCOMPILING_EMULATOR ${LQG_QEMU_ARM} -machine ${lqg_machine} -nographic -monitor none -serial none
-                                    -chardev stdio,id=pc
-                                    -semihosting-config enable=on,target=native,chardev=pc -kernel)
+  set(CMAKE_CROSSCOMPILING_EMULATOR ${LQG_QEMU_ARM} -machine ${lqg_machine} ${lqg_semihosting})
 endif()

@@ -6,14 +6,9 @@
 #     cmake --toolchain ports/<port>/toolchain.cmake …
 # Debian: gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf. Programs run in QEMU where that is installed
 # (qemu-system-misc), and so do their tests.
-set(CMAKE_SYSTEM_NAME Generic)
+include(${CMAKE_CURRENT_LIST_DIR}/../bare-metal.cmake)
 set(CMAKE_SYSTEM_PROCESSOR riscv${lqg_bits})
 set(CMAKE_C_COMPILER riscv64-unknown-elf-gcc)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # no program links without start-up code
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
 set(LQG_STARTUP ${CMAKE_CURRENT_LIST_DIR}/startup.c)  # to be compiled into every program
 set(CMAKE_C_FLAGS_INIT "${lqg_cpu} -mcmodel=medany --specs=picolibc.specs -ffunction-sections -fdata-sections")
@@ -22,7 +17,5 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT
 
 find_program(LQG_QEMU_RISCV${lqg_bits} qemu-system-riscv${lqg_bits})
 if(LQG_QEMU_RISCV${lqg_bits})
-  set(CMAKE_CROSSCOMPILING_EMULATOR ${LQG_QEMU_RISCV${lqg_bits}} -machine virt -bios none -nographic -monitor none
-                                    -serial none -chardev stdio,id=pc
-                                    -semihosting-config enable=on,target=native,chardev=pc -kernel)
+  set(CMAKE_CROSSCOMPILING_EMULATOR ${LQG_QEMU_RISCV${lqg_bits}} -machine virt -bios none ${lqg_semihosting})
 endif()

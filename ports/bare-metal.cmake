@@ -1,0 +1,10 @@
+# What the toolchain files of all emulated boards share: no operating system, no library but the compiler's, programs
+# that QEMU runs by semihosting.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # no program links without start-up code
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(lqg_semihosting -nographic -monitor none -serial none -chardev stdio,id=pc
+                    -semihosting-config enable=on,target=native,chardev=pc -kernel)
