@@ -52,27 +52,6 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
   return usable;
 }
 
-template <class S, class Listener>
-auto update_plain(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
-  const Vector<S> y = decorrelate(model, measured, listener);
-  std::vector<decltype(is_finite(y(0)))> usable;
-  for (int i = 0; i < model.ny; ++i) usable.push_back(update_plain_output(model, state, S(y(i)), i, listener));
-  keep_residual(model, state, y, usable, listener);
-  Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
-  return is_finite(total.sum);
-}
-
-// The same of output i alone: as if the others were not there.
-template <class S, class Listener>
-auto update_plain_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  auto usable = update_plain_output(model, state, y, i, listener);
-  keep_residual_alone(model, state, y, usable, i, listener);
-  Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
-  return is_finite(total.sum);
-}
-
 // P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.
 template <class S, class Listener>
 void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& total, Listener& listener) {

@@ -85,27 +85,6 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
   return usable;
 }
 
-template <class S, class Listener>
-auto update_ud(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
-  const Vector<S> y = decorrelate(model, measured, listener);
-  std::vector<decltype(is_finite(y(0)))> usable;
-  for (int i = 0; i < model.ny; ++i) usable.push_back(update_ud_output(model, state, S(y(i)), i, listener));
-  keep_residual(model, state, y, usable, listener);
-  Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
-  return is_finite(total.sum);
-}
-
-// The same of output i alone: as if the others were not there.
-template <class S, class Listener>
-auto update_ud_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  auto usable = update_ud_output(model, state, y, i, listener);
-  keep_residual_alone(model, state, y, usable, i, listener);
-  Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
-  return is_finite(total.sum);
-}
-
 // [A U | G], the rows that Thornton makes orthogonal under the weights diag(D, w).
 template <class S, class Listener>
 Matrix<S> rows_of_the_prior(const Model<S>& model, const State<S>& state, Listener& listener) {

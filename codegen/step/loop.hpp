@@ -1,9 +1,8 @@
 // One sample of the whole controller, whatever its filter.
 #pragma once
 
-#include "step/kalman_plain.hpp"
+#include "step/kalman_online.hpp"
 #include "step/kalman_steady.hpp"
-#include "step/kalman_ud.hpp"
 
 namespace lqg::step {
 
@@ -11,22 +10,16 @@ namespace lqg::step {
 template <class S, class Listener>
 auto update(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
   observe(model, state, y, listener);
-  switch (model.filter) {
-    case Filter::plain: return update_plain(model, state, y, listener);
-    case Filter::ud: return update_ud(model, state, y, listener);
-    default: return update_steady(model, state, y, listener);
-  }
+  return model.filter == Filter::steady ? update_steady(model, state, y, listener)
+                                        : update_online(model, state, y, listener);
 }
 
 // The update by output i alone.
 template <class S, class Listener>
 auto update_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   observe_alone(model, state, y, i, listener);
-  switch (model.filter) {
-    case Filter::plain: return update_plain_alone(model, state, y, i, listener);
-    case Filter::ud: return update_ud_alone(model, state, y, i, listener);
-    default: return update_steady_alone(model, state, y, i, listener);
-  }
+  return model.filter == Filter::steady ? update_steady_alone(model, state, y, i, listener)
+                                        : update_online_alone(model, state, y, i, listener);
 }
 
 // x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is finite.

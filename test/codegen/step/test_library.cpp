@@ -5,39 +5,17 @@
 
 #include <unity.h>
 
-#include "lqg/lqg.h"
-#include "random_model.hpp"
+#include "library_numbers.hpp"
 
 using namespace lqg_test;
 using lqg::step::Event;
 using lqg::step::Listener;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
-#ifdef LQG_FUSED
-using S = Fused<lqg_real>;
-#else
-using S = lqg_real;
-#endif
-
-using Numbers = std::vector<lqg_real>;
 using Limits = std::numeric_limits<lqg_real>;
 
 constexpr int largest_nx = 12, controllers = 250, samples = 300;
-
-lqg_real number(const S& value) { return static_cast<lqg_real>(to_double(value)); }
-
-Numbers row_major(const Matrix<S>& matrix) {
-  Numbers out;
-  for (int i = 0; i < matrix.rows(); ++i)
-    for (int j = 0; j < matrix.cols(); ++j) out.push_back(number(matrix(i, j)));
-  return out;
-}
 
 Numbers in_order(const std::vector<S>& values) {
   Numbers out;
@@ -51,9 +29,6 @@ bool is_identity(const Matrix<S>& matrix) {
       if (number(matrix(i, j)) != (i == j ? 1 : 0)) return false;
   return true;
 }
-
-const lqg_real* pointer(const Numbers& numbers) { return numbers.empty() ? nullptr : numbers.data(); }
-lqg_real* pointer(Numbers& numbers) { return numbers.empty() ? nullptr : numbers.data(); }
 
 // The model as the library wants it.
 struct Description {

@@ -5,43 +5,17 @@
 
 #include <unity.h>
 
-#include "lqg/lqg.h"
-#include "random_model.hpp"
+#include "library_numbers.hpp"
 
 using namespace lqg_test;
 using lqg::step::Event;
 using lqg::step::Listener;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
-#ifdef LQG_FUSED
-using S = Fused<lqg_real>;
-#else
-using S = lqg_real;
-#endif
-
-using Numbers = std::vector<lqg_real>;
 using Limits = std::numeric_limits<lqg_real>;
 
 constexpr int laws = 300, samples = 60, ny = 3;
-
-lqg_real number(const S& value) { return static_cast<lqg_real>(to_double(value)); }
-
-template <class Values>
-Numbers numbers_of(const Values& values) {
-  Numbers out;
-  for (int i = 0; i < values.rows(); ++i)
-    for (int j = 0; j < values.cols(); ++j) out.push_back(number(values(i, j)));
-  return out;
-}
-
-const lqg_real* pointer(const Numbers& numbers) { return numbers.empty() ? nullptr : numbers.data(); }
-lqg_real* pointer(Numbers& numbers) { return numbers.empty() ? nullptr : numbers.data(); }
 
 Matrix<S> random_matrix(Random& random, int rows, int columns) {
   Matrix<S> out(rows, columns);
@@ -94,9 +68,9 @@ lqg_status status_of(unsigned events) {
 class Comparison {
  public:
   explicit Comparison(const Model<S>& model)
-      : model_(model), state_(lqg::step::initial_state(model)), K_(numbers_of(model.K)), Nbar_(numbers_of(model.Nbar)),
-        H_(numbers_of(model.H)), u_min_(numbers_of(model.u_min)), u_max_(numbers_of(model.u_max)),
-        u_step_(numbers_of(model.u_step)), output_(model.integral.begin(), model.integral.end()),
+      : model_(model), state_(lqg::step::initial_state(model)), K_(row_major(model.K)), Nbar_(row_major(model.Nbar)),
+        H_(row_major(model.H)), u_min_(row_major(model.u_min)), u_max_(row_major(model.u_max)),
+        u_step_(row_major(model.u_step)), output_(model.integral.begin(), model.integral.end()),
         reference_(model.wanted.begin(), model.wanted.end()), xi_(output_.size()), error_(output_.size()),
         demand_(static_cast<std::size_t>(state_.demand.size())), u_applied_(static_cast<std::size_t>(state_.u.size())) {
     const auto size = [](auto count) { return static_cast<unsigned>(count); };
@@ -110,13 +84,13 @@ class Comparison {
     state_.x = x, state_.r = r;
     lqg::step::observe(model_, state_, y, listener);
     const Vector<S> u = lqg::step::control(model_, state_, listener);
-    const Numbers x_of_library = numbers_of(x), y_of_library = numbers_of(y), wanted = numbers_of(r);
+    const Numbers x_of_library = row_major(x), y_of_library = row_major(y), wanted = row_major(r);
     Numbers found(static_cast<std::size_t>(model_.nu));
     lqg_servo_observe(&servo_, pointer(wanted), pointer(error_), y_of_library.data());
     const lqg_status status = lqg_servo_control(&servo_, x_of_library.data(), pointer(wanted), pointer(xi_), pointer(demand_),
                                                 pointer(u_applied_), found.data());
     expect(status, listener.events);
-    TEST_ASSERT_TRUE(found == numbers_of(u));
+    TEST_ASSERT_TRUE(found == row_major(u));
     return status;
   }
   // What was applied, by the loop or by hand.
@@ -124,7 +98,7 @@ class Comparison {
   lqg_status apply(const Vector<S>& u, Templates templates, Library library) {
     Listener listener;
     const bool finite = templates(u, listener);
-    const Numbers applied = numbers_of(u);
+    const Numbers applied = row_major(u);
     const lqg_status status = library(applied);
     // A u that nothing remembers is the filter's to refuse.
     if (!finite && !state_.u.size()) return forget();
@@ -146,7 +120,7 @@ class Comparison {
     return apply(u, [&](const Vector<S>& applied, Listener& listener) {
       return lqg::step::set_input(model_, state_, applied, listener);
     }, [&](const Numbers& applied) {
-      const Numbers x = numbers_of(state_.x), r = numbers_of(state_.r);
+      const Numbers x = row_major(state_.x), r = row_major(state_.r);
       return lqg_servo_set_input(&servo_, x.data(), pointer(r), pointer(xi_), pointer(error_), pointer(demand_),
                                  pointer(u_applied_), applied.data());
     });
@@ -160,10 +134,10 @@ class Comparison {
   }
   void expect(lqg_status status, unsigned events) {
     TEST_ASSERT_EQUAL_HEX(status_of(events), status);
-    TEST_ASSERT_TRUE(xi_ == numbers_of(state_.xi));
-    TEST_ASSERT_TRUE(error_ == numbers_of(state_.error));
-    TEST_ASSERT_TRUE(demand_ == numbers_of(state_.demand));
-    TEST_ASSERT_TRUE(u_applied_ == numbers_of(state_.u));
+    TEST_ASSERT_TRUE(xi_ == row_major(state_.xi));
+    TEST_ASSERT_TRUE(error_ == row_major(state_.error));
+    TEST_ASSERT_TRUE(demand_ == row_major(state_.demand));
+    TEST_ASSERT_TRUE(u_applied_ == row_major(state_.u));
   }
 
   const Model<S>& model_;
