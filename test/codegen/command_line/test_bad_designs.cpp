@@ -94,11 +94,6 @@ void check_all(const std::vector<BadDesign>& designs, int status) {
 
 }  // namespace
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 int main(int count, char** arguments) {
   if (count != 3) return 2;
   lqgen = fs::absolute(arguments[1]).string();

@@ -8,11 +8,6 @@
 
 using namespace design_test;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 int main(int count, char** arguments) {
   std::vector<int> sizes;
   for (int i = 1; i < count; ++i) sizes.push_back(std::atoi(arguments[i]));

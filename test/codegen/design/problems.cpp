@@ -65,6 +65,11 @@ Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const M
   return problem;
 }
 
+Problem regulator_alone(Problem problem) {
+  problem.estimator.reset();
+  return problem;
+}
+
 Problem double_integrator(double sample_time) {
   return problem_of(Domain::continuous, sample_time, (MatrixXd(2, 2) << 0, 1, 0, 0).finished(),
                     (MatrixXd(2, 1) << 0, 1).finished(), (MatrixXd(1, 2) << 1, 0).finished());

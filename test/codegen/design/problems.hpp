@@ -28,6 +28,8 @@ class Random {
 Problem problem_of(lqg::design::Domain domain, double sample_time, const Eigen::MatrixXd& A,
                    const Eigen::MatrixXd& B, const Eigen::MatrixXd& C);
 
+Problem regulator_alone(Problem problem);
+
 // ẍ = u, the position is measured.
 Problem double_integrator(double sample_time);
 

@@ -14,19 +14,9 @@ using namespace lqg::design;
 using namespace design_test;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const double rounding = 1e-30;  // of 100 digits of which solving takes half, less condition
-
-Problem regulator_alone(Problem problem) {
-  problem.estimator.reset();
-  return problem;
-}
 
 // A continuous random plant whose cost is a sampled integral, with cross terms.
 Problem random_sampled_problem(std::uint64_t seed) {

@@ -11,11 +11,6 @@
 #include "design/riccati.hpp"
 #include "problems.hpp"
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 using namespace design_test;

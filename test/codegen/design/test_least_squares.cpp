@@ -13,11 +13,6 @@ using namespace design_test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void test_random_problems_satisfy_the_normal_equations() {

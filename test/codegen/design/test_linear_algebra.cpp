@@ -12,11 +12,6 @@ using namespace lqg::design;
 using namespace design_test;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const double rounding = 1e-45;  // of 50 digits, with five to spare for sums and condition

@@ -14,11 +14,6 @@ using namespace design_test;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 using Complex = std::complex<double>;

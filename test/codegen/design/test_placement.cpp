@@ -16,11 +16,6 @@ using namespace design_test;
 using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 // Of simple poles in the runs' last digits; what the eigenvectors' condition takes is far less than half of 100.

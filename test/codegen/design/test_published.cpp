@@ -6,11 +6,6 @@
 #include "design/rounding.hpp"
 #include "problems.hpp"
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 using namespace design_test;
@@ -25,9 +20,8 @@ void expect_printed(const MatrixXd& printed, int decimals, const RealMatrix& fou
     TEST_ASSERT_DOUBLE_WITHIN(half, printed.data()[i], to_double(found.data()[i]));
 }
 
-Problem regulator_alone(Domain domain, Cost cost, const MatrixXd& A, const MatrixXd& B, const MatrixXd& C) {
-  Problem problem = problem_of(domain, 1e-3, A, B, C);
-  problem.estimator.reset();
+Problem weighed(Domain domain, Cost cost, const MatrixXd& A, const MatrixXd& B, const MatrixXd& C) {
+  Problem problem = regulator_alone(problem_of(domain, 1e-3, A, B, C));
   problem.regulator->cost = cost;
   return problem;
 }
@@ -46,7 +40,7 @@ void test_kalman_of_matlab() {
 
 // Altair Compose, reference page `dlqr`.
 void test_dlqr_of_compose() {
-  Problem problem = regulator_alone(Domain::discrete, Cost::discrete, (MatrixXd(2, 2) << 9, 0.2, 0, 8).finished(),
+  Problem problem = weighed(Domain::discrete, Cost::discrete, (MatrixXd(2, 2) << 9, 0.2, 0, 8).finished(),
                                     (MatrixXd(2, 1) << 0, 1).finished(), MatrixXd::Zero(0, 2));
   problem.regulator->Q = (MatrixXd(2, 2) << 2, 1, 1, 2).finished();
   const Solution found = solved(problem);
@@ -58,7 +52,7 @@ void test_dlqr_of_compose() {
 // MATLAB, reference page `lqr`: pendulum on a cart.
 void test_lqr_of_matlab() {
   const MatrixXd A = (MatrixXd(4, 4) << 0, 1, 0, 0, 0, -0.1, 3, 0, 0, 0, 0, 1, 0, -0.5, 30, 0).finished();
-  Problem problem = regulator_alone(Domain::continuous, Cost::continuous, A, (MatrixXd(4, 1) << 0, 2, 0, 5).finished(),
+  Problem problem = weighed(Domain::continuous, Cost::continuous, A, (MatrixXd(4, 1) << 0, 2, 0, 5).finished(),
                                     MatrixXd::Zero(0, 4));
   problem.regulator->Q = Eigen::Vector4d(1, 0, 1, 0).asDiagonal();
   const Solution found = solved(problem);
@@ -72,7 +66,7 @@ void test_lqr_of_matlab() {
 // lqry and Q_output weigh it.
 void test_lqry_of_the_tutorials() {
   const MatrixXd A = (MatrixXd(3, 3) << -0.313, 56.7, 0, -0.0139, -0.426, 0, 0, 56.7, 0).finished();
-  Problem problem = regulator_alone(Domain::continuous, Cost::continuous, A,
+  Problem problem = weighed(Domain::continuous, Cost::continuous, A,
                                     (MatrixXd(3, 1) << 0.232, 0.0203, 0).finished(),
                                     (MatrixXd(1, 3) << 0, 0, 1).finished());
   problem.regulator->Q.resize(0, 0);

@@ -11,11 +11,6 @@ using namespace lqg::design;
 using namespace design_test;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 // Refused with exactly one error, at `key`, whose message has every one of `parts`.

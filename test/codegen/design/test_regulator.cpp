@@ -9,11 +9,6 @@ using namespace lqg::design;
 using namespace design_test;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 Problem scalar_problem(Domain domain, double a) {

@@ -11,11 +11,6 @@ using namespace lqg::design;
 using namespace design_test;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void expect_errors(const Problem& problem, const std::vector<std::string>& expected) {

@@ -8,11 +8,6 @@
 using namespace lqg::design;
 using namespace design_test;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const unsigned digits = 120;  // of the closed forms

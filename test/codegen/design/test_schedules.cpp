@@ -15,19 +15,9 @@ using namespace lqg::design;
 using namespace design_test;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const double rounding = 1e-30;  // of 100 digits of which solving takes half, less condition
-
-Problem regulator_alone(Problem problem) {
-  problem.estimator.reset();
-  return problem;
-}
 
 Problem estimator_alone(Problem problem) {
   problem.regulator.reset();
@@ -361,7 +351,7 @@ void test_tracked_outputs_come_to_rest_at_r() {
     const RegulatorSolution& lqr = *found.regulator;
     const Index nz = plant.A.rows(), states = found.plant.A.rows(), integrals = seed % 4 == 0 ? 1 : 0;
     RealMatrix push = multiply(plant.B, lqr.Nbar);
-    const std::vector<int> outputs = reference_outputs(*problem.regulator);
+    const std::vector<int> outputs = reference_outputs(problem);
     for (Index j = 0; integrals > 0 && j < push.cols(); ++j)
       if (outputs[static_cast<std::size_t>(j)] == 1) push(states, j) += Real(problem.plant.sample_time);
     const RealMatrix at_rest = *solve(identity(nz) - plant.A + multiply(plant.B, lqr.K), push);

@@ -11,11 +11,6 @@
 using namespace lqg::design;
 using namespace design_test;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const unsigned coarse_digits = 50;

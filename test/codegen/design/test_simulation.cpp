@@ -14,11 +14,6 @@ using namespace design_test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const double sigmas = 5;        // a right result fails one time in two million

@@ -8,11 +8,6 @@
 #include "design/structured_norm.hpp"
 #include "problems.hpp"
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 using namespace design_test;

@@ -12,11 +12,6 @@ using namespace lqg_test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const std::vector<Language> both = {Language::c, Language::cxx};

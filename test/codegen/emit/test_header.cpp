@@ -18,11 +18,6 @@ using lqg::emit::Controller;
 
 namespace fs = std::filesystem;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 Controller controller_in(Style style, DesignText design = double_integrator()) {

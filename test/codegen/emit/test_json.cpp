@@ -12,11 +12,6 @@ using lqg::design::RealMatrix;
 using lqg::emit::Controller;
 using nlohmann::json;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 constexpr int designs = 12;

@@ -14,11 +14,6 @@ using lqg::design::Problem;
 using lqg::design::Solution;
 using lqg::emit::Controller;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const std::vector<Language> as_c_only = {Language::c}, as_both = {Language::c, Language::cxx};

@@ -5,11 +5,6 @@
 
 using lqg::emit::sha256;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void expect(const char* digest, const std::string& message) {

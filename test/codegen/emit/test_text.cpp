@@ -9,11 +9,6 @@
 
 using namespace lqg::emit;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void expect_filled(const char* expected, const char* text) {

@@ -13,11 +13,6 @@
 using namespace lqg_test;
 using lqg::emit::Controller;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 DesignText online(DesignText design, const char* covariance) {

@@ -14,11 +14,6 @@ using lqg::emit::Controller;
 using lqg::emit::Sample;
 using lqg::emit::Vectors;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 bool equal(const Vectors& a, const Vectors& b) {

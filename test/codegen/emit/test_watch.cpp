@@ -13,11 +13,6 @@ using lqg::design::Problem;
 using lqg::design::Solution;
 using lqg::emit::Controller;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void gate_at_three(Problem& problem, Solution&) { problem.estimator->gate = 3; }

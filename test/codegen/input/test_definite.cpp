@@ -9,11 +9,6 @@
 using namespace lqg::input;
 using Eigen::MatrixXd;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 MatrixXd two_by_two(double a, double b, double c, double d) {

@@ -10,11 +10,6 @@
 using namespace lqg;
 using design::Problem;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 const std::string full = R"(name = "pair"

@@ -8,11 +8,6 @@
 
 using namespace lqg::input;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 Node tree(const std::string& text) {

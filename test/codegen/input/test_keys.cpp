@@ -8,11 +8,6 @@
 
 using namespace lqg::input;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void expect(const char* table, const char* name, const char* message) {

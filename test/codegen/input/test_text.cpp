@@ -7,11 +7,6 @@
 
 using namespace lqg::input;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 void expect_clean(const std::string& text) {

@@ -9,11 +9,6 @@ using namespace lqg_test;
 using lqg::step::Event;
 using lqg::step::Listener;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -13,11 +13,6 @@
 using namespace lqg::trace;
 using namespace lqg_test;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 constexpr int functions = 150, inputs = 5, operations = 30, runs = 4;

@@ -11,11 +11,6 @@
 using namespace lqg::trace;
 using namespace lqg_test;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 constexpr Target targets[] = {{false, false}, {false, true}, {true, false}, {true, true}};

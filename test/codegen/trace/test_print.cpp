@@ -15,11 +15,6 @@
 using namespace lqg::trace;
 using namespace lqg_test;
 
-extern "C" {
-void setUp(void) {}
-void tearDown(void) {}
-}
-
 namespace {
 
 // A C compiler reads a literal without a suffix as a double and one with `f` as a float.
