@@ -1,6 +1,5 @@
 #include "design/augmentation.hpp"
 
-#include "design/checks.hpp"
 #include "design/elimination.hpp"
 
 namespace lqg::design {
@@ -9,11 +8,6 @@ namespace {
 
 Index integrals_of(const Problem& problem) {
   return problem.regulator->integral ? static_cast<Index>(problem.regulator->integral->outputs.size()) : 0;
-}
-
-// [a 0; 0 b]
-RealMatrix diagonal(const RealMatrix& a, const RealMatrix& b) {
-  return above(beside(a, zeros(a.rows(), b.cols())), beside(zeros(b.rows(), a.cols()), b));
 }
 
 // [x; ξ]⁺ with ξ⁺ = hold ξ − step (C_i x + D_i u).
@@ -28,12 +22,12 @@ RegulatedPlant with_integrals(const Problem& problem, const RegulatedPlant& plan
 }
 
 SampledCost with_integral_weight(const SampledCost& cost, const RealMatrix& Q) {
-  return {diagonal(cost.Q, Q), cost.R, above(cost.N, zeros(Q.rows(), cost.R.rows()))};
+  return {joint(cost.Q, zeros(cost.Q.rows(), Q.rows()), Q), cost.R, above(cost.N, zeros(Q.rows(), cost.R.rows()))};
 }
 
 // u = p + Δu:  [Q N; Nᵀ R] over [x; p],  [N; R] across,  R + S of Δu.
 SampledCost with_rate_weight(const SampledCost& cost, const RealMatrix& S) {
-  return {above(beside(cost.Q, cost.N), beside(cost.N.transpose(), cost.R)), cost.R + S, above(cost.N, cost.R)};
+  return {joint(cost.Q, cost.N, cost.R), cost.R + S, above(cost.N, cost.R)};
 }
 
 RiccatiEquation continuous_equation(const Problem& problem, const SampledCost& weights) {

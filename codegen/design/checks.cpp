@@ -5,9 +5,6 @@
 #include "design/factor.hpp"
 #include "design/modes.hpp"
 #include "design/poles.hpp"
-#include "design/noise.hpp"
-#include "design/rounding.hpp"
-#include "design/weights.hpp"
 
 namespace lqg::design {
 
@@ -149,40 +146,6 @@ void add_once(Findings& findings, const std::string& key, const std::string& mes
   add_error(findings, key, message);
 }
 
-Real least_eigenvalue(const RealMatrix& weight) {
-  Real least;
-  for (const ComplexReal& value : eigenvalues(weight)) least = std::min<Real>(least, value.re);
-  return least;
-}
-
-// The matrix is not positive semidefinite by more than what typing rounded numbers explains, whatever the units of
-// its rows, or what computing it in double leaves beside its norm.
-bool is_indefinite(const RealMatrix& weight) {
-  if (positive_definite(weight) || least_scaled_eigenvalue(weight) >= -1e-9) return false;
-  return least_eigenvalue(weight) < -2.3e-16 * static_cast<double>(weight.rows()) * norm(weight);
-}
-
-RealMatrix joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b) {
-  return above(beside(a, cross), beside(cross.transpose(), b));
-}
-
-void check_symmetric(const Eigen::MatrixXd& a, const std::string& key, Findings& findings) {
-  if (a != a.transpose()) add_error(findings, key, "expected a symmetric matrix");
-}
-
-// Errors at `key_a` or `key_b` for one alone, at `key_cross` when only the two together are indefinite.
-void check_joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b,
-                 const std::string& key_a, const std::string& key_cross, const std::string& key_b,
-                 Findings& findings) {
-  const std::string expected = "expected a positive semidefinite matrix, found the eigenvalue ";
-  const std::size_t before = findings.size();
-  for (const auto& [matrix, key] : {std::make_pair(&a, &key_a), std::make_pair(&b, &key_b)})
-    if (is_indefinite(*matrix))
-      add_error(findings, *key, expected + short_number(to_double(least_eigenvalue(*matrix))));
-  if (findings.size() == before && is_indefinite(joint(a, cross, b)))
-    add_error(findings, key_cross, "with this cross term the weights together are not positive semidefinite");
-}
-
 // (A, B), or (Aᵀ, Cᵀ) for what the outputs see: in the numbers of the file, and sampled.
 struct Pair {
   Eigen::MatrixXd A, B;
@@ -212,147 +175,6 @@ bool check_pair(const Plant& plant, const Pair& pair, const Decay& decay, const 
 }
 
 }  // namespace
-
-void add_error(Findings& findings, const std::string& key, const std::string& message) {
-  findings.push_back({Severity::error, key, message});
-}
-
-void add_note(Findings& findings, const std::string& key, const std::string& message) {
-  for (const Finding& finding : findings)
-    if (finding.key == key && finding.message == message) return;
-  findings.push_back({Severity::note, key, message});
-}
-
-namespace {
-
-void check_discrete_plant(const Problem& problem, Findings& findings) {
-  const std::string expected = "expected \"discrete\": the plant is given at its samples only";
-  if (has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete) add_error(findings, "lqr.cost", expected);
-  if (has_noise(problem.estimator) && problem.estimator->noise != Noise::discrete)
-    add_error(findings, "kalman.noise", expected);
-  if (!delay_of(problem.plant).is_whole)
-    add_error(findings, "plant.delay", "expected whole periods: the plant is given at its samples only");
-}
-
-void check_continuous_cost(const Problem& problem, Findings& findings) {
-  if (problem.plant.delay > 0)
-    add_error(findings, "lqr.cost",
-              "the continuous Riccati equation knows no delay: expected \"sampled\" or \"discrete\"");
-  if (problem.regulator->input_rate.size() > 0)
-    add_error(findings, "lqr.input_rate",
-              "a continuous trajectory has no Δu: expected cost = \"sampled\" or \"discrete\"");
-}
-
-// Where the gain is one number for ever, the problem must be one, too.
-void check_gains_and_stages(const Problem& problem, Findings& findings) {
-  bool changes_plant = false, changes_filter = false;
-  for (const Stage& stage : problem.stages) {
-    changes_plant = changes_plant || stage.A.size() + stage.B.size() + stage.C.size() + stage.D.size() > 0;
-    changes_filter = changes_filter || stage.A.size() + stage.C.size() + stage.G.size() > 0
-                     || stage.W.size() + stage.V.size() > 0;
-  }
-  const int end = problem.stages.empty() ? 0 : problem.stages.back().from;
-  const auto is_over = [&](int horizon) { return horizon > 0 && end >= horizon; };
-  if ((has_cost(problem.regulator) && is_over(problem.regulator->horizon))
-      || (has_noise(problem.estimator) && is_over(problem.estimator->horizon)))
-    add_error(findings, "stage",
-              "a stage begins at step " + std::to_string(end) + ", when the horizon is over and its last gain is held");
-  if (has_noise(problem.estimator) && problem.estimator->gain == Gain::steady && changes_filter)
-    add_error(findings, "kalman.gain", "stages change the filter: expected \"schedule\" or \"online\"");
-  if (changes_plant && problem.regulator && !problem.regulator->track.empty())
-    add_error(findings, "lqr.track", "stages change the plant: r has no one set point");
-  if (changes_plant && problem.regulator && problem.regulator->poles)
-    add_error(findings, "pole_placement", "stages change the plant: one gain has these poles for one plant only");
-  if (changes_plant && problem.estimator && problem.estimator->poles)
-    add_error(findings, "observer", "stages change the plant: one gain has these poles for one plant only");
-}
-
-void check_correlation_times(const Estimator& kalman, Findings& findings) {
-  const bool of_process = kalman.process_correlation_time.size() > 0;
-  const bool of_measurement = kalman.measurement_correlation_time.size() > 0;
-  const std::string key =
-      of_process ? "kalman.process_correlation_time" : "kalman.measurement_correlation_time";
-  if (!of_process && !of_measurement) return;
-  if (kalman.noise == Noise::discrete)
-    add_error(findings, key, "expected noise = \"continuous\": samples have no correlation time");
-  if (of_process != of_measurement && !kalman.Swv.isZero(0))
-    add_error(findings, "kalman.cross_noise",
-              "needs both correlation times or none: it cannot be half a covariance and half a density");
-}
-
-}  // namespace
-
-void check_kinds(const Problem& problem, Findings& findings) {
-  if (problem.plant.domain == Domain::discrete) check_discrete_plant(problem, findings);
-  if (has_cost(problem.regulator) && problem.regulator->cost == Cost::continuous)
-    check_continuous_cost(problem, findings);
-  check_gains_and_stages(problem, findings);
-  if (has_noise(problem.estimator)) check_correlation_times(*problem.estimator, findings);
-}
-
-void check_symmetry(const Problem& problem, Findings& findings) {
-  if (has_cost(problem.regulator)) {
-    const Regulator& lqr = *problem.regulator;
-    check_symmetric(lqr.Q, "lqr.Q", findings);
-    check_symmetric(lqr.R, "lqr.R", findings);
-    check_symmetric(lqr.Q_output, "lqr.Q_output", findings);
-    check_symmetric(lqr.Q_final, "lqr.Q_final", findings);
-    check_symmetric(lqr.input_rate, "lqr.input_rate", findings);
-    if (lqr.integral) check_symmetric(lqr.integral->Q, "lqr.integral", findings);
-  }
-  if (!has_noise(problem.estimator)) return;
-  check_symmetric(problem.estimator->W, "kalman.process_noise", findings);
-  check_symmetric(problem.estimator->V, "kalman.measurement_noise", findings);
-  check_symmetric(problem.estimator->P0, "kalman.initial_covariance", findings);
-}
-
-namespace {
-
-void check_semidefinite(const Eigen::MatrixXd& a, const std::string& key, Findings& findings) {
-  if (a.size() > 0 && is_indefinite(real(a)))
-    add_error(findings, key, "expected a positive semidefinite matrix");
-}
-
-void check_regulator_definiteness(const Problem& problem, Findings& findings) {
-  const Regulator& lqr = *problem.regulator;
-  const SampledCost weights = weights_of(problem);
-  check_joint(weights.Q, weights.N, weights.R, "lqr.Q", "lqr.N", "lqr.R", findings);
-  if (lqr.cost == Cost::continuous && !positive_definite(weights.R))
-    add_error(findings, "lqr.R", "expected a positive definite matrix: the continuous gain needs its inverse");
-  check_semidefinite(lqr.Q_output, "lqr.Q_output", findings);
-  check_semidefinite(lqr.Q_final, "lqr.Q_final", findings);
-  check_semidefinite(lqr.input_rate, "lqr.input_rate", findings);
-  if (lqr.integral) check_semidefinite(lqr.integral->Q, "lqr.integral", findings);
-}
-
-// The first output whose noise is none, or follows from that of the outputs before it.
-void check_measurement_noise(const Plant& plant, const RealMatrix& V, Findings& findings) {
-  const Factors factors = lower_factors(V);
-  for (Index i = 0; i < V.rows(); ++i) {
-    if (factors.d(i) > 0) continue;
-    const std::size_t k = static_cast<std::size_t>(i);
-    const std::string name = k < plant.outputs.size() ? plant.outputs[k].name : "y" + std::to_string(i);
-    return add_error(findings, "kalman.measurement_noise",
-                     "expected a positive definite matrix: every output needs some noise of its own, " + name
-                         + (V(i, i) > 0 ? " has only that of the outputs before it" : " has none"));
-  }
-}
-
-void check_estimator_definiteness(const Problem& problem, Findings& findings) {
-  const Estimator& kalman = *problem.estimator;
-  check_joint(real(kalman.W), real(kalman.Swv), real(kalman.V), "kalman.process_noise", "kalman.cross_noise",
-              "kalman.measurement_noise", findings);
-  if (!has_error(findings)) check_measurement_noise(problem.plant, noise_of(problem).V, findings);
-  if (kalman.gain != Gain::steady)
-    check_semidefinite(kalman.P0, "kalman.initial_covariance", findings);
-}
-
-}  // namespace
-
-void check_definiteness(const Problem& problem, Findings& findings) {
-  if (has_cost(problem.regulator)) check_regulator_definiteness(problem, findings);
-  if (has_noise(problem.estimator)) check_estimator_definiteness(problem, findings);
-}
 
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;

@@ -10,9 +10,6 @@
 
 namespace lqg::design {
 
-void add_error(Findings& findings, const std::string& key, const std::string& message);
-void add_note(Findings& findings, const std::string& key, const std::string& message);
-
 // Is the design one that the plant's domain allows; are weights and covariances symmetric, and
 // (semi)definite?
 void check_kinds(const Problem& problem, Findings& findings);

@@ -1,6 +1,6 @@
 #include "design/compensator.hpp"
 
-#include "design/augmentation.hpp"
+#include "design/reference.hpp"
 
 namespace lqg::design {
 
@@ -11,11 +11,6 @@ bool has_filter_form(const Problem& problem) {
 }
 
 bool has_rate(const Problem& problem) { return problem.regulator->input_rate.size() > 0; }
-
-const std::vector<int>& integrated(const Problem& problem) {
-  static const std::vector<int> none;
-  return problem.regulator->integral ? problem.regulator->integral->outputs : none;
-}
 
 // Signals of a sample as matrices over [x̂⁻; ξ; u[k−1]; y]: those four, then what follows from them.
 struct Signals {
@@ -45,7 +40,7 @@ Compensator system(const Signals& s, const RealMatrix& next, const RealMatrix& u
 
 // ξ⁺ = ξ − T y of the integrated outputs, and u is kept where it is needed again.
 RealMatrix next_memory(const Problem& problem, const Signals& s, const RealMatrix& outputs, const RealMatrix& u) {
-  const RealMatrix moved = Real(problem.plant.sample_time) * rows_of(outputs, integrated(problem));
+  const RealMatrix moved = Real(problem.plant.sample_time) * rows_of(outputs, integrated_outputs(problem));
   return above(s.integral - moved, s.last.rows() > 0 ? u : s.last);
 }
 
@@ -53,7 +48,7 @@ Compensator of_measured_state(const Problem& problem, const Solution& solution) 
   const SampledPlant& plant = final_plant(solution);
   const Index nx = plant.A.rows(), nu = plant.B.cols();
   const Signals s =
-      signals_of(0, static_cast<Index>(integrated(problem).size()), has_rate(problem) ? nu : 0, nx);
+      signals_of(0, static_cast<Index>(integrated_outputs(problem).size()), has_rate(problem) ? nu : 0, nx);
   const RealMatrix u = law(problem, solution.regulator->K, s, s.y);
   const RealMatrix outputs = multiply(plant.C, s.y) + multiply(plant.D, u);
   return system(s, next_memory(problem, s, outputs, u), u);
@@ -72,7 +67,7 @@ Compensator compensator(const Problem& problem, const Solution& solution) {
   const bool answers_at_once = has_filter_form(problem);
   const bool keeps = has_rate(problem) || (answers_at_once && !is_zero(plant.D));
   const Index nx = plant.A.rows(), nu = plant.B.cols();
-  const Signals s = signals_of(nx, static_cast<Index>(integrated(problem).size()), keeps ? nu : 0, plant.C.rows());
+  const Signals s = signals_of(nx, static_cast<Index>(integrated_outputs(problem).size()), keeps ? nu : 0, plant.C.rows());
   const RealMatrix e = s.y - multiply(plant.C, s.estimate);
   RealMatrix innovation = e, u;
   if (answers_at_once) {

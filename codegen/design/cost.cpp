@@ -17,17 +17,13 @@ RealMatrix regulated(const Problem& problem, const Compensator& controller, cons
   return above(above(z, last), u - last);
 }
 
-RealMatrix together(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b) {
-  return above(beside(a, cross), beside(cross.transpose(), b));
-}
-
 // `covariance` of [z; v]; `error` of the part of x that v does not know.
 SteadyCost cost_of(const Problem& problem, const Samples& samples, const Compensator& controller,
                    const RealMatrix& covariance, const RealMatrix& error) {
   const SampledCost weights = regulated_cost(problem, samples.between ? samples.between->cost : *samples.cost);
   const Index nx = samples.plant.A.rows();
   SteadyCost cost;
-  cost.per_sample = trace_of_product(together(weights.Q, weights.N, weights.R), covariance)
+  cost.per_sample = trace_of_product(joint(weights.Q, weights.N, weights.R), covariance)
                     + trace_of_product(weights.Q.topLeftCorner(nx, nx), error);
   if (!samples.between) return cost;
   // E[w uᵀ] = Swv Dᵀ where the controller answers y at once; else u is older than v.
@@ -47,7 +43,7 @@ std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& sam
   const SampledNoise& noise = *samples.noise;
   const Index nx = samples.plant.A.rows();
   const ClosedLoop loop = closed_loop(measured_plant(problem, samples.plant), controller);
-  const RealMatrix disturbance = together(noise.W, noise.Swv, noise.V);
+  const RealMatrix disturbance = joint(noise.W, noise.Swv, noise.V);
   const std::optional<RealMatrix> states = solve_stein(loop.A.transpose(), congruence(loop.B, disturbance));
   if (!states) return std::nullopt;
   const Index all = loop.A.rows(), none = loop.D.cols();

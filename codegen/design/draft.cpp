@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "design/checks.hpp"
 #include "design/cost.hpp"
 #include "design/draft_parts.hpp"
 #include "design/estimator.hpp"
@@ -55,6 +54,7 @@ void take_condition(const RiccatiResult& result, Solution& solution) {
 Draft draft(const Problem& problem, const Draft* coarser) {
   Draft result;
   const std::vector<SampledStage> stages = sample_stages(problem);
+  result.stages = stages;
   result.solution.plant = stages.front().samples.plant;
   for (std::size_t i = 1; i < stages.size(); ++i) result.solution.stages.push_back(stage_solution(stages[i]));
   check_representable(result.solution, problem.code.real, result.findings);

@@ -4,12 +4,14 @@
 #include "design/linear_algebra.hpp"
 #include "design/placement.hpp"
 #include "design/solution.hpp"
+#include "design/stages.hpp"
 
 namespace lqg::design {
 
 // What the numbers of a Solution are before they are settled. Its poles, costs and margins are still empty.
 struct Draft {
   Solution solution;
+  std::vector<SampledStage> stages;  // what it was drafted from
   std::vector<ComplexReal> regulator_poles, estimator_poles;
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
   std::optional<EstimatorSolution> full_filter;  // without the structure that its gain has

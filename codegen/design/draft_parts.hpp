@@ -2,7 +2,7 @@
 #pragma once
 
 #include "design/draft.hpp"
-#include "design/stages.hpp"
+#include "design/riccati.hpp"
 
 namespace lqg::design {
 

@@ -1,20 +1,9 @@
 #include "design/estimator.hpp"
 
-#include "design/checks.hpp"
 #include "design/factor.hpp"
+#include "design/finding.hpp"
 
 namespace lqg::design {
-
-namespace {
-
-// The inputs on their way are known: no error, no gain.
-RealMatrix with_known_inputs(const RealMatrix& own, Index rows, Index columns) {
-  RealMatrix result = zeros(rows, columns);
-  result.topLeftCorner(own.rows(), own.cols()) = own;
-  return result;
-}
-
-}  // namespace
 
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
   const SampledPlant plant = own_plant(samples);
@@ -24,7 +13,8 @@ RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
       {plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W), noise.V,
        multiply(plant.G, noise.Swv)},
       start.size() > 0 ? RealMatrix(start.topLeftCorner(nx, nx)) : start);
-  if (result.failure == RiccatiFailure::none) result.X = with_known_inputs(result.X, all, all);
+  // The inputs on their way are known: no error.
+  if (result.failure == RiccatiFailure::none) result.X = padded(result.X, all, all);
   return result;
 }
 
@@ -65,7 +55,7 @@ void factor_process_noise(OnlineSolution& online) {
 
 RealMatrix initial_covariance(const Estimator& estimator, const Samples& samples) {
   const Index all = samples.plant.A.rows();
-  return with_known_inputs(real(estimator.P0), all, all);
+  return padded(real(estimator.P0), all, all);
 }
 
 OnlineSolution online_filter(const Estimator& estimator, const Samples& samples) {

@@ -22,4 +22,9 @@ inline bool has_error(const Findings& findings) {
   return false;
 }
 
+void add_error(Findings& findings, const std::string& key, const std::string& message);
+
+// Said before, it is not said again.
+void add_note(Findings& findings, const std::string& key, const std::string& message);
+
 }  // namespace lqg::design

@@ -88,9 +88,7 @@ GainTable gains_backward(const std::vector<SampledStage>& stages, int steps, con
 
 RealMatrix final_weight(const SampledStage& last, const Eigen::MatrixXd& Q_final) {
   const Index size = regulated_plant(last.problem, last.samples.plant).A.rows();
-  RealMatrix X = zeros(size, size);
-  X.topLeftCorner(Q_final.rows(), Q_final.cols()) = real(Q_final);
-  return X;
+  return padded(real(Q_final), size, size);
 }
 
 }  // namespace lqg::design

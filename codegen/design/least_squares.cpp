@@ -1,6 +1,5 @@
 #include "design/least_squares.hpp"
 
-#include "design/checks.hpp"
 #include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"

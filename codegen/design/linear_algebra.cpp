@@ -140,6 +140,16 @@ RealMatrix above(const RealMatrix& a, const RealMatrix& b) {
   return result;
 }
 
+RealMatrix joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b) {
+  return above(beside(a, cross), beside(cross.transpose(), b));
+}
+
+RealMatrix padded(const RealMatrix& a, Index rows, Index columns) {
+  RealMatrix result = zeros(rows, columns);
+  result.topLeftCorner(a.rows(), a.cols()) = a;
+  return result;
+}
+
 namespace {
 
 // a = PᵀLU in place; the rows of `b` move along. False when a pivot is exactly zero.

@@ -39,6 +39,12 @@ RealMatrix symmetric_part(const RealMatrix& a);
 RealMatrix beside(const RealMatrix& a, const RealMatrix& b);
 RealMatrix above(const RealMatrix& a, const RealMatrix& b);
 
+// [a cross; crossᵀ b]
+RealMatrix joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b);
+
+// [a 0; 0 0] with that many rows and columns.
+RealMatrix padded(const RealMatrix& a, Index rows, Index columns);
+
 // a⁻¹ b by elimination with row exchanges; empty when a pivot is exactly zero.
 std::optional<RealMatrix> solve(const RealMatrix& a, const RealMatrix& b);
 

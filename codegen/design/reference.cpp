@@ -41,10 +41,15 @@ RealMatrix without_rounding(RealMatrix a) {
 
 }  // namespace
 
-std::vector<int> reference_outputs(const Regulator& regulator) {
-  std::vector<int> outputs = regulator.track;
-  if (regulator.integral)
-    outputs.insert(outputs.end(), regulator.integral->outputs.begin(), regulator.integral->outputs.end());
+const std::vector<int>& integrated_outputs(const Problem& problem) {
+  static const std::vector<int> none;
+  return problem.regulator && problem.regulator->integral ? problem.regulator->integral->outputs : none;
+}
+
+std::vector<int> reference_outputs(const Problem& problem) {
+  std::vector<int> outputs = integrated_outputs(problem);
+  if (problem.regulator)
+    outputs.insert(outputs.end(), problem.regulator->track.begin(), problem.regulator->track.end());
   std::sort(outputs.begin(), outputs.end());
   outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
   return outputs;
@@ -53,7 +58,7 @@ std::vector<int> reference_outputs(const Regulator& regulator) {
 std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& plant, const SampledCost& cost,
                                   Findings& findings) {
   const std::vector<int>& track = problem.regulator->track;
-  const std::vector<int> outputs = reference_outputs(*problem.regulator);
+  const std::vector<int> outputs = reference_outputs(problem);
   const std::size_t before = findings.size();
   check_set_points(plant, track, "lqr.track", findings);
   if (findings.size() > before) return std::nullopt;

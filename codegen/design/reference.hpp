@@ -21,7 +21,8 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
 // u = −K [x̂ − Nx r; ξ; u[k−1] − Nu r] + Nu r:  Nbar = Nu + K_x Nx; of Δu:  K_x Nx + K_u Nu.
 RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const SetPoint& set_point);
 
-// The outputs in r.
-std::vector<int> reference_outputs(const Regulator& regulator);
+// The outputs that are integrated, ξ by ξ, and those in r; none without a regulator.
+const std::vector<int>& integrated_outputs(const Problem& problem);
+std::vector<int> reference_outputs(const Problem& problem);
 
 }  // namespace lqg::design

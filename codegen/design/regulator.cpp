@@ -1,6 +1,6 @@
 #include "design/regulator.hpp"
 
-#include "design/checks.hpp"
+#include "design/finding.hpp"
 #include "design/prediction.hpp"
 
 namespace lqg::design {

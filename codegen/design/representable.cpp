@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "design/checks.hpp"
+#include "design/linear_algebra.hpp"
 #include "design/numbers.hpp"
 #include "design/rounding.hpp"
 

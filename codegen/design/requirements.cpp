@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "design/checks.hpp"
 
 namespace lqg::design {
 

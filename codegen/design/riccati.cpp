@@ -164,7 +164,7 @@ std::optional<RiccatiEquation> bilinear(const RiccatiEquation& e) {
       solve(gamma * identity(nx) - e.A, beside(identity(nx), beside(gamma * identity(nx) + e.A, e.B)));
   if (!solved) return std::nullopt;
   const RealMatrix inverse = solved->leftCols(nx), solved_B = solved->rightCols(nu);
-  const RealMatrix weights = above(beside(e.Q, e.N), beside(e.N.transpose(), e.R));
+  const RealMatrix weights = joint(e.Q, e.N, e.R);
   const RealMatrix outputs = above(beside(root * inverse, solved_B), beside(zeros(nu, nx), identity(nu)));
   const RealMatrix seen = transpose_congruence(outputs, weights);
   return RiccatiEquation{solved->middleCols(nx, nx), root * solved_B, seen.topLeftCorner(nx, nx),

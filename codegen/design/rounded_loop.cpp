@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "design/checks.hpp"
 #include "design/compensator.hpp"
 #include "design/cost.hpp"
 #include "design/margins.hpp"
 #include "design/poles.hpp"
 #include "design/rounding.hpp"
-#include "design/stages.hpp"
 
 namespace lqg::design {
 
@@ -82,17 +80,16 @@ void check_poles(const std::vector<ComplexReal>& poles, const std::string& what,
                   + short_complex(*pole, 1) + remedy(real));
 }
 
-void check_cost(const Problem& problem, const Compensator& controller, const Solution& solution, RoundedLoop& rounded,
+void check_cost(const SampledStage& last, const Compensator& controller, const Solution& solution, RoundedLoop& rounded,
                 Findings& findings) {
   if (!solution.loop.cost_per_sample) return;
-  const SampledStage last = sample_stages(problem).back();
   const std::optional<SteadyCost> cost = steady_cost(last.problem, last.samples, controller);
   if (!cost) return;
   rounded.cost_per_sample = to_double(cost->per_sample);
   const double ratio = *rounded.cost_per_sample / *solution.loop.cost_per_sample;
   if (ratio > 1.01)
     add_note(findings, "code.real",
-             "the numbers rounded to " + name_of(problem.code.real) + " cost " + short_number(100 * (ratio - 1)) + " % more");
+             "the numbers rounded to " + name_of(last.problem.code.real) + " cost " + short_number(100 * (ratio - 1)) + " % more");
 }
 
 void check_filter(const Solution& rounded, Scalar real, Findings& findings) {
@@ -101,7 +98,8 @@ void check_filter(const Solution& rounded, Scalar real, Findings& findings) {
   check_poles(eigenvalues(A - multiply(gain, rounded.plant.C)), "the filter", real, findings);
 }
 
-void check_loop(const Problem& problem, const Solution& rounded, Solution& solution, Findings& findings) {
+void check_loop(const Problem& problem, const SampledStage& last, const Solution& rounded, Solution& solution,
+                Findings& findings) {
   const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
   const Compensator controller = compensator(problem, rounded);
   const std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, controller).A);
@@ -110,7 +108,8 @@ void check_loop(const Problem& problem, const Solution& rounded, Solution& solut
   RoundedLoop& loop = solution.loop.rounded.emplace();
   loop.poles = sorted_poles(poles);
   loop.at_input = rough_margins(open_at_inputs(plant, controller), poles);
-  check_cost(problem, controller, solution, loop, findings);
+  if (solution.estimator) loop.at_output = rough_margins(open_at_outputs(plant, controller), poles);
+  check_cost(last, controller, solution, loop, findings);
 }
 
 bool is_stable(const Poles& poles) {
@@ -121,7 +120,7 @@ bool is_stable(const Poles& poles) {
 
 }  // namespace
 
-void check_rounded(const Problem& problem, Solution& solution, Findings& findings) {
+void check_rounded(const Problem& problem, const SampledStage& last, Solution& solution, Findings& findings) {
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   const Solution rounded = held(solution, problem.code.real);
   if (solution.estimator || solution.online)
@@ -129,7 +128,7 @@ void check_rounded(const Problem& problem, Solution& solution, Findings& finding
   if (has_error(findings) || !is_stable(solution.loop.poles)) return;
   if (solution.regulator && solution.estimator == std::nullopt && problem.estimator) return;
   if (solution.regulator)
-    check_loop(problem, rounded, solution, findings);
+    check_loop(problem, last, rounded, solution, findings);
   else if (solution.estimator)
     check_filter(rounded, problem.code.real, findings);
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "design/finding.hpp"
-#include "design/problem.hpp"
 #include "design/solution.hpp"
+#include "design/stages.hpp"
 
 namespace lqg::design {
 
@@ -11,7 +11,7 @@ namespace lqg::design {
 // (those of inputs that are kept for D, too), cost and margins (to six digits). `solution` has its cost and poles.
 // A filter alone has the poles of Â − (ÂL + M)Ĉ. Errors under "code.real" when this is unstable, or when the model
 // is lost: A ≠ I rounds to I, a column of B or a row of C to 0; a note when it costs more than 1 % more. With stages
-// the loop is that of the last one.
-void check_rounded(const Problem& problem, Solution& solution, Findings& findings);
+// the loop is that of the `last` one.
+void check_rounded(const Problem& problem, const SampledStage& last, Solution& solution, Findings& findings);
 
 }  // namespace lqg::design

@@ -103,10 +103,6 @@ void take_moves(const RealMatrix& moves, Index nu, Index samples, SampledPlant& 
   sampled.B = AB.rightCols(nu);
 }
 
-RealMatrix padded(const RealMatrix& G, Index rows) {
-  return above(G, zeros(rows - G.rows(), G.cols()));
-}
-
 SampledNoise of_samples(const SampledNoise& density, const RealMatrix& W, const RealMatrix& held_G,
                         const Real& sample_time) {
   return {W, density.V / sample_time, multiply(held_G, density.Swv) / sample_time};
@@ -135,7 +131,8 @@ Samples continuous_samples(const Problem& problem, const Delay& delay) {
   take_moves(beside(period.A, period.B.leftCols(2 * nu)), nu, delay.samples, samples.plant);
   const RealMatrix held_G =
       held_noise ? RealMatrix(period.B.rightCols(nw)) : held_noise_input(problem, noise, segments.A, G);
-  samples.plant.G = padded(noise_is_sampled(problem) ? identity(nx) : held_G, samples.plant.A.rows());
+  const RealMatrix own_G = noise_is_sampled(problem) ? identity(nx) : held_G;
+  samples.plant.G = padded(own_G, samples.plant.A.rows(), own_G.cols());
   if (noise_is_sampled(problem)) samples.noise = of_samples(noise, period.noise, held_G, T);
   if (!cost_is_integral(problem)) return samples;
   samples.between = between_samples(problem, period, noise, delay.samples, held_noise ? nw : 0);
@@ -149,7 +146,7 @@ Samples discrete_samples(const Plant& plant, const Delay& delay) {
   Samples samples;
   const RealMatrix inputs = delay.samples == 0 ? beside(none, B) : beside(B, none);
   take_moves(beside(real(plant.A), inputs), nu, delay.samples, samples.plant);
-  samples.plant.G = padded(real(plant.G), samples.plant.A.rows());
+  samples.plant.G = padded(real(plant.G), samples.plant.A.rows(), plant.G.cols());
   return samples;
 }
 

@@ -16,8 +16,8 @@ RealMatrix next_covariance(const Samples& samples, const EstimatorSolution& filt
   const SampledPlant& plant = samples.plant;
   const SampledNoise& noise = *samples.noise;
   const RealMatrix F = plant.A - multiply(filter.L_predictor, plant.C);
-  const RealMatrix joint = above(beside(noise.W, noise.Swv), beside(noise.Swv.transpose(), noise.V));
-  return congruence(F, filter.P_prior) + congruence(beside(plant.G, -filter.L_predictor), joint);
+  return congruence(F, filter.P_prior)
+         + congruence(beside(plant.G, -filter.L_predictor), joint(noise.W, noise.Swv, noise.V));
 }
 
 bool round_alike(const Real& a, const Real& b, Scalar real) {
@@ -34,9 +34,14 @@ bool has_arrived(const RealMatrix& gain, const RealMatrix& steady, Scalar real) 
   return true;
 }
 
-void append(GainSchedule& schedule, const EstimatorSolution& filter) {
-  schedule.L.push_back(filter.L);
-  schedule.M.push_back(filter.M);
+// Appends the gains of sample k, of the covariance P before it; P is that of the next sample then.
+void advance(const std::vector<SampledStage>& stages, int k, RealMatrix& P, GainSchedule& schedule) {
+  report_progress("gains from the start on", k);
+  const Samples& samples = stage_at(stages, k).samples;
+  schedule.last = filter_of(samples, P);
+  schedule.L.push_back(schedule.last.L);
+  schedule.M.push_back(schedule.last.M);
+  P = next_covariance(samples, schedule.last);
 }
 
 }  // namespace
@@ -44,13 +49,7 @@ void append(GainSchedule& schedule, const EstimatorSolution& filter) {
 GainSchedule gains_forward(const std::vector<SampledStage>& stages, const RealMatrix& P0, int count) {
   GainSchedule schedule;
   RealMatrix P = P0;
-  for (int k = 0; k < count; ++k) {
-    report_progress("gains from the start on", k);
-    const Samples& samples = stage_at(stages, k).samples;
-    schedule.last = filter_of(samples, P);
-    append(schedule, schedule.last);
-    P = next_covariance(samples, schedule.last);
-  }
+  for (int k = 0; k < count; ++k) advance(stages, k, P, schedule);
   return schedule;
 }
 
@@ -62,11 +61,7 @@ GainSchedule gains_until_steady(const std::vector<SampledStage>& stages, const R
   const int enough = 2 * static_cast<int>(P0.rows()) + 10;
   std::size_t length = 0;
   for (int k = 0, at_rest = 0; at_rest < enough; ++k) {
-    report_progress("gains from the start on", k);
-    const Samples& samples = stage_at(stages, k).samples;
-    schedule.last = filter_of(samples, P);
-    append(schedule, schedule.last);
-    P = next_covariance(samples, schedule.last);
+    advance(stages, k, P, schedule);
     const bool arrived = k >= last_change(stages) && has_arrived(schedule.last.L, steady.L, real)
                          && has_arrived(schedule.last.M, steady.M, real);
     at_rest = arrived ? at_rest + 1 : 0;

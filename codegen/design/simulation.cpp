@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "design/linear_algebra.hpp"
+#include "design/reference.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -85,9 +85,7 @@ struct Present {
 
 // F Fᵀ = [G W Gᵀ, G Swv; Swvᵀ Gᵀ, V]
 MatrixXd noise_factor(const SampledPlant& plant, const SampledNoise& noise) {
-  const RealMatrix cross = multiply(plant.G, noise.Swv);
-  return square_root(in_double(
-      above(beside(congruence(plant.G, noise.W), cross), beside(cross.transpose(), noise.V))));
+  return square_root(in_double(joint(congruence(plant.G, noise.W), multiply(plant.G, noise.Swv), noise.V)));
 }
 
 Present present(int from, const SampledPlant& plant, const std::optional<SampledNoise>& noise) {
@@ -172,10 +170,7 @@ class Law {
   Law(const Problem& problem, const Solution& solution, const SimulationOptions& options)
       : problem_(problem), solution_(solution), options_(options), last_(VectorXd::Zero(solution.plant.B.cols())) {
     if (!problem.regulator) return;
-    std::set<int> followed(problem.regulator->track.begin(), problem.regulator->track.end());
-    if (problem.regulator->integral)
-      followed.insert(problem.regulator->integral->outputs.begin(), problem.regulator->integral->outputs.end());
-    outputs_.assign(followed.begin(), followed.end());
+    outputs_ = reference_outputs(problem);
     r_ = padded(options.r, static_cast<Index>(outputs_.size()));
     integral_ = VectorXd::Zero(static_cast<Index>(integrated().size()));
   }
@@ -208,10 +203,7 @@ class Law {
   }
 
  private:
-  const std::vector<int>& integrated() const {
-    static const std::vector<int> none;
-    return problem_.regulator && problem_.regulator->integral ? problem_.regulator->integral->outputs : none;
-  }
+  const std::vector<int>& integrated() const { return integrated_outputs(problem_); }
 
   VectorXd limited(VectorXd u) const {
     if (!problem_.limits) return u;

@@ -97,7 +97,7 @@ struct StageSolution {
 struct RoundedLoop {
   Poles poles;
   std::optional<double> cost_per_sample;
-  Margins at_input;
+  Margins at_input, at_output;
 };
 
 // The closed loop of plant, filter and regulator.

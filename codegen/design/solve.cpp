@@ -89,7 +89,7 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
     add_full_margins(problem, draft);
   }
   check_representable(solution, problem.code.real, findings);
-  check_rounded(problem, solution, findings);
+  check_rounded(problem, draft.stages.back(), solution, findings);
   check_requirements(problem, solution, findings);
 }
 

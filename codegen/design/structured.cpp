@@ -1,8 +1,8 @@
 #include "design/structured.hpp"
 
 #include "design/augmentation.hpp"
-#include "design/checks.hpp"
 #include "design/compensator.hpp"
+#include "design/finding.hpp"
 #include "design/margins.hpp"
 #include "design/modes.hpp"
 #include "design/poles.hpp"
@@ -13,12 +13,6 @@
 namespace lqg::design {
 
 namespace {
-
-RealMatrix padded(const RealMatrix& a, Index rows, Index columns) {
-  RealMatrix result = zeros(rows, columns);
-  result.topLeftCorner(a.rows(), a.cols()) = a;
-  return result;
-}
 
 // What the process noise adds to z in a sample, when it comes to reach all of it under the full gain.
 RealMatrix disturbance(const Samples& samples, const RiccatiEquation& e, const RealMatrix& full) {

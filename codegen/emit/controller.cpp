@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "design/reference.hpp"
 #include "emit/figures.hpp"
 #include "emit/gains.hpp"
 #include "emit/model_of.hpp"
@@ -82,19 +83,9 @@ bool Controller::can_update_alone(int output) const {
   });
 }
 
-const std::vector<int>& Controller::integral() const {
-  static const std::vector<int> none;
-  return has_regulator() && problem.regulator->integral ? problem.regulator->integral->outputs : none;
-}
+const std::vector<int>& Controller::integral() const { return design::integrated_outputs(problem); }
 
-std::vector<int> Controller::references() const {
-  std::vector<int> outputs = integral();
-  if (has_regulator())
-    outputs.insert(outputs.end(), problem.regulator->track.begin(), problem.regulator->track.end());
-  std::sort(outputs.begin(), outputs.end());
-  outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
-  return outputs;
-}
+std::vector<int> Controller::references() const { return design::reference_outputs(problem); }
 
 Eigen::VectorXd Controller::x0() const {
   Eigen::VectorXd x0 = Eigen::VectorXd::Zero(nx());

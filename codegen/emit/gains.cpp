@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "design/linear_algebra.hpp"
+#include "design/reference.hpp"
 #include "emit/rounding.hpp"
 
 namespace lqg::emit {
@@ -40,13 +41,11 @@ RealMatrix anti_windup(const Controller& controller, const RealMatrix& K) {
   return -*design::solve(gram, Kxi.transpose());
 }
 
-// With gains that change Nbar = Nu + Kx Nx changes too; with changes of u weighed the law gives 0 at the set point.
+// Nbar of this K: with gains that change it changes, too.
 RealMatrix feed_forward(const Controller& controller, const RealMatrix& K) {
   const design::RegulatorSolution& regulator = *controller.solution.regulator;
   if (regulator.Nbar.size() == 0 || regulator.K_schedule.empty()) return regulator.Nbar;
-  const RealMatrix of_state = design::multiply(K.leftCols(controller.nx()), regulator.Nx);
-  if (!controller.gives_change()) return regulator.Nu + of_state;
-  return of_state + design::multiply(K.rightCols(controller.nu()), regulator.Nu);
+  return design::feed_forward(controller.problem, K, {regulator.Nx, regulator.Nu});
 }
 
 // C L = I − V S⁻¹ of an optimal gain, hence S = (I − C L)⁻¹ V.

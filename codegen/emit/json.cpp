@@ -114,22 +114,22 @@ Json kalman(const Controller& controller) {
   return out;
 }
 
-Json rounded(const design::RoundedLoop& loop) {
+// Of the loop as it is designed, or as it is rounded.
+template <class Loop>
+Json poles_margins_and_cost(const Loop& loop) {
   Json out = {{"poles", poles(loop.poles)}};
   add_margins(out, loop.at_input);
+  Json at_output = Json::object();
+  add_margins(at_output, loop.at_output);
+  if (!at_output.empty()) out["at_output"] = at_output;
   add(out, "cost_per_sample", loop.cost_per_sample);
   return out;
 }
 
 Json loop(const design::LoopSolution& solution) {
-  Json out = {{"poles", poles(solution.poles)}};
-  add_margins(out, solution.at_input);
-  Json at_output = Json::object();
-  add_margins(at_output, solution.at_output);
-  if (!at_output.empty()) out["at_output"] = at_output;
-  add(out, "cost_per_sample", solution.cost_per_sample);
+  Json out = poles_margins_and_cost(solution);
   add(out, "cost_per_second", solution.cost_per_second);
-  if (solution.rounded) out["rounded"] = rounded(*solution.rounded);
+  if (solution.rounded) out["rounded"] = poles_margins_and_cost(*solution.rounded);
   return out;
 }
 

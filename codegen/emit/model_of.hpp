@@ -5,14 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "design/linear_algebra.hpp"
 #include "emit/controller.hpp"
 #include "step/model.hpp"
 
 namespace lqg::emit {
 
-inline bool is_zero(const design::RealMatrix& matrix) {
-  return std::all_of(matrix.data(), matrix.data() + matrix.size(), [](const design::Real& x) { return x == 0; });
-}
+using design::is_zero;
 
 template <class S, class Round>
 step::Matrix<S> convert(const design::RealMatrix& from, Round round) {
