@@ -1,4 +1,4 @@
-// lqgen: the command line. One design file in; header, test and JSON out, or a clear refusal and nothing.
+// lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "emit/header.hpp"
 #include "emit/json.hpp"
 #include "emit/preamble.hpp"
+#include "emit/report.hpp"
 #include "emit/sha256.hpp"
 #include "emit/summary.hpp"
 #include "emit/unit_test.hpp"
@@ -24,7 +25,7 @@ enum Exit { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 struct Arguments {
   std::string design_file;
   std::string folder = ".";
-  std::vector<std::string> only = {"h", "test", "json"};
+  std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
   bool quiet = false;
 };
@@ -53,6 +54,7 @@ std::vector<emit::File> files(const Arguments& arguments, const emit::Controller
   if (wants(arguments, "h")) out.push_back({name + ".h", emit::header(controller)});
   if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
   if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
+  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller)});
   return out;
 }
 
@@ -129,12 +131,12 @@ int generate(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json.", "lqgen"};
+  CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};
   app.set_version_flag("--version", emit::version());
   app.add_option("DESIGN", arguments.design_file, "design file (TOML)")->required()->option_text("DESIGN.toml");
   app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
   app.add_option("--only", arguments.only, "write only these")
-      ->delimiter(',')->check(CLI::IsMember({"h", "test", "json"}))->option_text("h,test,json");
+      ->delimiter(',')->check(CLI::IsMember({"h", "test", "json", "html"}))->option_text("h,test,json,html");
   app.add_option("--style", arguments.style, "instead of code.style of the design")
       ->check(CLI::IsMember({"unrolled", "compact", "auto"}))->option_text("unrolled|compact|auto");
   app.add_option("--real", arguments.real, "instead of code.real of the design")

@@ -51,7 +51,7 @@ void test_good_design_replaces_the_outputs_and_leaves_nothing_beside_them() {
   TEST_ASSERT_EQUAL_STRING("", outcome.err.c_str());
   const Snapshot after = snapshot(folder / "out");
   TEST_ASSERT_EQUAL_UINT(before.size(), after.size());
-  for (const char* name : {"base.h", "base_test.c", "base.json"})
+  for (const char* name : {"base.h", "base_test.c", "base.json", "base.html"})
     TEST_ASSERT_TRUE(after.at(name) != before.at(name));
 }
 
@@ -144,7 +144,7 @@ void test_design_that_an_output_would_overwrite() {
 }
 
 void test_output_whose_place_a_folder_has() {
-  for (const char* name : {"base.h", "base_test.c", "base.json"}) {
+  for (const char* name : {"base.h", "base_test.c", "base.json", "base.html"}) {
     make_folder();
     fs::remove(folder / "out" / name);
     fs::create_directories(folder / "out" / name / "full");
@@ -156,7 +156,7 @@ void test_output_whose_place_a_folder_has() {
 // One byte short of each file in turn: sooner or later the others have been written already.
 void test_write_that_fails_at_the_last_byte_of_a_file() {
   TEST_ASSERT_EQUAL_INT(written, run_lqgen({"base.toml", "-o", "new"}).status);
-  for (const char* name : {"base.h", "base_test.c", "base.json"}) {
+  for (const char* name : {"base.h", "base_test.c", "base.json", "base.html"}) {
     const unsigned long size = fs::file_size(folder / "new" / name);
     expect_refusal(unreadable, run_lqgen({"base.toml", "-o", "out"}, size - 1));
   }

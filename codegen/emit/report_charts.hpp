@@ -1,0 +1,28 @@
+// What the report draws of a design.
+#pragma once
+
+#include <vector>
+
+#include "emit/chart.hpp"
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+// In the z plane: the poles of regulator and estimator, which are those of the loop.
+Chart pole_chart(const Controller& controller);
+
+// The loop opened at its one input, on the unit circle, and the circle about −1 that it leaves free. None for loops of
+// several inputs, or that change with time.
+std::vector<Chart> nyquist_charts(const Controller& controller);
+
+// The sampled plant in double with the controller's gains, from the state that one sample of a small input leaves; no noise.
+struct Kick {
+  std::string words;  // "u = 0.1 N for one sample"
+  std::vector<Chart> charts;
+};
+Kick kick_charts(const Controller& controller);
+
+// The same with the noises of the design and, where outputs follow a reference, r = 1.
+std::vector<Chart> noisy_charts(const Controller& controller);
+
+}  // namespace lqg::emit
