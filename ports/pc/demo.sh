@@ -17,4 +17,6 @@ header=$folder/lqg/balancing_robot_demo/balancing_robot.h
 echo
 echo "lqgen made $header:"
 sed -n '/Regulator/,/Style/p' "$header" | sed 's/^ \*/ /'
+"$folder/tinylqg/codegen/lqgen" "$lqg_root/codegen/designs/balancing_robot.toml" -o "$folder" --only html --quiet
 "$folder/balancing_robot_demo" "$folder/balancing_robot.svg"
+echo "  What lqgen says of the design: $folder/balancing_robot.html"
