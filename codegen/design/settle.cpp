@@ -35,10 +35,18 @@ bool settle_span(const Real* coarse, Real* fine, Index count, unsigned coarse_di
   return settled;
 }
 
+// Nothing but rounding: it shrinks as the digits grow, while a true number stays what it is.
+bool is_rounding(const Real& coarse, const Real& fine, const Real& scale, unsigned coarse_digits) {
+  const double more = Real::default_precision() - static_cast<double>(coarse_digits);
+  return abs(coarse) <= power_of_ten(-0.6 * coarse_digits) * scale && abs(fine) <= negligible(0.6) * scale
+         && (coarse.is_zero() || abs(fine) <= power_of_ten(-0.6 * more) * abs(coarse));
+}
+
+// A pole at 0 that one run met exactly is only nearly there in the next.
 bool settle_part(const Real& coarse, Real& fine) {
   const Real distance = abs(fine - coarse);
   if (round_alike(fine - distance, fine + distance)) return true;
-  if (abs(fine) > 1e-20 || abs(fine) > 1e-5 * abs(coarse)) return false;
+  if (abs(fine) > 1e-20 || (!coarse.is_zero() && abs(fine) > 1e-5 * abs(coarse))) return false;
   fine = 0;
   return true;
 }
@@ -50,7 +58,7 @@ bool settle(const Real& coarse, Real& fine, const Real& scale, unsigned coarse_d
   const Real distance = 2 * abs(fine - coarse), low = fine - distance, high = fine + distance;
   if (fine.is_zero()) fine = 0;  // without a sign
   if (round_alike(low, high)) return true;
-  if (abs(coarse) <= power_of_ten(-0.6 * coarse_digits) * scale && abs(fine) <= negligible(0.6) * scale) {
+  if (is_rounding(coarse, fine, scale, coarse_digits)) {
     fine = 0;
     return true;
   }

@@ -65,6 +65,14 @@ void test_small_number_does_not_become_zero() {
   TEST_ASSERT_FALSE(fine.is_zero());
 }
 
+// 10^−65 beside 1 is hidden in the rounding of 50 digits; a rounding would have become 10^−98 by now.
+void test_small_number_that_the_coarse_run_could_not_see_does_not_become_zero() {
+  const Digits scope(100);
+  Real fine = power_of_ten(-65);
+  TEST_ASSERT_FALSE(settled(power_of_ten(-49), fine));
+  TEST_ASSERT_FALSE(fine.is_zero());
+}
+
 void test_tiny_number_on_which_both_runs_agree_is_kept() {
   const Digits scope(100);
   Real fine = exp(Real(-700));
@@ -148,6 +156,14 @@ void test_pole_that_moved_is_held_back() {
   TEST_ASSERT_FALSE(settle({{Real(0.3) + power_of_ten(-12), Real(0)}}, fine));
 }
 
+// 50 digits found one of two poles at 0 exactly; the nearest to the other's 10^−100 is that one.
+void test_poles_at_zero_are_settled_whichever_is_exact() {
+  const Digits scope(100);
+  std::vector<ComplexReal> fine = {{power_of_ten(-100), Real(0)}, {Real(0), Real(0)}};
+  TEST_ASSERT_TRUE(settle({{Real(0), Real(0)}, {power_of_ten(-50), Real(0)}}, fine));
+  TEST_ASSERT_TRUE(fine[0].re.is_zero() && fine[1].re.is_zero());
+}
+
 void test_rounding_to_double_and_float_is_to_nearest_and_gradual() {
   const Digits scope(50);
   TEST_ASSERT_TRUE(to_double(power_of_ten(-320)) == 1e-320);
@@ -166,6 +182,7 @@ int main() {
   RUN_TEST(test_number_that_is_settled_as_a_double_but_not_as_a_float_is_held_back);
   RUN_TEST(test_rounding_around_zero_becomes_zero);
   RUN_TEST(test_small_number_does_not_become_zero);
+  RUN_TEST(test_small_number_that_the_coarse_run_could_not_see_does_not_become_zero);
   RUN_TEST(test_tiny_number_on_which_both_runs_agree_is_kept);
   RUN_TEST(test_middle_between_two_doubles_is_a_tie_to_even);
   RUN_TEST(test_middle_between_two_floats_is_a_tie_to_even);
@@ -177,6 +194,7 @@ int main() {
   RUN_TEST(test_poles_are_compared_with_their_nearest);
   RUN_TEST(test_double_pole_becomes_real);
   RUN_TEST(test_pole_that_moved_is_held_back);
+  RUN_TEST(test_poles_at_zero_are_settled_whichever_is_exact);
   RUN_TEST(test_rounding_to_double_and_float_is_to_nearest_and_gradual);
   return UNITY_END();
 }
