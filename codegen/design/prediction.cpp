@@ -20,6 +20,15 @@ RealMatrix after_inputs(const RegulatedPlant& plant, RealMatrix z, const RealMat
   return z;
 }
 
+// Does the delay postpone all of the cost? Not N of the samples, which weighs u when it is decided; and with a decay, that
+// makes what comes later dearer, neither R of the samples nor the weight of Δu.
+bool is_postponed(const Problem& problem) {
+  const Regulator& lqr = *problem.regulator;
+  const bool is_discrete = lqr.cost == Cost::discrete;
+  if (decay_of(problem) != 1) return !is_discrete && lqr.input_rate.size() == 0;
+  return !is_discrete || lqr.N.isZero(0);
+}
+
 }  // namespace
 
 std::optional<Prediction> without_whole_periods(const Problem& problem, const Samples& samples) {
@@ -37,7 +46,7 @@ std::optional<Prediction> without_whole_periods(const Problem& problem, const Sa
   const RealMatrix now = above(all.topRows(nx + left * nu), all.middleRows(nx + on_their_way, integrals));
   result.predict = above(after_inputs(driven_by_input(problem, result.samples.plant), now, inputs, left),
                          all.bottomRows(kept));
-  result.is_exact = problem.regulator->cost != Cost::discrete || problem.regulator->N.isZero(0);
+  result.is_exact = is_postponed(problem);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace lqg::design {
 struct Prediction {
   Samples samples;      // of the plant with less delay
   RealMatrix predict;   // its z from z of the delayed one
-  bool is_exact = true; // false: N weighs u when it is decided, which is not postponed, and K is but a good start
+  bool is_exact = true; // false: some weight is of u when it is decided, not postponed, and K is but a good start
 };
 
 // Empty when the delay has no whole period before a part of one.

@@ -149,6 +149,7 @@ void test_delayed_law_solves_the_equation_of_the_whole_state() {
     problem.plant.delay = 0.15 * static_cast<double>(seed % 8);  // half periods
     if (seed % 5 == 0) problem.regulator->input_rate = MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
     if (seed % 3 == 0) problem.regulator->cost = Cost::discrete;
+    if (seed % 4 == 0) problem.regulator->decay = 1.1;
     const Solution found = solved(problem);
     const Digits scope(100);
     const Samples samples = sample(problem);
