@@ -232,14 +232,22 @@ Real exact_disk(const ComplexMatrix& T) {
   return 1 / hypot(T.re(0, 0) - 0.5, T.im(0, 0));
 }
 
-// The cells around the local minima of the rough disk on the grid, each with the grid's value.
+// The cells around the local minima of the rough disk on the grid, each with the grid's value. Where it is flat to the
+// rounding of double, as without any feedback, there is nothing to refine: of these places the least one, an empty cell.
 std::vector<Place> disk_places(const Search& search) {
   std::vector<Place> places;
+  std::optional<Place> flat;
   std::vector<Real> sizes;
   for (const ComplexMatrix& T : search.responses) sizes.push_back(rough_disk(T));
-  for (std::size_t i = 1; i + 1 < sizes.size(); ++i)
-    if (sizes[i] <= sizes[i - 1] && sizes[i] <= sizes[i + 1])
-      places.push_back({search.angles[i - 1], search.angles[i + 1], search.angles[i], sizes[i]});
+  for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
+    const Real &here = sizes[i], &angle = search.angles[i];
+    if (here > sizes[i - 1] || here > sizes[i + 1]) continue;
+    if (std::max<Real>(sizes[i - 1], sizes[i + 1]) > here * (1 + 1e-9))
+      places.push_back({search.angles[i - 1], search.angles[i + 1], angle, here});
+    else if (!flat || here < flat->margin)
+      flat = Place{angle, angle, angle, here};
+  }
+  if (flat) places.push_back(*flat);
   return places;
 }
 
@@ -260,6 +268,10 @@ Outcome least_disk(const Search& search, const Refining& refining) {
   const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.1;
   for (const Place& place : places) {
     if (place.margin > bound) continue;
+    if (place.low == place.high) {
+      outcome.least = std::min<Real>(*outcome.least, f(place.angle));
+      continue;
+    }
     if (has_channels) {
       outcome.least = std::min<Real>(*outcome.least, least_in(place, f));
       continue;
