@@ -82,6 +82,10 @@ Compensator compensator(const Problem& problem, const Solution& solution) {
   return system(s, above(next, next_memory(problem, s, s.y, u)), u);
 }
 
+bool is_separated(const Problem& problem, const SampledPlant& plant) {
+  return !has_filter_form(problem) || is_zero(rows_of(plant.D, integrated_outputs(problem)));
+}
+
 MeasuredPlant measured_plant(const Problem& problem, const SampledPlant& plant) {
   const Index nx = plant.A.rows(), nu = plant.B.cols(), ny = plant.C.rows();
   if (!problem.estimator) return {plant.A, plant.B, identity(nx), zeros(nx, nu), plant.G};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "design/compensator.hpp"
 #include "design/cost.hpp"
 #include "design/draft_parts.hpp"
 #include "design/estimator.hpp"
@@ -22,6 +23,27 @@ StageSolution stage_solution(const SampledStage& stage) {
   if (has_noise(stage.problem.estimator) && stage.problem.estimator->gain == Gain::online)
     solution.online = online_filter(*stage.problem.estimator, stage.samples);
   return solution;
+}
+
+// Without those of the controller's copy of the last input, which the plant that is measured keeps, too.
+std::vector<ComplexReal> poles_of_closed_loop(const Problem& problem, const Solution& solution) {
+  const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
+  std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, compensator(problem, solution)).A);
+  const auto farther = [](const ComplexReal& a, const ComplexReal& b) { return hypot(a.re, a.im) > hypot(b.re, b.im); };
+  std::sort(poles.begin(), poles.end(), farther);
+  poles.resize(poles.size() - static_cast<std::size_t>(plant.B.cols()));
+  return poles;
+}
+
+void take_loop_poles(const Problem& problem, Draft& draft) {
+  draft.loop_poles = draft.regulator_poles;
+  draft.loop_poles.insert(draft.loop_poles.end(), draft.estimator_poles.begin(), draft.estimator_poles.end());
+  if (!draft.has_steady_loop || !problem.estimator || is_separated(problem, final_plant(draft.solution))) return;
+  draft.loop_poles = poles_of_closed_loop(problem, draft.solution);
+  if (!is_stable(draft.loop_poles))
+    add_error(draft.findings, "lqr.integral",
+              "the integrated outputs answer an input at once (plant.D), and in filter form they are measured before the "
+              "next input: the loop is unstable, use form = \"predictor\"");
 }
 
 // A loop that stays what it is in the end: with a filter where one is asked for, and stable.
@@ -64,6 +86,7 @@ Draft draft(const Problem& problem, const Draft* coarser) {
   if (problem.estimator) draft_estimator(problem, stages, coarser, result);
   if (has_error(result.findings)) return result;
   result.has_steady_loop = has_steady_loop(problem, result);
+  take_loop_poles(problem, result);
   if (!result.has_steady_loop || !has_cost(problem.regulator) || !has_noise(problem.estimator)) return result;
   const std::optional<SteadyCost> cost = cost_of_loop(stages.back(), result.solution);
   if (cost) result.cost_per_sample = cost->per_sample;

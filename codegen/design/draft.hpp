@@ -12,7 +12,7 @@ namespace lqg::design {
 struct Draft {
   Solution solution;
   std::vector<SampledStage> stages;  // what it was drafted from
-  std::vector<ComplexReal> regulator_poles, estimator_poles;
+  std::vector<ComplexReal> regulator_poles, estimator_poles, loop_poles;
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
   std::optional<EstimatorSolution> full_filter;  // without the structure that its gain has
   std::optional<Real> cost_per_sample, cost_per_second;

@@ -66,6 +66,7 @@ bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
   bool settled = settle_matrices(coarse.solution, fine.solution, coarse_digits);
   settled = settle(coarse.regulator_poles, fine.regulator_poles) && settled;
   settled = settle(coarse.estimator_poles, fine.estimator_poles) && settled;
+  settled = settle(coarse.loop_poles, fine.loop_poles) && settled;
   settled = settle_optional(coarse.cost_per_sample, fine.cost_per_sample, coarse_digits) && settled;
   return settle_optional(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
 }
@@ -74,9 +75,7 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
   Solution& solution = draft.solution;
   findings.insert(findings.end(), draft.findings.begin(), draft.findings.end());
   solution.numerics.digits = digits;
-  std::vector<ComplexReal> poles = draft.regulator_poles;
-  poles.insert(poles.end(), draft.estimator_poles.begin(), draft.estimator_poles.end());
-  solution.loop.poles = sorted_poles(poles);
+  solution.loop.poles = sorted_poles(draft.loop_poles);
   if (solution.regulator) solution.regulator->poles = sorted_poles(draft.regulator_poles);
   if (solution.estimator) solution.estimator->poles = sorted_poles(draft.estimator_poles);
   if (draft.cost_per_sample) solution.loop.cost_per_sample = to_double(*draft.cost_per_sample);
@@ -84,8 +83,8 @@ void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& fin
   if (draft.has_steady_loop) {
     const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
     const Compensator controller = compensator(problem, solution);
-    solution.loop.at_input = margins(open_at_inputs(plant, controller), poles);
-    if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), poles);
+    solution.loop.at_input = margins(open_at_inputs(plant, controller), draft.loop_poles);
+    if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), draft.loop_poles);
     add_full_margins(problem, draft);
   }
   check_representable(solution, problem.code.real, findings);

@@ -166,6 +166,36 @@ void test_closed_loop_has_the_poles_of_regulator_and_filter() {
   }
 }
 
+// y is integrated as it is measured, in filter form with D of the last input: the poles are not those of the design.
+void test_closed_loop_with_integrals_and_direct_terms_has_the_poles_that_are_reported() {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    Problem problem = random_problem(seed);
+    problem.regulator->R *= 100;
+    problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 1e-4)};
+    Findings findings;
+    const std::optional<Solution> found = solve(problem, findings);
+    if (!found && problem.estimator->form == Form::filter) continue;
+    TEST_ASSERT_TRUE(found.has_value());
+    const Digits scope(60);
+    expect_closed_poles(open_loop(problem, *found, At::inputs), found->loop.poles);
+  }
+}
+
+// A plant that answers at once, and little else: ξ⁺ = ξ − T D u[k−1] and u = −K ξ with T D K > 1 swing up.
+void test_integral_that_answers_a_sample_late_is_refused_with_that_reason() {
+  const MatrixXd one = MatrixXd::Constant(1, 1, 1);
+  Problem problem = problem_of(Domain::discrete, 1, 0.1 * one, 1e-3 * one, one);
+  problem.plant.D = one;
+  problem.regulator->R *= 1e-6;
+  problem.regulator->integral = Integral{{0}, one};
+  Findings findings;
+  TEST_ASSERT_FALSE(solve(problem, findings).has_value());
+  TEST_ASSERT_EQUAL_STRING("lqr.integral", findings.back().key.c_str());
+  TEST_ASSERT_NOT_EQUAL(std::string::npos, findings.back().message.find("the loop is unstable"));
+  problem.estimator->form = Form::predictor;
+  solved(problem);
+}
+
 // One input and one output, no D: the loop's gain is the same wherever it is opened.
 void test_loop_of_one_input_and_one_output_has_the_same_margins_at_both() {
   for (const Form form : {Form::filter, Form::predictor}) {
@@ -252,6 +282,8 @@ int main() {
   RUN_TEST(test_random_loops_with_several_inputs_and_direct_terms);
   RUN_TEST(test_lightly_damped_chain);
   RUN_TEST(test_closed_loop_has_the_poles_of_regulator_and_filter);
+  RUN_TEST(test_closed_loop_with_integrals_and_direct_terms_has_the_poles_that_are_reported);
+  RUN_TEST(test_integral_that_answers_a_sample_late_is_refused_with_that_reason);
   RUN_TEST(test_loop_of_one_input_and_one_output_has_the_same_margins_at_both);
   RUN_TEST(test_margins_in_double_have_six_digits);
   RUN_TEST(test_integrator_has_its_closed_form);
