@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "design/reference.hpp"
 #include "emit/preamble.hpp"
 #include "emit/rounding.hpp"
 #include "emit/text.hpp"
@@ -63,6 +64,9 @@ void add(Json& out, const char* key, const design::RealMatrix& matrix) {
 void add(Json& out, const char* key, const std::vector<design::RealMatrix>& gains) {
   if (!gains.empty()) out[key] = schedule(gains);
 }
+void add(Json& out, const char* key, const std::vector<int>& outputs) {
+  if (!outputs.empty()) out[key] = outputs;
+}
 void add(Json& out, const char* key, const std::optional<double>& value) {
   if (value) out[key] = *value;
 }
@@ -87,7 +91,8 @@ Json cost(const design::SampledCost& cost) {
   return {{"Q", rows(cost.Q)}, {"R", rows(cost.R)}, {"N", rows(cost.N)}};
 }
 
-Json lqr(const design::RegulatorSolution& regulator) {
+Json lqr(const Controller& controller) {
+  const design::RegulatorSolution& regulator = *controller.solution.regulator;
   Json out = {{"K", rows(regulator.K)}};
   add(out, "X", regulator.X);
   out["poles"] = poles(regulator.poles);
@@ -96,6 +101,8 @@ Json lqr(const design::RegulatorSolution& regulator) {
   add(out, "Nx", regulator.Nx);
   add(out, "Nu", regulator.Nu);
   add(out, "Nbar", regulator.Nbar);
+  add(out, "integral", design::integrated_outputs(controller.problem));
+  add(out, "references", design::reference_outputs(controller.problem));
   if (regulator.structure) out["structure"] = structure(*regulator.structure);
   return out;
 }
@@ -176,7 +183,7 @@ std::string json(const Controller& controller) {
       out["cost"] = cost(regulator.cost);
       add(out["cost"], "Q_final", regulator.Q_final);
     }
-    out["lqr"] = lqr(regulator);
+    out["lqr"] = lqr(controller);
   }
   if (solution.estimator) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);

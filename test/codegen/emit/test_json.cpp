@@ -129,6 +129,15 @@ void test_what_a_design_does_not_have_is_left_out() {
   TEST_ASSERT_FALSE(regulator.contains("kalman") || regulator.contains("noise"));
 }
 
+void test_integrals_and_references_say_which_outputs_they_belong_to() {
+  std::string text = toml(double_integrator());
+  text.replace(text.find("[lqr]\n"), 6, "[lqr]\nintegral = { outputs = [0], Q = [1] }\n");
+  const json servo = json::parse(lqg::emit::json(controller_of(text)));
+  TEST_ASSERT_TRUE(servo["lqr"]["integral"] == json({0}) && servo["lqr"]["references"] == json({0}));
+  const json regulator = json::parse(lqg::emit::json(controller_of(double_integrator())));
+  TEST_ASSERT_FALSE(regulator["lqr"].contains("integral") || regulator["lqr"].contains("references"));
+}
+
 void test_words_of_the_design_file_survive_whatever_their_letters() {
   DesignText design = double_integrator();
   design.brief = "Größe \\\"ψ\\\" of a mass";
@@ -145,6 +154,7 @@ int main() {
   RUN_TEST(test_every_number_of_random_designs_reads_back_to_the_same_double);
   RUN_TEST(test_nothing_is_null);
   RUN_TEST(test_what_a_design_does_not_have_is_left_out);
+  RUN_TEST(test_integrals_and_references_say_which_outputs_they_belong_to);
   RUN_TEST(test_words_of_the_design_file_survive_whatever_their_letters);
   return UNITY_END();
 }
