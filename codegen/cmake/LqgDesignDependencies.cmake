@@ -1,5 +1,6 @@
 # What tinylqg::design is built on: Eigen, Boost.Multiprecision, MPFR, GMP. Those that are not found stand in
-# LQG_DESIGN_MISSING. MPFR and GMP bring no targets: tinylqg_mpfr is theirs.
+# LQG_DESIGN_MISSING. MPFR and GMP bring no targets: tinylqg_mpfr is theirs; a program with the property LQG_STATIC_MPFR
+# gets their static libraries, where there are any.
 if(POLICY CMP0167)
   cmake_policy(SET CMP0167 NEW)  # Boost is found by its own package
 endif()
@@ -8,6 +9,8 @@ find_package(Boost 1.74 QUIET)
 find_path(MPFR_INCLUDE_DIR mpfr.h)
 find_library(MPFR_LIBRARY mpfr)
 find_library(GMP_LIBRARY gmp)
+find_library(MPFR_STATIC_LIBRARY libmpfr.a)
+find_library(GMP_STATIC_LIBRARY libgmp.a)
 
 set(LQG_DESIGN_MISSING)
 foreach(need IN ITEMS Eigen3_FOUND Boost_FOUND MPFR_INCLUDE_DIR MPFR_LIBRARY GMP_LIBRARY)
@@ -20,6 +23,9 @@ list(REMOVE_DUPLICATES LQG_DESIGN_MISSING)
 
 if(NOT LQG_DESIGN_MISSING AND NOT TARGET tinylqg_mpfr)
   add_library(tinylqg_mpfr INTERFACE IMPORTED GLOBAL)
-  set_target_properties(tinylqg_mpfr PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${MPFR_INCLUDE_DIR}"
-                                                INTERFACE_LINK_LIBRARIES "${MPFR_LIBRARY};${GMP_LIBRARY}")
+  set(wants_static $<BOOL:$<TARGET_PROPERTY:LQG_STATIC_MPFR>>)
+  set_target_properties(tinylqg_mpfr PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES "${MPFR_INCLUDE_DIR}"
+    INTERFACE_LINK_LIBRARIES
+      "$<IF:${wants_static},${MPFR_STATIC_LIBRARY},${MPFR_LIBRARY}>;$<IF:${wants_static},${GMP_STATIC_LIBRARY},${GMP_LIBRARY}>")
 endif()
