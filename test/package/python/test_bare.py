@@ -1,0 +1,39 @@
+"""Without NumPy and all that builds on it: design files, gains and headers all the same, and a sentence about what is missing."""
+
+import importlib.util
+import json
+import sys
+import unittest
+from pathlib import Path
+
+import tinylqg
+from designs import SOURCE, InFolder, run
+
+
+class Bare(InFolder):
+    def test_there_is_no_other_package(self):
+        for name in ("numpy", "scipy", "control", "h5py"):
+            self.assertIsNone(importlib.util.find_spec(name), name)
+
+    def test_from_matrices_to_gains(self):
+        tinylqg.write_design("mass.toml", ([[1, 0.01], [0, 1]], [[5e-5], [0.01]], [[1, 0]], [[0]], 0.01), Q=[1, 1], R=[1])
+        design = tinylqg.generate("mass.toml")
+        self.assertEqual(design.K, json.loads(Path("mass.json").read_text())["lqr"]["K"])
+        self.assertEqual(design.plant.A, [[1, 0.01], [0, 1]])
+        self.assertTrue(all(abs(pole) < 1 for pole in design.lqr.poles))
+        self.assertTrue(Path("mass.h").exists())
+
+    def test_what_is_missing_is_said(self):
+        design = tinylqg.generate(SOURCE / "codegen" / "designs" / "two_mass.toml")
+        for call, package in ((design.to_control, "control"), (design.to_scipy, "mat"),
+                              (lambda: design.save_mat("x.mat"), "mat")):
+            with self.assertRaisesRegex(ImportError, rf"pip install 'tinylqg\[{package}\]'"):
+                call()
+        Path("plant.mat").write_bytes(b"MATLAB 5.0")
+        done = run(sys.executable, "-m", "tinylqg", "import", "plant.mat")
+        self.assertEqual((done.returncode, done.stderr),
+                         (3, "reading a .mat file needs scipy, which is not installed: pip install 'tinylqg[mat]'\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
