@@ -116,11 +116,8 @@ std::string figure(const std::vector<Chart>& charts, const std::string& caption)
 }
 
 std::string poles(const Controller& controller) {
-  const design::Solution& solution = controller.solution;
-  const double T = controller.problem.plant.sample_time;
   std::string rows;
-  if (solution.regulator) rows += pole_rows("regulator", solution.regulator->poles, T);
-  if (solution.estimator) rows += pole_rows("estimator", solution.estimator->poles, T);
+  for (const auto& [owner, poles] : poles_to_show(controller)) rows += pole_rows(owner, *poles, controller.problem.plant.sample_time);
   if (rows.empty()) return "";
   std::vector<Chart> charts = {pole_chart(controller)};
   for (Chart& chart : nyquist_charts(controller)) charts.push_back(std::move(chart));

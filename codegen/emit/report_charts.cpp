@@ -111,13 +111,23 @@ Eigen::VectorXd after(const design::SampledPlant& plant, const Eigen::VectorXd& 
 
 }  // namespace
 
+std::vector<NamedPoles> poles_to_show(const Controller& controller) {
+  const design::Solution& solution = controller.solution;
+  if (solution.regulator && solution.estimator && !design::is_separated(controller.problem, design::final_plant(solution)))
+    return {{"loop", &solution.loop.poles}};
+  std::vector<NamedPoles> shown;
+  if (solution.regulator) shown.push_back({"regulator", &solution.regulator->poles});
+  if (solution.estimator) shown.push_back({"estimator", &solution.estimator->poles});
+  return shown;
+}
+
 Chart pole_chart(const Controller& controller) {
   Chart chart;
   chart.title = "Poles in the z plane";
   chart.is_square = true;
   chart.circles.push_back({0, 0, 1});
-  if (controller.solution.regulator) chart.curves.push_back(pole_curve("regulator", 0, controller.solution.regulator->poles));
-  if (controller.solution.estimator) chart.curves.push_back(pole_curve("estimator", 1, controller.solution.estimator->poles));
+  int colour = 0;
+  for (const auto& [owner, poles] : poles_to_show(controller)) chart.curves.push_back(pole_curve(owner, colour++, *poles));
   double reach = 1.1;
   for (const Curve& curve : chart.curves)
     for (std::size_t i = 0; i < curve.x.size(); ++i) reach = std::max(reach, 1.1 * std::hypot(curve.x[i], curve.y[i]));

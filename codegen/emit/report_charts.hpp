@@ -8,7 +8,14 @@
 
 namespace lqg::emit {
 
-// In the z plane: the poles of regulator and estimator, which are those of the loop.
+// Whose poles a person wants to see: regulator and estimator, whose poles are those of the loop, else the loop itself.
+struct NamedPoles {
+  const char* owner;
+  const design::Poles* poles;
+};
+std::vector<NamedPoles> poles_to_show(const Controller& controller);
+
+// These in the z plane.
 Chart pole_chart(const Controller& controller);
 
 // The loop opened at its one input, on the unit circle, and the circle about −1 that it leaves free. None for loops of
