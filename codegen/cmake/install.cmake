@@ -1,5 +1,5 @@
-# What `cmake --install` brings: the headers, the library's four variants, lqgen and the design engine where they were
-# built, and the package that find_package(tinylqg) finds.
+# What `cmake --install` brings: the headers, the library's four variants, lqgen with its manual and the design engine where
+# they were built, and the package that find_package(tinylqg) finds.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -26,6 +26,7 @@ if(LQG_BUILD_CODEGEN)
   install(TARGETS lqg_design EXPORT tinylqg_design)
   install(EXPORT tinylqg_design NAMESPACE tinylqg:: FILE tinylqgDesignTargets.cmake DESTINATION ${package_dir})
   install(FILES codegen/cmake/LqgDesignDependencies.cmake DESTINATION ${package_dir})
+  install(FILES codegen/lqgen.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
 
 configure_package_config_file(codegen/cmake/tinylqgConfig.cmake.in tinylqgConfig.cmake
