@@ -1,4 +1,9 @@
-# `cpack -G DEB` in a configured build folder makes a Debian package of what `cmake --install` brings.
+# `cpack -G DEB` in a configured build folder makes a Debian package of what `cmake --install` brings. A project around this
+# one packs itself.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tinylqg)
 set(CPACK_PACKAGE_VENDOR "TinyLQG contributors")

@@ -33,3 +33,4 @@ PATH=$tools/bin:$PATH "$tools/bin/python" -m pip wheel --quiet --no-deps --no-bu
   --config-settings=cmake.define.LQG_LQGEN_EXECUTABLE="$build/codegen/lqgen_portable" \
   --wheel-dir "$plain" "$root/ports/packages/python"
 PATH=$tools/bin:$PATH auditwheel repair --wheel-dir "$output" "$plain"/*.whl
+rm -r "$plain"

@@ -46,6 +46,12 @@ class Lqgen(InFolder):
             self.assertEqual((wheel.returncode, wheel.stdout, wheel.stderr),
                              (build.returncode, build.stdout, build.stderr))
 
+    def test_needs_what_every_linux_has(self):
+        needed = run("ldd", tinylqg.lqgen_path()).stdout
+        self.assertIn("libc.so", needed)
+        for library in ("mpfr", "gmp"):
+            self.assertNotIn(library, needed)
+
     def test_version_is_that_of_the_package(self):
         self.assertEqual(run(LQGEN, "--version").stdout.strip(), tinylqg.__version__)
 

@@ -67,6 +67,12 @@ class Read(InFolder):
         save("structure.mat", motor=PLANT)
         self.assertIn("plant", tinylqg.read_mat("structure.mat"))
 
+    def test_empty_matrix_is_none(self):
+        self.assertNotIn("D =", self.text_of({"D": numpy.zeros((0, 0))}))
+        self.assertNotIn("C =", self.text_of({"C": numpy.zeros((0, 2)), "D": numpy.zeros((0, 1))}))
+        with self.refused("plant.mat", "expected the matrix A"):
+            self.text_of({"A": numpy.zeros((0, 0))})
+
     def test_Ts_is_what_MATLAB_means_by_it(self):
         self.assertIn('domain = "continuous"\nsample_time = 0.1\n', self.text_of({}))
         self.assertIn('domain = "discrete"\nsample_time = 0.25\n', self.text_of({"Ts": 0.25}, sample_time=None))

@@ -1,6 +1,8 @@
 """NAME.json as python-control's, scipy's and NumPy's own."""
 
+import functools
 import json
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -14,6 +16,13 @@ from designs import SOURCE, InFolder
 DESIGNS = sorted((SOURCE / "codegen" / "designs").glob("*.toml")) + sorted((SOURCE / "test" / "designs").glob("*.toml"))
 
 
+@functools.lru_cache(maxsize=None)
+def design_of(file):
+    """What lqgen makes of the design file."""
+    with tempfile.TemporaryDirectory() as folder:
+        return tinylqg.generate(file, folder)
+
+
 def polynomial(poles, count):
     """The coefficients of `count` poles, those that are missing at 0."""
     return numpy.poly([*poles, *[0] * (count - len(poles))])
@@ -23,7 +32,7 @@ class Loops(InFolder):
     def test_plant_and_controller_close_the_loop_that_lqgen_reports(self):
         closed = 0
         for file in DESIGNS:
-            design = tinylqg.generate(file)
+            design = design_of(file)
             if "lqr" not in design:
                 continue
             loop = control.feedback(design.to_control("sensed"), design.to_control("controller"), sign=+1)
@@ -38,13 +47,13 @@ class Loops(InFolder):
 
     def test_outputs_follow_their_references(self):
         for name in ("servo", "delayed", "alone"):
-            design = tinylqg.generate(SOURCE / "test" / "designs" / f"{name}.toml")
+            design = design_of(SOURCE / "test" / "designs" / f"{name}.toml")
             plant, controller = design.to_control("sensed"), design.to_control("controller", references=True)
             final = numpy.real(closed_with_reference(plant, controller).dcgain()).reshape(-1)
             self.assertAlmostEqual(final[design.lqr.references[0]], 1, delta=1e-9, msg=name)
 
     def test_gain_is_the_riccati_solutions_of_the_sampled_plant(self):
-        design = tinylqg.generate(SOURCE / "codegen" / "designs" / "two_mass.toml")
+        design = design_of(SOURCE / "codegen" / "designs" / "two_mass.toml")
         A, B, C, G = (design.plant[key] for key in "ABCG")
         cost, noise = design.cost, design.noise
         X = scipy.linalg.solve_discrete_are(A, B, cost.Q, cost.R, s=cost.N)
@@ -55,7 +64,7 @@ class Loops(InFolder):
         numpy.testing.assert_allclose(design.L, L, rtol=1e-9, atol=1e-12)
 
     def test_scipy_gets_the_same_systems(self):
-        design = tinylqg.generate(SOURCE / "codegen" / "designs" / "oven.toml")
+        design = design_of(SOURCE / "codegen" / "designs" / "oven.toml")
         for part in ("plant", "sensed", "controller"):
             ours, theirs = design.to_control(part), design.to_scipy(part)
             self.assertEqual(theirs.dt, 1)
@@ -64,7 +73,7 @@ class Loops(InFolder):
 
     def test_every_signal_has_a_name_of_its_own(self):
         for file in DESIGNS:
-            design = tinylqg.generate(file)
+            design = design_of(file)
             for part in ("plant", "sensed", "controller")[: 3 if "lqr" in design else 2]:
                 matrices, names = design.state_space(part)
                 sizes = {"states": len(matrices[0]), "inputs": matrices[1].shape[1], "outputs": len(matrices[2])}
@@ -92,7 +101,7 @@ class Files(InFolder):
             self.assertEqual(found, expected, key)
 
     def test_what_a_design_does_not_have(self):
-        design = tinylqg.generate(SOURCE / "codegen" / "designs" / "range_tracker.toml")
+        design = design_of(SOURCE / "codegen" / "designs" / "range_tracker.toml")
         with self.assertRaisesRegex(AttributeError, "no lqr; it has name"):
             design.K
         with self.refused("range_tracker", "estimator alone"):

@@ -127,7 +127,8 @@ def of_v73(file, path, item):
 
 
 def arguments(path, variables):
-    """The variables as keyword arguments of `design_text`."""
+    """The variables as keyword arguments of `design_text`; an empty matrix is none."""
+    variables = {name: value for name, value in variables.items() if getattr(value, "size", 1) > 0}
     tables, top, unknown = {}, {}, []
     for name, value in variables.items():
         if name in SECTIONS:
