@@ -9,6 +9,7 @@ from pathlib import Path
 import tinylqg
 
 SOURCE = Path(os.environ["TINYLQG_SOURCE"])
+DESIGNS = [design for folder in ("codegen", "test") for design in sorted((SOURCE / folder / "designs").glob("*.toml"))]
 BUILT_LQGEN = os.environ["TINYLQG_LQGEN"]  # the build's own, which the wheel's has to equal
 
 

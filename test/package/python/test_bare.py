@@ -1,4 +1,4 @@
-"""Without NumPy and all that builds on it: design files, gains and headers all the same, and a sentence about what is missing."""
+"""Without NumPy: design files, gains and headers all the same, and a sentence about what is missing."""
 
 import importlib.util
 import json

@@ -6,10 +6,9 @@ import unittest
 from pathlib import Path
 
 import tinylqg
-from designs import BUILT_LQGEN, SOURCE, InFolder, run
+from designs import BUILT_LQGEN, DESIGNS, SOURCE, InFolder, run
 
 LQGEN = Path(sys.executable).parent / "lqgen"
-DESIGNS = sorted((SOURCE / "codegen" / "designs").glob("*.toml"))
 IMPOSSIBLE = """name = "impossible"
 [plant]
 domain = "discrete"
@@ -24,7 +23,6 @@ R = [1]
 
 class Lqgen(InFolder):
     def test_makes_the_bytes_of_the_build(self):
-        self.assertGreater(len(DESIGNS), 0)
         for design in DESIGNS[:4]:
             for program, folder in ((LQGEN, "wheel"), (BUILT_LQGEN, "build")):
                 Path(folder).mkdir(exist_ok=True)

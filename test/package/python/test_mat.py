@@ -16,10 +16,9 @@ class Read(InFolder):
         return tinylqg.design_text(**{"name": "x", "sample_time": 0.1, **tinylqg.read_mat("plant.mat"), **more})
 
     def test_every_variable_goes_to_its_key(self):
-        save(
-            "plant.mat", **PLANT, **{**WEIGHTS, "W": 1.0}, G=[[0.0], [1]], H=[[0.5]], N=[[0.0], [0.1]], Swv=[[0.001]], x0=[[1.0], [2]],
-            P0=numpy.eye(2), u_min=-1.0, u_max=1.0, u_rate=5.0, delay=0.05, states=cells("a [m]", "b"), inputs=cells("u"),
-            outputs=cells("y"), name="servo", brief="a servo")
+        save("plant.mat", **PLANT, **{**WEIGHTS, "W": 1.0}, G=[[0.0], [1]], H=[[0.5]], N=[[0.0], [0.1]], Swv=[[0.001]],
+             x0=[[1.0], [2]], P0=numpy.eye(2), u_min=-1.0, u_max=1.0, u_rate=5.0, delay=0.05,
+             states=cells("a [m]", "b"), inputs=cells("u"), outputs=cells("y"), name="servo", brief="a servo")
         keys = tinylqg.read_mat("plant.mat")
         self.assertEqual({section: list(table) for section, table in keys.items() if isinstance(table, dict)}, {
             "plant": ["A", "B", "C", "D", "G", "H", "delay", "states", "inputs", "outputs", "domain"],
@@ -50,6 +49,10 @@ class Read(InFolder):
                      "integral = { outputs = [0], Q = [2] }", "structure = [[1], [0]]", "measurement_noise = [1e-05]",
                      "poles = [[0.1, 0.2], [0.1, -0.2]]"):
             self.assertIn(line + "\n", text)
+
+    def test_variables_beside_a_structure_of_their_section(self):
+        text = self.text_of({"Q": numpy.eye(2), "lqr": {"horizon": 5.0}, "R": 1.0})
+        self.assertIn("[lqr]\nhorizon = 5\nQ = [[1, 0],\n     [0, 1]]\nR = [1]\n", text)
 
     def test_stages(self):
         stage = numpy.zeros((1, 2), dtype=[("from", object), ("R", object)])
@@ -84,7 +87,8 @@ class Read(InFolder):
             self.text_of({"Ts": 0.25, "domain": "continuous"})
 
     def test_integers_and_logicals_are_numbers(self):
-        text = self.text_of({"A": numpy.array([[0, 1], [0, -2]], dtype=numpy.int8), "lqr": {"structure": numpy.array([[True, False]])}})
+        text = self.text_of({"A": numpy.array([[0, 1], [0, -2]], dtype=numpy.int8),
+                             "lqr": {"structure": numpy.array([[True, False]])}})
         self.assertIn("A = [[0, 1],\n     [0, -2]]\n", text)
         self.assertIn("structure = [[1, 0]]\n", text)
 
@@ -96,6 +100,8 @@ class Read(InFolder):
     def test_what_is_wrong_is_said(self):
         with self.refused("plant.mat", "expected the variables A, B", "found Kp, z"):
             self.text_of({"Kp": 1.0, "z": 2.0})
+        with self.refused("lqr.Q: given twice", "structure lqr"):
+            self.text_of({"Q": numpy.eye(2), "lqr": {"Q": numpy.eye(2)}})
         save("empty.mat")
         with self.refused("empty.mat", "expected the matrix A"):
             tinylqg.read_mat("empty.mat")

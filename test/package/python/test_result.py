@@ -11,10 +11,7 @@ import numpy
 import scipy.linalg
 
 import tinylqg
-from designs import SOURCE, InFolder
-
-DESIGNS = sorted((SOURCE / "codegen" / "designs").glob("*.toml")) + sorted((SOURCE / "test" / "designs").glob("*.toml"))
-
+from designs import DESIGNS, SOURCE, InFolder
 
 @functools.lru_cache(maxsize=None)
 def design_of(file):
