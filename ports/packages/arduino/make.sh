@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# The Arduino library: a folder TinyLQG for the IDE's libraries folder, and the same as TinyLQG-VERSION.zip where there
+# is a zip. The IDE runs no generator, so the headers of the examples' controllers are made here.
+#
+#   make.sh <root of the source tree> <output folder>
+source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
+here=$(dirname "${BASH_SOURCE[0]}") library=$out/TinyLQG
+
+# Everything below src is compiled; the library's private headers stay out of the sketches' way in a folder.
+copy_library "$library/src/tinylqg" "$library/src"
+cp "$here/TinyLQG.h" "$library/src"
+cp "$root/LICENSE" "$library"
+fill "$root/ports/packages/package.md" >"$library/README.md"
+fill "$here/library.properties" >"$library/library.properties"
+
+# keywords.txt: what the editor paints. Tabs between the columns.
+{
+  sed -n 's/^typedef .*[ *(]\(lqg_[a-z_]*_t\|lqg_real\|lqg_status\)\(;\|)(.*\)$/\1/p; s/^} \(lqg_[a-z_]*_t\);$/\1/p' "$root"/include/lqg/*.h |
+    sort -u | sed 's/$/\tKEYWORD1/'
+  sed -n 's/^#define \(lqg_[a-z_]*\) LQG_VARIANT.*/\1/p; s/^[a-z].*[ *]\(lqg_[a-z_]*\)(.*/\1/p' "$root"/include/lqg/*.h |
+    sort -u | sed 's/$/\tKEYWORD2/'
+  sed -n 's/^#define \(LQG_[A-Z_]*\) [0-9].*/\1/p; s/^    \(LQG_[A-Z_]*_FORM\).*/\1/p' "$root"/include/lqg/*.h |
+    sort -u | sed 's/$/\tLITERAL1/'
+} >"$library/keywords.txt"
+
+cp -R "$here/examples" "$library"
+robot=$library/examples/BalancingRobot/balancing_robot.toml
+# The design of codegen/designs with constant gains: carrying the covariance takes an Uno 3 of the 4 ms.
+sed -e 's/^gain  *=.*/gain  = "steady"/' -e '/^covariance  *=/d' -e '/^initial_covariance  *=/d' \
+  "$root/codegen/designs/balancing_robot.toml" >"$robot"
+cp "$root/codegen/designs/dc_motor.toml" "$library/examples/DcMotor"
+for design in "$library"/examples/*/*.toml; do
+  make_controller "$design" "$(dirname "$design")" --style unrolled --real float
+done
+
+if lqg_has_command zip; then
+  (cd "$out" && zip -qrX "TinyLQG-$version.zip" TinyLQG)
+fi
