@@ -1,5 +1,6 @@
 /* The sketch BalancingRobot on a simulated Uno, with the nonlinear robot of ports/pc on its pins: encoders, an MPU-6050
- * with an offset and noise, a motor driver, a battery. One motor is weaker than the other.
+ * with an offset and noise, a motor driver, a battery. One motor is weaker than the other, and its wheel
+ * drags.
  *
  *     balance BalancingRobot.elf
  *
@@ -21,7 +22,8 @@ static const double dt = 0.00025;             /* s, of the physics */
 static const double battery = 7.4;            /* V */
 static const double gyro_offset = 1.7;        /* °/s */
 static const double gyro_noise = 0.1;         /* °/s rms */
-static const double weak_motor = 0.95;
+static const double weak_motor = 0.95;        /* the left one */
+static const double dragging_wheel = 0.1;     /* V that it costs the left one */
 
 /* What happens, in s. */
 static const double stood_up = 3.0, let_go_by = 4.0, pushed = 8.0, gap = 10.0, knocked_over = 13.0, end = 15.0;
@@ -91,7 +93,7 @@ static void move_robot(const avr_t *avr, double seconds)
     if (is_held(seconds, uno_output(avr, STANDBY)) || fabs(robot.pitch) > 1.5)
         return; /* in the hand, or on the floor */
     robot_run(&robot, 0.5 * (left + right), push(seconds), dt);
-    turn += dt * 0.5 * (right - left) / 0.468; /* the motor's back EMF is 0.468 V s/rad */
+    turn += dt * 0.5 * (right - left + dragging_wheel) / 0.468; /* the motor's back EMF is 0.468 V s/rad */
 }
 
 typedef struct {
