@@ -10,6 +10,6 @@ set(lqg_semihosting -nographic -monitor none -serial none -chardev stdio,id=pc
                     -semihosting-config enable=on,target=native,chardev=pc -kernel)
 
 # For programs that speak over the UART instead: it is QEMU's standard input and output. Each instruction takes 2^lqg_shift ns of
-# virtual time, so the counter of the board counts instructions.
-set(lqg_serial -nographic -monitor none -serial stdio -semihosting-config enable=on,target=native
+# virtual time, so the counter of the board counts instructions. lqg_unused_uarts are those before the one that is used.
+set(lqg_serial -nographic -monitor none ${lqg_unused_uarts} -serial stdio -semihosting-config enable=on,target=native
                -icount shift=${lqg_shift} -kernel)

@@ -1,5 +1,5 @@
 # cmake -DSTATUS=<exit status> -DTEXT=<regular expression> -DFAULT=<of pc_board.c> -P expect.cmake -- <command>…
-# passes if the command ends with that status and has said that.
+# passes if the command ends with that status and has said that. With -DPROGRAM=<file> it says "Not found" where that is not there.
 set(command)
 set(is_command FALSE)
 foreach(i RANGE 1 ${CMAKE_ARGC})
@@ -10,10 +10,14 @@ foreach(i RANGE 1 ${CMAKE_ARGC})
   endif()
 endforeach()
 
+if(PROGRAM AND NOT EXISTS ${PROGRAM})
+  message("Not found: ${PROGRAM}, which needs what could not be had here")
+  return()
+endif()
 if(FAULT)
   set(ENV{PIL_FAULT} ${FAULT})
 endif()
-execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said TIMEOUT 60)
+execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said TIMEOUT 120)
 message("${said}")
 if(NOT status EQUAL STATUS)
   message(FATAL_ERROR "Expected exit status ${STATUS}, found ${status}")
