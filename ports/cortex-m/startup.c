@@ -5,6 +5,7 @@
 
 int main(void);
 void reset(void);
+void board_leave(int status);
 
 extern uint32_t stack_top[], data_start[], data_end[], bss_start[], bss_end[]; /* link.ld */
 extern const uint32_t data_load[];
@@ -29,7 +30,7 @@ int putchar(int character)
     return (unsigned char)byte;
 }
 
-static void leave(int status)
+void board_leave(int status)
 {
     const uint32_t reason[2] = {APPLICATION_EXIT, (uint32_t)status};
 
@@ -37,10 +38,23 @@ static void leave(int status)
         ask_host(SYS_EXIT_EXTENDED, reason);
 }
 
+/* What has to be done before a program that failed stops: nothing, unless it says so itself. */
+void stop_outputs(void);
+
+__attribute__((weak)) void stop_outputs(void)
+{
+}
+
 static void fault(void)
 {
-    leave(FAULT_STATUS);
+    stop_outputs();
+    board_leave(FAULT_STATUS);
 }
+
+/* Who wants them has his own, by Arm's usual names. */
+__attribute__((weak, alias("fault"))) void SVC_Handler(void);
+__attribute__((weak, alias("fault"))) void PendSV_Handler(void);
+__attribute__((weak, alias("fault"))) void SysTick_Handler(void);
 
 static void start_fpu(void)
 {
@@ -61,10 +75,10 @@ void reset(void)
         *to = *from++;
     for (uint32_t *to = bss_start; to < bss_end; to++)
         *to = 0;
-    leave(main());
+    board_leave(main());
 }
 
-/* Initial stack pointer, reset, NMI and the faults; no interrupt is ever enabled. */
+/* Initial stack pointer, reset, NMI and the faults; the interrupts of the core. */
 typedef union {
     uint32_t *stack;
     void (*handler)(void);
@@ -72,5 +86,6 @@ typedef union {
 
 __attribute__((used, section(".vectors"))) static const vector vectors[16] = {
     {.stack = stack_top}, {.handler = reset}, {.handler = fault}, {.handler = fault}, {.handler = fault},
-    {.handler = fault},   {.handler = fault},
+    {.handler = fault},   {.handler = fault}, [11] = {.handler = SVC_Handler},
+    [14] = {.handler = PendSV_Handler}, [15] = {.handler = SysTick_Handler},
 };

@@ -5,6 +5,7 @@
 
 int main(void);
 void reset(void);
+void board_leave(int status);
 void start(void);
 void fault(void);
 
@@ -44,7 +45,7 @@ static int put_character(char character, FILE *file)
 static FILE to_host = FDEV_SETUP_STREAM(put_character, NULL, NULL, _FDEV_SETUP_WRITE);
 FILE *const stdout = &to_host;
 
-static void leave(int status)
+void board_leave(int status)
 {
     const uintptr_t reason[2] = {APPLICATION_EXIT, (uintptr_t)status};
 
@@ -54,7 +55,7 @@ static void leave(int status)
 
 __attribute__((aligned(4))) void fault(void)
 {
-    leave(FAULT_STATUS);
+    board_leave(FAULT_STATUS);
 }
 
 /* Memory is ready for C only after this; `reset` has set the stack. */
@@ -66,7 +67,7 @@ void start(void)
         *to = *from++;
     for (uint64_t *to = bss_start; to < bss_end; to++)
         *to = 0;
-    leave(main());
+    board_leave(main());
 }
 
 /* The first instruction: global pointer, stack, traps, FPU. */

@@ -1,0 +1,51 @@
+/* The balancing robot but for its hardware: when it may drive, what it does in a sample, and when it has to stop.
+ *
+ *     WAITING ── held upright and still for a second ──▶ BALANCING
+ *        ▲                                                   │
+ *        └──── fallen, lifted, blind or late: motors off ────┘ */
+#ifndef BALANCER_H
+#define BALANCER_H
+
+#include "balancing_robot.h"
+#include "hardware.h"
+
+typedef enum { BALANCER_WAITING, BALANCER_BALANCING } balancer_state_t;
+
+/* Why it does not drive. */
+typedef enum {
+    BALANCER_NEW,     /* since it was switched on */
+    BALANCER_FALLEN,  /* the body is too far from upright, or moves as if it were: held wheels look like that */
+    BALANCER_LIFTED,  /* the voltage has been at its limit for half a second: the wheels turn in the air */
+    BALANCER_BLIND,   /* a sensor has been silent for a tenth of a second */
+    BALANCER_LATE     /* five samples in a row took longer than the sample time */
+} balancer_reason_t;
+
+typedef struct {
+    balancing_robot_t loop;
+    balancer_state_t state;
+    balancer_reason_t reason;
+    unsigned still;               /* samples that it has been held upright and still */
+    float gyro_sum, gyro_offset;  /* rad/s; the offset is the mean of the second before it drives */
+    float zero;                   /* rad: the wheels' mean angle when it began to drive */
+    float turn;                   /* rad: by how much the right wheel was ahead then */
+    float voltage;                /* V, of the last sample */
+    unsigned limited, blind, late;  /* such samples in a row */
+    unsigned in_time;               /* samples since the last that was late */
+    sensors_t sensors;              /* of the last sample */
+    unsigned long samples, overruns;  /* since the start */
+} balancer_t;
+
+/* Waits; the motors are off. */
+void balancer_init(balancer_t *self);
+
+/* One sample, BALANCING_ROBOT_SAMPLE_TIME after the last: sensors, update, control, motors; then, off the critical path, the
+ * prediction. */
+void balancer_run_sample(balancer_t *self);
+
+/* The last sample ended when the next one was due already. */
+void balancer_note_overrun(balancer_t *self);
+
+/* What it does, or what it waits for; a constant string. */
+const char *balancer_text(const balancer_t *self);
+
+#endif
