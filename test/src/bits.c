@@ -2,8 +2,7 @@
  * compiled in. */
 #include "bits.h"
 
-#include <string.h>
-
+#include "hash.h"
 #include "lqg/lqg.h"
 
 enum { NX = 3, NU = 1, NY = 2 };
@@ -37,14 +36,6 @@ typedef struct {
     lqg_real u_applied[NU], innovation[NY], u[NU];
 } state_t;
 
-unsigned long long hash_bytes(unsigned long long hash, const void *data, size_t length)
-{
-    const unsigned char *bytes = (const unsigned char *)data;
-    for (size_t i = 0; i < length; i++)
-        hash = (hash ^ bytes[i]) * 1099511628211ull;
-    return hash;
-}
-
 /* Uniform in [−1, 1), a multiple of 2⁻¹⁵: exact in either scalar. */
 static lqg_real draw(unsigned long *seed)
 {
@@ -56,7 +47,7 @@ unsigned long long hash_of_all_filters(void)
 {
     static state_t s, p, f, e; /* zeros: every byte is hashed */
     lqg_real y[NY], work[LQG_KALMAN_UD_WORK(NX, NY, 2)];
-    unsigned long long hash = 14695981039346656037ull;
+    unsigned long long hash = NOTHING_HASHED;
     unsigned long seed = 1;
 
     lqg_kalman_steady_init(&steady.kalman, s.x, s.u_applied, s.innovation);

@@ -4,6 +4,8 @@
 #include <stdio.h>
 
 #include "bits.h"
+#include "contracted.h"
+#include "hash.h"
 #include "lqg/lqg.h"
 
 /* A sum and a difference side by side, which GCC 12's vectorizer fuses in spite of -ffp-contract=off. */
@@ -31,15 +33,6 @@ static unsigned long long hash_of_a_pair(unsigned long long hash)
 
     compute(out, a, b, c);
     return hash_bytes(hash, out, sizeof out);
-}
-
-/* (1 + ε)(1 − ε) − 1 is −ε² when it is rounded once, and 0 when the product is rounded to 1. */
-static int is_contracted(void)
-{
-    const double e = sizeof(lqg_real) == sizeof(float) ? 0x1p-20 : 0x1p-50;
-    volatile lqg_real a = (lqg_real)(1 + e), b = (lqg_real)(1 - e), c = -1;
-    const lqg_real x = a, y = b, z = c;
-    return x * y + z != 0;
 }
 
 int main(void)
