@@ -1,0 +1,78 @@
+/* Every bit of 1000 samples of one controller. To be included by what describe.cmake makes of the controller's header:
+ * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS and REFERS the controller does, and MEMBERS, a
+ * HASH_MEMBER(name) for each part of its state. HASHES_OF(NAME) becomes the function that runs it. Included once for
+ * each controller, all of one REAL. */
+#include "samples.h"
+
+#define PASTE(a, b) a##_##b
+#define JOIN(a, b) PASTE(a, b)
+#define OF(part) JOIN(NAME, part)
+#define SIZE(part) JOIN(UPPER_NAME, part)
+
+static hashes_t OF(hash_state)(hashes_t hashes, const OF(t) *self)
+{
+#define HASH_MEMBER(name) hashes = hash_reals(hashes, self->name, sizeof self->name);
+    MEMBERS
+#undef HASH_MEMBER
+    return hashes;
+}
+
+static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) *self, source_t *source)
+{
+    lqg_status status = LQG_OK;
+#ifdef CONTROLS
+    REAL u[SIZE(NU)];
+#endif
+
+#ifdef REFERS
+    draw_all(source, self->r, SIZE(NR));
+#endif
+#ifdef UPDATES
+    REAL y[SIZE(NY)];
+    draw_all(source, y, SIZE(NY));
+    fail_some(source, y, SIZE(NY));
+    status |= OF(update)(self, y);
+    hashes = OF(hash_state)(hashes, self);
+#else
+    REAL x[SIZE(NX)];
+    draw_all(source, x, SIZE(NX));
+#endif
+#if defined CONTROLS && defined UPDATES
+    status |= OF(control)(self, u);
+    status |= OF(predict)(self, u);
+#elif defined CONTROLS
+    status |= OF(control)(self, x, u);
+#else
+    status |= OF(predict)(self);
+#endif
+#ifdef CONTROLS
+    hashes = hash_reals(hashes, u, sizeof u);
+#endif
+    return OF(hash_state)(hash_status(hashes, status), self);
+}
+
+hashes_t HASHES_OF(NAME)(void);
+hashes_t HASHES_OF(NAME)(void)
+{
+    OF(t) self;
+    source_t source = {1, 0};
+    hashes_t hashes = {NOTHING_HASHED, NOTHING_HASHED};
+
+    OF(init)(&self);
+    for (unsigned sample = 0; sample < 1000; sample++) {
+        source.halvings = sample / 50;
+        hashes = OF(hash_sample)(hashes, &self, &source);
+    }
+    return hashes;
+}
+
+#undef PASTE
+#undef JOIN
+#undef OF
+#undef SIZE
+#undef NAME
+#undef UPPER_NAME
+#undef MEMBERS
+#undef UPDATES
+#undef CONTROLS
+#undef REFERS

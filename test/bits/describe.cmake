@@ -1,0 +1,37 @@
+# Makes OUTPUT, what controller.h wants to hear of the controller in HEADER, which lqgen has made: of the design NAME, in REAL.
+file(READ ${HEADER} header)
+string(TOUPPER ${NAME} upper_name)
+
+# A line "    float x[NX];  /* … */" for each member of the state; brackets and semicolons mean something to CMake.
+string(REGEX MATCH "typedef struct {\n([^}]*)} ${NAME}_t;" found "${header}")
+string(REGEX REPLACE "/\\*[^\n]*" "" members "${CMAKE_MATCH_1}")
+string(REGEX REPLACE "\\[[^\n]*\\]" "" members "${members}")
+string(REGEX MATCHALL "[a-z][^;]*" members "${members}")
+if(NOT members)
+  message(FATAL_ERROR "${HEADER}: expected a struct ${NAME}_t with members, found none")
+endif()
+set(hashed_members)
+foreach(member IN LISTS members)
+  string(REGEX REPLACE ".* " "" name "${member}")
+  if(member STREQUAL "${REAL} ${name}")
+    string(APPEND hashed_members " HASH_MEMBER(${name})")
+  elseif(NOT member MATCHES "^unsigned (long )?${name}$")  # counters
+    message(FATAL_ERROR "${HEADER}: expected members of type ${REAL} or unsigned in ${NAME}_t, found \"${member}\"")
+  endif()
+endforeach()
+
+set(does)
+foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "REFERS:#define ${upper_name}_NR ")
+  string(REGEX MATCH "^([A-Z]*):(.*)$" found "${pair}")
+  set(macro ${CMAKE_MATCH_1})
+  if(header MATCHES "${CMAKE_MATCH_2}")
+    string(APPEND does "#define ${macro}\n")
+  endif()
+endforeach()
+
+file(WRITE ${OUTPUT} "#include \"${HEADER}\"
+#define NAME ${NAME}
+#define UPPER_NAME ${upper_name}
+#define MEMBERS${hashed_members}
+${does}#include \"controller.h\"
+")
