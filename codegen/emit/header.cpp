@@ -18,6 +18,16 @@ std::string handshake(const Controller& controller) {
      {"file", controller.source.file}});
 }
 
+// Some compilers' double is float, avr-gcc's by default.
+std::string width_of_double(const Controller& controller) {
+  if (!controller.is_double()) return "";
+  return fill(R"(
+#if defined __SIZEOF_DOUBLE__ && __SIZEOF_DOUBLE__ < 8
+#error "{name}.h computes in double, which has less than 64 bits here: run lqgen with --real float."
+#endif
+)", {{"name", controller.problem.name}});
+}
+
 std::string dimensions(const Controller& controller) {
   const Words words = common_words(controller);
   std::string out = fill("\n#define {NAME}_NX {nx}  /* states */\n", words);
@@ -58,7 +68,7 @@ std::string header(const Controller& controller) {
   const design::Plant& plant = controller.problem.plant;
   const std::string guard = upper(controller.problem.name) + "_H";
   std::string out = preamble(controller) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;
-  out += handshake(controller) + dimensions(controller);
+  out += handshake(controller) + width_of_double(controller) + dimensions(controller);
   out += index_enum(controller, "X", state_signals(controller)) + index_enum(controller, "U", plant.inputs);
   if (controller.has_filter()) out += index_enum(controller, "Y", plant.outputs);
   out += index_enum(controller, "R", reference_signals(controller)) + state_type(controller);

@@ -22,6 +22,10 @@
 #error "TinyLQG needs its operations in the order in which they are written. Leave out -funsafe-math-optimizations, -fassociative-math and -freciprocal-math for this file."
 #endif
 
+#if defined LQG_REAL_DOUBLE && defined __SIZEOF_DOUBLE__ && __SIZEOF_DOUBLE__ < 8
+#error "TinyLQG: LQG_REAL_DOUBLE asks for a double of 64 bits, and this compiler's has less. Leave it out."
+#endif
+
 #ifdef LQG_REAL_DOUBLE
 typedef double lqg_real;
 #else

@@ -1,6 +1,7 @@
-# cmake -DPACKAGE=… -DROOT=… -DCC=… -DCXX=… -DWORK=… -Dtinylqg=<library> -Ddouble=… -Dfused=… -Ddouble_fused=…
-# -P single_header.cmake: tinylqg.h in all four variants, as C and as C++,
-# with all warnings, finds the bits of the library. The names of the library's private functions stay its own.
+# cmake -DPACKAGE=… -DROOT=… -DCC=… -DCXX=… -DFLAGS=… -DWORK=… -Dtinylqg=<library> -Ddouble=… -Dfused=… -Ddouble_fused=…
+# -P single_header.cmake: tinylqg.h in all four variants, as C and as C++, with all warnings, finds the bits of the
+# library. The names of the library's private functions stay its own.
+separate_arguments(FLAGS)
 set(warnings -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror)
 set(c ${CC} -std=c99 -Wmissing-prototypes -Wdouble-promotion)
 set(cxx ${CXX} -x c++ -std=c++11)
@@ -14,7 +15,7 @@ set(options_double -DLQG_REAL_DOUBLE)
 set(options_fused -DLQG_FUSED)
 set(options_double_fused -DLQG_REAL_DOUBLE -DLQG_FUSED)
 foreach(variant IN ITEMS tinylqg double fused double_fused)
-  set(options -O2 ${options_${variant}})
+  set(options -O2 ${FLAGS} ${options_${variant}})
   execute_process(COMMAND ${CC} -std=c99 ${options} -I${ROOT}/include ${print_bits} ${${variant}} -lm -o ${WORK}/library
                   COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${WORK}/library OUTPUT_VARIABLE expected COMMAND_ERROR_IS_FATAL ANY)
