@@ -24,10 +24,6 @@ fill "$here/library.properties" >"$library/library.properties"
 } >"$library/keywords.txt"
 
 cp -R "$here/examples" "$library"
-robot=$library/examples/BalancingRobot/balancing_robot.toml
-# The design of codegen/designs with constant gains: carrying the covariance takes an Uno 3 of the 4 ms.
-sed -e 's/^gain  *=.*/gain  = "steady"/' -e '/^covariance  *=/d' -e '/^initial_covariance  *=/d' \
-  "$root/codegen/designs/balancing_robot.toml" >"$robot"
 cp "$root/codegen/designs/dc_motor.toml" "$library/examples/DcMotor"
 for design in "$library"/examples/*/*.toml; do
   make_controller "$design" "$(dirname "$design")" --style unrolled --real float

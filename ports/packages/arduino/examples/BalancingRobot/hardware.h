@@ -202,9 +202,7 @@ static bool mpu_read(unsigned char address, int words[], unsigned char count) {
 static void motion_begin() {
   Wire.begin();
   Wire.setClock(400000);
-#ifdef WIRE_HAS_TIMEOUT
   Wire.setWireTimeout(2000, true);  // µs: a bus that hangs costs a sample, not the robot
-#endif
   mpu_write(PWR_MGMT_1, 0x01);    // awake, clock of a gyroscope
   mpu_write(CONFIG, 0x00);        // 256 Hz of bandwidth: 1 ms of delay
   mpu_write(GYRO_CONFIG, 0x08);   // ±500 °/s
