@@ -13,14 +13,16 @@ cp "$root/LICENSE" "$library"
 fill "$root/ports/packages/package.md" >"$library/README.md"
 fill "$here/library.properties" >"$library/library.properties"
 
-# keywords.txt: what the editor paints. Tabs between the columns.
+# keywords.txt: what the editor paints. Each line a keyword, a tab, its class.
+keywords() {
+  local class=$1
+  shift
+  sed -nE "$@" "$root"/include/lqg/*.h | sort -u | while read -r name; do printf '%s\t%s\n' "$name" "$class"; done
+}
 {
-  sed -n 's/^typedef .*[ *(]\(lqg_[a-z_]*_t\|lqg_real\|lqg_status\)\(;\|)(.*\)$/\1/p; s/^} \(lqg_[a-z_]*_t\);$/\1/p' "$root"/include/lqg/*.h |
-    sort -u | sed 's/$/\tKEYWORD1/'
-  sed -n 's/^#define \(lqg_[a-z_]*\) LQG_VARIANT.*/\1/p; s/^[a-z].*[ *]\(lqg_[a-z_]*\)(.*/\1/p' "$root"/include/lqg/*.h |
-    sort -u | sed 's/$/\tKEYWORD2/'
-  sed -n 's/^#define \(LQG_[A-Z_]*\) [0-9].*/\1/p; s/^    \(LQG_[A-Z_]*_FORM\).*/\1/p' "$root"/include/lqg/*.h |
-    sort -u | sed 's/$/\tLITERAL1/'
+  keywords KEYWORD1 -e 's/^typedef .*[ *(](lqg_[a-z_]*_t|lqg_real|lqg_status)(;|\)\(.*)$/\1/p' -e 's/^} (lqg_[a-z_]*_t);$/\1/p'
+  keywords KEYWORD2 -e 's/^#define (lqg_[a-z_]*) LQG_VARIANT.*/\1/p' -e 's/^[a-z].*[ *](lqg_[a-z_]*)\(.*/\1/p'
+  keywords LITERAL1 -e 's/^#define (LQG_[A-Z_]*) [0-9].*/\1/p' -e 's/^    (LQG_[A-Z_]*_FORM).*/\1/p'
 } >"$library/keywords.txt"
 
 cp -R "$here/examples" "$library"

@@ -19,8 +19,10 @@
  * is measured. Hold the robot upright: when it has been so for half a second, the light begins to blink fast, the motors
  * start, and it stands by itself. When it falls, when a sensor is silent, or when the battery is empty, the motors stop.
  *
- * Lift the wheels off the ground the first time. When they speed up as you tilt the robot forward, all is well; when they
- * turn against the tilt, exchange the motors' wires. */
+ * The first time, before the battery feeds the motors: while it waits, the serial monitor (115200 baud) shows once a second
+ * the tilt, what the wheels have turned (all in degrees) and the battery's voltage. The tilt has to be positive forward, and
+ * both wheels have to count up when the robot is rolled forward (else exchange that encoder's channels). Then hold it with the
+ * wheels in the air: tilted forward they have to run forward (else exchange that motor's wires). */
 #include <TinyLQG.h>
 #include <Wire.h>
 
@@ -47,16 +49,16 @@ static float gyro_sum = 0.0f, gyro_offset = 0.0f;
 static void enter(State next) {
   state = next;
   count = 0;
-  gyro_sum = 0.0f;
   if (next != BALANCES)
     motors_stop();
   Serial.println(next == MEASURES_OFFSET ? F("measures offset") : next == WAITS ? F("waits") : F("balances"));
 }
 
-// The mean of the gyroscope while it is at rest.
+// The mean of the gyroscope while it is at rest; what moves it begins the measurement anew.
 static void measure_offset(const Motion &motion) {
   if (!motion.is_valid || (count > 0 && fabs(motion.pitch_rate - gyro_sum / count) > still_rate)) {
-    enter(MEASURES_OFFSET);
+    count = 0;
+    gyro_sum = 0.0f;
     return;
   }
   gyro_sum += motion.pitch_rate;
@@ -76,10 +78,25 @@ static void start(float pitch) {
   enter(BALANCES);
 }
 
+static void print_sensors(const Motion &motion) {
+  const float values[] = {motion.tilt * (180 / PI), left_wheel() * (180 / PI), right_wheel() * (180 / PI), battery_voltage()};
+
+  for (const float value : values) {
+    Serial.print(value, 1);
+    Serial.print(' ');
+  }
+  Serial.println(motion.is_valid ? F("") : F("no answer from the MPU-6050"));
+}
+
 static void wait_for_upright(const Motion &motion) {
   const bool is_upright = motion.is_valid && fabs(motion.tilt) < upright_pitch &&
                           fabs(motion.pitch_rate - gyro_offset) < still_rate && battery_voltage() > empty_battery;
 
+  static unsigned char samples = 0;
+  if (++samples == 250) {
+    samples = 0;
+    print_sensors(motion);
+  }
   count = is_upright ? count + 1 : 0;
   if (count >= start_samples)
     start(motion.tilt);

@@ -1,11 +1,11 @@
 /* The robot's parts and their connections to an Uno or Nano.
  *
  *   pin   connected to
- *   2     left encoder, channel A            NXT motor: yellow; 5 V on green, ground on red and black
+ *   2     left encoder, channel A            NXT motor: yellow; its power is 5 V on green, ground on red
  *   4     left encoder, channel B            blue
  *   3     right encoder, channel A
  *   5     right encoder, channel B
- *   6, 7  TB6612FNG AIN1, AIN2               left motor on AO1, AO2
+ *   6, 7  TB6612FNG AIN1, AIN2               left motor on AO1, AO2; NXT motor: white, black
  *   9     TB6612FNG PWMA
  *   10    TB6612FNG PWMB
  *   11    TB6612FNG STBY
