@@ -13,6 +13,7 @@ import scipy.linalg
 import tinylqg
 from designs import DESIGNS, SOURCE, InFolder
 
+
 @functools.lru_cache(maxsize=None)
 def design_of(file):
     """What lqgen makes of the design file."""
