@@ -1,13 +1,12 @@
-/* What the controller in HEADER costs on a Cortex-M4F: instructions executed and stack used by each of its
- * functions, for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES
- * says that it has no input.
- *
- * Made for QEMU with -icount shift=8, where every instruction takes 256 ns of virtual time: SysTick, at 25 MHz,
- * then counts instructions. On a board it would count cycles. */
+/* What the controller in HEADER costs: instructions executed by each of its functions, and the stack that they use,
+ * for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES says that it has
+ * no input. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+#include "counter.h"
 
 #include HEADER
 #include VECTORS /* y_in, u_out */
@@ -21,77 +20,38 @@ enum { SAMPLES = sizeof y_in / sizeof y_in[0], NY = SIZE(NY) };
 
 /* ---- the instruments --------------------------------------------------------------------------------- */
 
-#define SYSTICK_CONTROL (*(volatile uint32_t *)0xE000E010u)
-#define SYSTICK_RELOAD (*(volatile uint32_t *)0xE000E014u)
-#define SYSTICK_CURRENT (*(volatile uint32_t *)0xE000E018u)
+enum { STACK_WORDS = 2048, UNTOUCHED = 0x5AA5C33C };
 
-enum { SYSTICK_MASK = 0xFFFFFF, TICKS_OF_TEN = 64 /* instructions: 2560 ns */ };
-enum { STACK_WORDS = 4096, UNTOUCHED = 0x5AA5C33C };
+/* The calls' own, so that their depth can be seen in it at the end. */
+static uint32_t stack[STACK_WORDS] __attribute__((aligned(16)));
 
-typedef void function(void);
-
-/* Calls f(object, signals) on the stack that ends at `top`; returns the ticks that it took. */
-uint32_t ticks_of_call(void *object, const void *signals, function *f, uint32_t *top);
-void do_nothing(void);
-void do_nothing_a_hundred_times(void);
-
-__asm__(".syntax unified\n"
-        ".thumb_func\n"
-        "ticks_of_call:\n"
-        "    push {r4-r6, lr}\n"
-        "    mov r4, sp\n"
-        "    mov sp, r3\n"
-        "    ldr r5, =0xE000E018\n"
-        "    ldr r6, [r5]\n"
-        "    blx r2\n"
-        "    ldr r0, [r5]\n"
-        "    mov sp, r4\n"
-        "    subs r0, r6, r0\n"
-        "    bic r0, r0, #0xFF000000\n"
-        "    pop {r4-r6, pc}\n"
-        ".ltorg\n"
-        ".thumb_func\n"
-        "do_nothing_a_hundred_times:\n"
-        ".rept 100\n"
-        "    nop\n"
-        ".endr\n"
-        ".thumb_func\n"
-        "do_nothing:\n"
-        "    bx lr\n");
-
-typedef struct {
-    unsigned instructions, stack;
-} cost_t;
-
-static cost_t cost_of(function *f, void *object, const void *signals)
+static void clear_stack(void)
 {
-    static uint32_t stack[STACK_WORDS];
-    unsigned untouched = 0;
-
     for (unsigned i = 0; i < STACK_WORDS; i++)
         stack[i] = UNTOUCHED;
+}
 
-    const uint32_t frame = ticks_of_call(NULL, NULL, do_nothing, stack + STACK_WORDS);
-    const uint32_t ticks = ticks_of_call(object, signals, f, stack + STACK_WORDS);
+/* In bytes; all of the stack means that it has been too small. */
+static unsigned deepest_reach(void)
+{
+    unsigned untouched = 0;
 
     while (untouched < STACK_WORDS && stack[untouched] == UNTOUCHED)
         untouched++;
-    return (cost_t){
-        .instructions = 1 + (10 * (ticks - frame) + TICKS_OF_TEN / 2) / TICKS_OF_TEN, /* 1: do_nothing's own */
-        .stack = 4 * (STACK_WORDS - untouched),
-    };
+    return 4 * (STACK_WORDS - untouched);
 }
 
-static void start_counting(void)
+static unsigned instructions_of(function *f, void *object, const void *signals)
 {
-    SYSTICK_RELOAD = SYSTICK_MASK;
-    SYSTICK_CURRENT = 0;
-    SYSTICK_CONTROL = 5; /* on, with the processor's clock */
+    const unsigned frame = instructions_in(ticks_of_call(NULL, NULL, do_nothing, stack + STACK_WORDS));
+    const unsigned all = instructions_in(ticks_of_call(object, signals, f, stack + STACK_WORDS));
+
+    return all - frame + 1; /* 1: do_nothing's own */
 }
 
 static int counts_right(void)
 {
-    return cost_of(do_nothing_a_hundred_times, NULL, NULL).instructions == 101;
+    return instructions_of(do_nothing_a_thousand_times, NULL, NULL) == 1001;
 }
 
 /* ---- the samples ------------------------------------------------------------------------------------- */
@@ -100,7 +60,7 @@ enum { UPDATE, CONTROL, PREDICT, FUNCTIONS };
 
 typedef struct {
     unsigned instructions[SAMPLES]; /* of the last run */
-    unsigned most, stack;           /* of all runs */
+    unsigned most;                  /* of all runs */
 } record_t;
 
 static record_t records[FUNCTIONS];
@@ -112,11 +72,8 @@ static unsigned larger(unsigned a, unsigned b)
 
 static void measure(record_t *record, unsigned sample, function *f, void *object, const void *signals)
 {
-    const cost_t cost = cost_of(f, object, signals);
-
-    record->instructions[sample] = cost.instructions;
-    record->most = larger(record->most, cost.instructions);
-    record->stack = larger(record->stack, cost.stack);
+    record->instructions[sample] = instructions_of(f, object, signals);
+    record->most = larger(record->most, record->instructions[sample]);
 }
 
 /* All samples; output `left_out` is missing in every third, or none where there is no such output. */
@@ -179,6 +136,7 @@ int main(void)
     start_counting();
     if (!counts_right())
         return 1;
+    clear_stack();
 
     for (unsigned left_out = 0; left_out < NY; left_out++)
         run(left_out);
@@ -189,7 +147,7 @@ int main(void)
     print("most_update", records[UPDATE].most);
     print("most_control", records[CONTROL].most);
     print("most_predict", records[PREDICT].most);
-    print("stack", larger(larger(records[UPDATE].stack, records[CONTROL].stack), records[PREDICT].stack));
+    print("stack", deepest_reach());
     print("ram", sizeof(OF(t)));
-    return 0;
+    return deepest_reach() == sizeof stack;
 }

@@ -1,112 +1,284 @@
 #!/usr/bin/env bash
-# What the emitted controllers cost on a Cortex-M4F: prints one table and writes it to build/bench.md.
+# What the emitted controllers cost on the cores of ports/: prints a table for each core.
 #
-#   test/bench/run.sh [option of the compiler]…        after -O2 -std=c99, such as -Os or -std=gnu99
+#   test/bench/run.sh [--all] [core]… [option of the compiler]…     after -O2 -std=c99, such as -Os or -std=gnu99
+#   test/bench/run.sh --update       writes the record, test/bench/record.md
+#   test/bench/run.sh --check        shows what differs from the record, and keeps it in FOLDER/changes.txt; fails where a
+#                                    figure has grown by more than 2 %
 #
-# Every design in both styles and both reals, and two_mass with the covariance carried as it is, which is the
-# filter that others are compared by. LQGEN names an lqgen that is there already; otherwise one is built in
-# build/bench. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm.
+# A core is the name of its folder in ports/; without any it is all nine. The record has every design in both styles, in
+# float, and where the FPU computes in double, too, those that are meant for it; --all has every design in both reals.
+# With them comes two_mass with the covariance carried as it is, which is the filter that others are compared by.
+# Fused arithmetic is left out where the hardware has none.
+#
+# LQGEN names an lqgen that is there already; otherwise one is built. FOLDER is where all work is done, default
+# build/bench. Debian's packages:
+# gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf
+# qemu-system-misc.
 #
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
 # library functions included. "most" is over the reference samples of the design's test and over the same with
 # each output in turn left out of every third sample, as NaN; the others are the median of the reference
-# samples. Stack is the deepest reach of update, control and predict below their caller. Flash is what the
-# linker brings for init, update, control and predict: code, constants, library functions. What lqgen estimates
-# stands in brackets.
+# samples. Stack is the deepest reach of update, control and predict below their caller, in bytes. Flash is what the
+# linker brings for init, update, control and predict: code, constants, library functions. What lqgen estimates, for a
+# Cortex-M4F, stands there in brackets.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
+bench=$lqg_root/test/bench folder=${FOLDER:-$lqg_root/build/bench}
+source "$bench/cores.sh"
 
-bench=$lqg_root/test/bench port=$lqg_root/ports/cortex-m4f shared=$lqg_root/ports/cortex-m
-folder=$lqg_root/build/bench
-options=(-O2 -std=c99 "$@")
-cpu=(-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffunction-sections -fdata-sections)
-compiler=(arm-none-eabi-gcc "${cpu[@]}" "${options[@]}" -I"$lqg_root/include")
-linker=(arm-none-eabi-gcc "${cpu[@]}" -nostartfiles --specs=nano.specs -Wl,--gc-sections)
-machine=(qemu-system-arm -machine mps2-an386 -nographic -monitor none -serial none -icount shift=8
-         -chardev stdio,id=pc -semihosting-config enable=on,target=native,chardev=pc -kernel)
+# ---- many things at once -----------------------------------------------------------------------------------------
 
-lqg_has_command arm-none-eabi-gcc && lqg_has_command qemu-system-arm ||
-  lqg_stop "Please install what Debian calls: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm"
-mkdir -p "$folder"
-if [ -z "${LQGEN:-}" ]; then
-  LQGEN=$folder/codegen/lqgen
-  lqg_configure "$folder" -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF >&2
-  lqg_compile "$folder" --target lqgen >&2
-fi
+running=0
+
+# start <file> <command> [argument]…: in the background, its output in the file.
+start() {
+  local file=$1
+  shift
+  [ $running -lt "$(getconf _NPROCESSORS_ONLN)" ] || wait_for_one
+  "$@" >"$file" &
+  running=$((running + 1))
+}
+
+wait_for_one() {
+  wait -n || exit 1
+  running=$((running - 1))
+}
+
+wait_for_all() {
+  while [ $running -gt 0 ]; do
+    wait_for_one
+  done
+}
+
+# ---- the controllers ---------------------------------------------------------------------------------------------
 
 # The value of a key of a design file, and of "code" in a NAME.json.
 design_value() { sed -n "s/^$2 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$1"; }
 json_value() { sed -n "s/^ *\"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
 
-# make_controller <design> <style> <real> <folder>: header, reference samples, and the library where it is needed
+# make_controller <folder> <title> <design> <style> <real>: its header, reference samples and figures; prints what
+# add_row wants to know of it.
 make_controller() {
-  local name definitions=() source
-  name=$(design_value "$1" name)
-  "$LQGEN" "$1" -o "$4" --style "$2" --real "$3" --quiet
-  sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$4/${name}_test.c" >"$4/vectors.h"
-  if [ "$2" = compact ]; then
-    [ "$3" = float ] || definitions+=(-DLQG_REAL_DOUBLE)
-    [ "$(design_value "$1" arithmetic)" != fused ] || definitions+=(-DLQG_FUSED)
-    for source in "$lqg_root"/src/*.c; do
-      "${compiler[@]}" "${definitions[@]}" -c "$source" -o "$4/$(basename "$source" .c).o"
-    done
-  fi
-  grep -q '^B *=' "$1" || definitions+=(-DESTIMATES)
-  definitions+=("-DHEADER=\"$name.h\"" '-DVECTORS="vectors.h"' "-DNAME=$name" "-DUPPER_NAME=${name^^}" "-DREAL=$3")
-  "${compiler[@]}" "${definitions[@]}" -I"$4" -c "$bench/measure.c" -o "$4/measure.main"
-  "${compiler[@]}" "${definitions[@]}" -I"$4" -c "$bench/footprint.c" -o "$4/footprint.main"
+  local name arithmetic has_input=yes
+  name=$(design_value "$3" name)
+  arithmetic=$(design_value "$3" arithmetic)
+  grep -q '^B *=' "$3" || has_input=
+  "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet
+  sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$1/${name}_test.c" >"$1/vectors.h"
+  echo "title='$2' name=$name arithmetic=${arithmetic:-plain} style=$4 real=$5 has_input=$has_input"
 }
 
-# link_controller <folder> <main> <option>…
-link_controller() {
-  local folder=$1 main=$2 library
-  shift 2
-  mapfile -t library < <(find "$folder" -name '*.o')
-  "${linker[@]}" "$folder/$main.main" "${library[@]}" "$@" -lm -o "$folder/$main.elf"
-}
-
-# The sections of footprint.elf that go into flash.
-flash_of() { arm-none-eabi-size -A "$1" | awk '$1 ~ /^\.(text|rodata|data|ARM\.exidx)/ { sum += $2 } END { print sum }'; }
-
-# add_row <title> <design> <style> <real>
-add_row() {
-  local made name update control predict most_update most_control most_predict stack ram
-  made=$(mktemp -d "$folder/controller.XXXXXX")
-  make_controller "$2" "$3" "$4" "$made"
-  link_controller "$made" footprint -Wl,-e,roots
-  link_controller "$made" measure -L "$port" -T "$shared/link.ld" "${startup[@]}"
-  timeout 600 "${machine[@]}" "$made/measure.elf" >"$made/measured" || lqg_stop "$1: the measurement failed"
-  source "$made/measured"
-  name=$(design_value "$2" name)
-  echo "| $1 | $3 | $4 | $(json_value "$made/$name.json" multiply_adds) | $update | $control | $predict |" \
-    "$((most_update + most_control + most_predict)) |" \
-    "$(flash_of "$made/footprint.elf") ($(json_value "$made/$name.json" flash)) | $ram |" \
-    "$stack ($(json_value "$made/$name.json" stack)) |"
-  rm -r "$made"
+# start_controller <title> <design> <style> <real>: in a folder of its own; those of the tables in their order.
+start_controller() {
+  local made
+  made=$folder/controllers/$(printf '%03d' ${#controllers[@]})
+  controllers+=("$made")
+  mkdir -p "$made"
+  start "$made/description" make_controller "$made" "$@"
 }
 
 # two_mass with `arithmetic` and the covariance carried as it is.
-add_carried_row() {
-  local design=$folder/two_mass.toml
+start_carried_controller() {
+  local design=$folder/$1/two_mass.toml
+  mkdir -p "$folder/$1"
   sed -e 's/^gain *=.*/gain = "online"\ncovariance = "plain"/' -e '/^arithmetic/d' \
     -e "s/^real *=.*/&\narithmetic = \"$1\"/" "$lqg_root/codegen/designs/two_mass.toml" >"$design"
-  add_row "two_mass, covariance carried, $1" "$design" unrolled float
+  start_controller "two_mass, covariance carried, $1" "$design" unrolled float
 }
 
-startup=("$folder/startup.main")
-"${compiler[@]}" -c "$shared/startup.c" -o "${startup[0]}"
-{
-  echo "Cortex-M4F, $(arm-none-eabi-gcc --version | head -n 1), ${options[*]}"
-  echo
-  echo "| design | style | real | multiply-adds | update | control | predict | most, all three | flash, bytes | RAM | stack |"
-  echo "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
-  add_carried_row fused
-  add_carried_row plain
+make_controllers() {
+  local real design style
+  controllers=()
+  start_carried_controller fused
+  start_carried_controller plain
   for real in float double; do
     for design in "$lqg_root"/codegen/designs/*.toml; do
-      for style in unrolled compact; do
-        add_row "$(design_value "$design" name)" "$design" "$style" "$real"
-      done
+      if [ -n "$all" ] || [ $real = float ] || [ "$(design_value "$design" real)" = double ]; then
+        for style in unrolled compact; do
+          start_controller "$(design_value "$design" name)" "$design" $style $real
+        done
+      fi
     done
   done
-} | tee "$lqg_root/build/bench.md"
+  wait_for_all
+}
+
+# ---- the measurement ---------------------------------------------------------------------------------------------
+
+# Start-up and counter, which all controllers of a core share.
+compile_once() {
+  rm -rf "$work"
+  mkdir -p "$work"
+  "${compiler[@]}" -c "$startup" -o "$work/startup.o"
+  "${compiler[@]}" "-DMEGAHERTZ=$megahertz" -c "$bench/counter_$family.c" -o "$work/counter.o"
+}
+
+# find_library <folder> <option>…: the variant of the options in the folder, compiled where it is not there yet.
+find_library() {
+  local folder=$1
+  shift
+  library=$folder/library.a
+  [ ! -e "$library" ] || return 0
+  mkdir -p "$folder"
+  (cd "$folder" && "${compiler[@]}" "$@" -c "$lqg_root"/src/*.c && "$archiver" rcs library.a ./*.o)
+}
+
+# link_controller <main> <option or file>…
+link_controller() {
+  local main=$1
+  shift
+  "${compiler[@]}" "${variant[@]}" "${names[@]}" "$bench/$main.c" "$@" "${linked[@]}" "$library" -lm -o "$work/$main.elf"
+}
+
+# The sections of a program that go into flash.
+flash_of() {
+  "$size" -A "$1" | awk '$1 ~ /^\.(text|rodata|srodata|data|sdata|ARM\.exidx)/ { sum += $2 } END { print sum }'
+}
+
+# add_row <made>, of which the caller has read the description.
+add_row() {
+  local library variant=() names json=$1/$name.json estimated_flash='' estimated_stack=''
+  local update control predict most_update most_control most_predict stack ram
+  [ "$real" = float ] || variant+=(-DLQG_REAL_DOUBLE)
+  [ "$arithmetic" = plain ] || variant+=(-DLQG_FUSED)
+  names=("-I$1" "-DHEADER=\"$name.h\"" '-DVECTORS="vectors.h"' "-DNAME=$name" "-DUPPER_NAME=${name^^}" "-DREAL=$real")
+  [ -n "$has_input" ] || names+=(-DESTIMATES)
+  find_library "$work/${real}_$arithmetic" "${variant[@]}"
+  link_controller footprint -Wl,-e,roots
+  link_controller measure "$work/counter.o" "$work/startup.o"
+  timeout 600 "${machine[@]}" "$work/measure.elf" >"$work/measured" ||
+    lqg_stop "$core, $title, $style, $real: the measurement failed"
+  source "$work/measured"
+  if [ "$core" = cortex-m4f ]; then
+    estimated_flash=" ($(json_value "$json" flash))" estimated_stack=" ($(json_value "$json" stack))"
+  fi
+  echo "| $title | $style | $real | $(json_value "$json" multiply_adds) | $update | $most_update |" \
+    "$control | $most_control | $predict | $most_predict |" \
+    "$(flash_of "$work/footprint.elf")$estimated_flash | $ram | $stack$estimated_stack |"
+}
+
+# is_measured: on this core, whose FPU fuses fused_reals, of the controller described.
+is_measured() {
+  [ "$arithmetic" = plain ] || [[ " $fused_reals " == *" $real "* ]] || return 1
+  [ -n "$all" ] || [ "$real" = float ] || [[ " $fused_reals " == *" double "* ]]
+}
+
+heading() { echo "$("${compiler[0]}" --version | head -n 1), ${options[*]}"; }
+
+# measure_core <core>: its section of the tables.
+measure_core() {
+  local made title name arithmetic style real has_input
+  select_core "$1"
+  work=$folder/work/$core
+  compile_once
+  printf '## %s\n\n%s\n\n' "$core" "$(heading)"
+  echo "| design | style | real | multiply-adds | update | most | control | most | predict | most | flash | RAM | stack |"
+  echo "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+  for made in "${controllers[@]}"; do
+    source "$made/description"
+    if is_measured; then
+      add_row "$made" </dev/null
+    fi
+  done
+  echo
+}
+
+# measure <core>…: all of them, in $folder/CORE.md.
+measure() {
+  local core
+  [ -n "${LQGEN:-}" ] || make_lqgen
+  make_controllers
+  for core in "$@"; do
+    start "$folder/$core.md" measure_core "$core"
+  done
+  wait_for_all
+}
+
+make_lqgen() {
+  LQGEN=$folder/codegen/lqgen
+  lqg_configure "$folder" -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF >&2
+  lqg_compile "$folder" --target lqgen >&2
+}
+
+# ---- the record --------------------------------------------------------------------------------------------------
+
+record=$bench/record.md
+
+# Finds the `comparable` cores, those of which this machine has the tools, and the compiler that the record was made with:
+# another makes other code. Says which have been left out.
+find_comparable_cores() {
+  local missing recorded
+  comparable=()
+  for core in "${every_core[@]}"; do
+    select_core "$core"
+    missing=$(missing_tools)
+    recorded=$(awk -v core="$core" '/^## / { here = $2 == core } here && /gcc/' "$record")
+    if [ -n "$missing" ]; then
+      echo "$core is left out. Not found:$missing"
+    elif [ "$(heading)" != "$recorded" ]; then
+      echo "$core is left out. The record was made with $recorded; this is $(heading)"
+    else
+      comparable+=("$core")
+    fi
+  done
+}
+
+check() {
+  find_comparable_cores
+  if [ ${#comparable[@]} = 0 ]; then
+    echo "Nothing to compare"
+    return
+  fi
+  measure "${comparable[@]}"
+  (cd "$folder" && cat "${comparable[@]/%/.md}") >"$folder/measured.md"
+  awk -f "$bench/compare.awk" -v "cores=${comparable[*]}" "$record" "$folder/measured.md" ||
+    lqg_stop "More than 2 % of growth. If it is meant: test/bench/run.sh --update"
+}
+
+update() {
+  require_tools "${every_core[@]}"
+  measure "${every_core[@]}"
+  {
+    echo "# What the emitted controllers cost"
+    echo
+    echo "Made by \`test/bench/run.sh --update\`, which says what the columns mean."
+    echo
+    (cd "$folder" && cat "${every_core[@]/%/.md}") | sed '$d'
+  } >"$record"
+}
+
+print() {
+  require_tools "$@"
+  measure "$@"
+  (cd "$folder" && cat "${@/%/.md}")
+}
+
+require_tools() {
+  local core
+  for core in "$@"; do
+    select_core "$core"
+    [ -z "$(missing_tools)" ] || lqg_stop "$core needs$(missing_tools). Please install what Debian calls:" \
+      "gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm" \
+      "gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc"
+  done
+}
+
+# ---- the command line --------------------------------------------------------------------------------------------
+
+all='' task=print options=(-O2 -std=c99) cores=()
+for argument in "$@"; do
+  case $argument in
+    --all) all=yes ;;
+    --update | --check) task=${argument#--} ;;
+    -*) options+=("$argument") ;;
+    *) cores+=("$argument") ;;
+  esac
+done
+[ ${#cores[@]} -gt 0 ] || cores=("${every_core[@]}")
+mkdir -p "$folder"
+case $task in
+  print) print "${cores[@]}" ;;
+  update) update ;;
+  check) check 2>&1 | tee "$folder/changes.txt" ;;
+esac
