@@ -1,4 +1,5 @@
-# Makes OUTPUT, what controller.h wants to hear of the controller in HEADER, which lqgen has made: of the design NAME, in REAL.
+# Makes OUTPUT, what controller.h wants to hear of the controller in HEADER, which lqgen has made of the design NAME in
+# REAL.
 file(READ ${HEADER} header)
 string(TOUPPER ${NAME} upper_name)
 
