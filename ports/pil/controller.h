@@ -14,7 +14,7 @@ static const char controller_name[] = "balancing_robot";
 static const float controller_sample_time = BALANCING_ROBOT_SAMPLE_TIME;
 
 /* SHA-256 of the design file: DESIGN_DIGEST comes from the build, as "0x54,0xd4,…". */
-static const unsigned char controller_digest[] = {DESIGN_DIGEST};
+static const unsigned char controller_digest[32] = {DESIGN_DIGEST};
 
 static inline void controller_init(controller_t *loop)
 {

@@ -12,6 +12,7 @@ enum { LATE_FOR = 5 };
 static const float upright = 0.09f;     /* rad, 5°: where it may begin */
 static const float fallen = 0.5f;       /* rad, 29°: 8 V cannot bring it back from there */
 static const float calm = 0.17f;        /* rad/s, 10 °/s: a hand that holds it, and any gyroscope's offset */
+static const float let_go = 0.1f;       /* rad/s, 6 °/s: it tips */
 static const float turn_gain = 1.0f;    /* V/rad: how hard it holds its direction; the design knows nothing of it */
 
 void balancer_init(balancer_t *self)
@@ -44,14 +45,14 @@ static void stop(balancer_t *self, balancer_reason_t reason)
 
 /* ---- waiting -------------------------------------------------------------------------------------------- */
 
-static void begin_to_balance(balancer_t *self, const sensors_t *sensors)
+static void get_ready(balancer_t *self, const sensors_t *sensors)
 {
     balancing_robot_init(&self->loop);
     self->gyro_offset = self->gyro_sum / (float)self->still;
     self->zero = 0.5f * (sensors->left + sensors->right);
     self->turn = sensors->right - sensors->left;
     self->limited = self->blind = self->late = self->in_time = 0;
-    self->state = BALANCER_BALANCING;
+    self->state = BALANCER_READY;
 }
 
 /* A second without motion gives the gyroscope's offset, too. NaN is neither upright nor calm. */
@@ -64,7 +65,33 @@ static void wait(balancer_t *self, const sensors_t *sensors)
     self->gyro_sum += may_begin ? sensors->gyro : 0.0f;
     self->still = may_begin ? self->still + 1 : 0;
     if (self->still >= STILL_FOR)
-        begin_to_balance(self, sensors);
+        get_ready(self, sensors);
+}
+
+/* ---- ready ---------------------------------------------------------------------------------------------- */
+
+static void measure(const balancer_t *self, const sensors_t *sensors, float y[BALANCING_ROBOT_NY])
+{
+    y[BALANCING_ROBOT_Y_ENCODER] = 0.5f * (sensors->left + sensors->right) - self->zero;
+    y[BALANCING_ROBOT_Y_GYRO] = sensors->gyro - self->gyro_offset;
+}
+
+/* The filter runs without voltage, so that it knows where the robot is when it is let go. */
+static void watch(balancer_t *self, const sensors_t *sensors)
+{
+    static const float nothing[BALANCING_ROBOT_NU] = {0.0f};
+    float y[BALANCING_ROBOT_NY];
+
+    hardware_stop();
+    measure(self, sensors, y);
+    balancing_robot_update(&self->loop, y);
+    balancing_robot_predict(&self->loop, nothing);
+    if (!has_all(sensors))
+        stop(self, BALANCER_BLIND);
+    else if (fabsf(sensors->tilt) > upright)
+        stop(self, BALANCER_NEW);
+    else if (fabsf(y[BALANCING_ROBOT_Y_GYRO]) > let_go)
+        self->state = BALANCER_BALANCING;
 }
 
 /* ---- balancing ------------------------------------------------------------------------------------------ */
@@ -99,8 +126,7 @@ static void balance(balancer_t *self, const sensors_t *sensors)
     float y[BALANCING_ROBOT_NY], u[BALANCING_ROBOT_NU];
     lqg_status status;
 
-    y[BALANCING_ROBOT_Y_ENCODER] = 0.5f * (sensors->left + sensors->right) - self->zero;
-    y[BALANCING_ROBOT_Y_GYRO] = sensors->gyro - self->gyro_offset;
+    measure(self, sensors, y);
     status = balancing_robot_update(&self->loop, y);
     status |= balancing_robot_control(&self->loop, u);
     drive(self, sensors, u[BALANCING_ROBOT_U_VOLTAGE]);
@@ -117,6 +143,8 @@ void balancer_run_sample(balancer_t *self)
     hardware_read(&self->sensors);
     if (self->state == BALANCER_BALANCING)
         balance(self, &self->sensors);
+    else if (self->state == BALANCER_READY)
+        watch(self, &self->sensors);
     else
         wait(self, &self->sensors);
     self->samples++;
@@ -140,5 +168,7 @@ const char *balancer_text(const balancer_t *self)
 
     if (self->state == BALANCER_BALANCING)
         return "balances";
+    if (self->state == BALANCER_READY)
+        return "is ready, let it go";
     return has_all(&self->sensors) ? reasons[self->reason] : "waits for its sensors";
 }

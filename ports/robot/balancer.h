@@ -1,19 +1,22 @@
 /* The balancing robot but for its hardware: when it may drive, what it does in a sample, and when it has to stop.
  *
- *     WAITING ── held upright and still for a second ──▶ BALANCING
- *        ▲                                                   │
- *        └──── fallen, lifted, blind or late: motors off ────┘ */
+ *     WAITING ── held upright and still for a second ──▶ READY ── let go: it moves ──▶ BALANCING
+ *        ▲                                                │                                │
+ *        └───────────── laid down, or blind ──────────────┴── fallen, lifted, blind, late ─┘
+ *
+ * Motors are off but in BALANCING. While a hand holds the body the wheels cannot do what the controller expects, and within a few
+ * samples it would believe to fall: so it does not drive before it is let go. */
 #ifndef BALANCER_H
 #define BALANCER_H
 
 #include "balancing_robot.h"
 #include "hardware.h"
 
-typedef enum { BALANCER_WAITING, BALANCER_BALANCING } balancer_state_t;
+typedef enum { BALANCER_WAITING, BALANCER_READY, BALANCER_BALANCING } balancer_state_t;
 
 /* Why it does not drive. */
 typedef enum {
-    BALANCER_NEW,     /* since it was switched on */
+    BALANCER_NEW,     /* it has been switched on, or laid down */
     BALANCER_FALLEN,  /* the body is too far from upright, or moves as if it were: held wheels look like that */
     BALANCER_LIFTED,  /* the voltage has been at its limit for half a second: the wheels turn in the air */
     BALANCER_BLIND,   /* a sensor has been silent for a tenth of a second */
@@ -25,8 +28,8 @@ typedef struct {
     balancer_state_t state;
     balancer_reason_t reason;
     unsigned still;               /* samples that it has been held upright and still */
-    float gyro_sum, gyro_offset;  /* rad/s; the offset is the mean of the second before it drives */
-    float zero;                   /* rad: the wheels' mean angle when it began to drive */
+    float gyro_sum, gyro_offset;  /* rad/s; the offset is the mean of the second of waiting */
+    float zero;                   /* rad: the wheels' mean angle when it became ready */
     float turn;                   /* rad: by how much the right wheel was ahead then */
     float voltage;                /* V, of the last sample */
     unsigned limited, blind, late;  /* such samples in a row */

@@ -86,7 +86,7 @@ static void answer_hello(const pil_frame_t *request)
                          .frequency = counter_frequency};
     pil_frame_t frame = {.type = PIL_HELLO, .length = PIL_HELLO_SIZE, .sequence = request->sequence};
 
-    for (unsigned i = 0; i < sizeof controller_digest && i < PIL_DIGEST_SIZE; i++)
+    for (unsigned i = 0; i < PIL_DIGEST_SIZE; i++)
         hello.digest[i] = controller_digest[i];
     for (unsigned i = 0; i < sizeof controller_name && i < PIL_NAME_SIZE - 1; i++)
         hello.name[i] = controller_name[i];
