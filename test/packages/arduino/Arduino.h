@@ -12,12 +12,12 @@ static struct {
   void print(char character) { std::printf("%c", character); }
   void print(long number) { std::printf("%ld", number); }
   void print(int number) { std::printf("%d", number); }
+  void print(unsigned number) { std::printf("%u", number); }
   void print(unsigned long number) { std::printf("%lu", number); }
   template <typename Value> void println(Value value) {
     print(value);
     std::printf("\n");
   }
-  void print(unsigned number) { std::printf("%u", number); }
 } Serial;
 
 static unsigned long micros() {
