@@ -17,7 +17,8 @@
  *
  * Use: switch on with the robot at rest, in any position, for two seconds: the light is on while the gyroscope's offset
  * is measured. Hold the robot upright: when it has been so for half a second, the light begins to blink fast, the motors
- * start, and it stands by itself. When it falls, when a sensor is silent, or when the battery is empty, the motors stop.
+ * start, and it stands by itself. When it falls, when the gyroscope is silent, or when the battery is empty, the motors
+ * stop.
  *
  * The first time, before the battery feeds the motors: while it waits, the serial monitor (115200 baud) shows once a second
  * the tilt, what the wheels have turned (all in degrees) and the battery's voltage. The tilt has to be positive forward, and
