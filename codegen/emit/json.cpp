@@ -107,11 +107,13 @@ Json lqr(const Controller& controller) {
   return out;
 }
 
+// A filter that never becomes steady has its form alone.
 Json kalman(const Controller& controller) {
+  Json out = {{"form", controller.is_predictor() ? "predictor" : "filter"}};
+  if (!controller.solution.estimator) return out;
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
-  Json out = {{"form", controller.is_predictor() ? "predictor" : "filter"},
-              {"L", rows(estimator.L)},
-              {"L_predictor", rows(estimator.L_predictor)}};
+  out["L"] = rows(estimator.L);
+  out["L_predictor"] = rows(estimator.L_predictor);
   add(out, "P_prior", estimator.P_prior);
   add(out, "P_posterior", estimator.P_posterior);
   add(out, "S", estimator.S);
@@ -185,7 +187,7 @@ std::string json(const Controller& controller) {
     }
     out["lqr"] = lqr(controller);
   }
-  if (solution.estimator) out["kalman"] = kalman(controller);
+  if (controller.has_filter()) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
   out["loop"] = loop(solution.loop);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};

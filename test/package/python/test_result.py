@@ -107,6 +107,16 @@ class Files(InFolder):
         with self.refused("part", "compensator"):
             design.to_control("compensator")
 
+    def test_filter_that_never_becomes_steady(self):
+        A, B, C = [[0.9, 0.1, 0], [0, 0.95, 0], [0, 0, 1]], [[0], [0.1], [0]], [[1, 0, 1], [0, 1, 0]]
+        tinylqg.write_design("bias.toml", (A, B, C), domain="discrete", sample_time=0.1, G=[[0, 0], [1, 0], [0, 0]],
+                             W=[0.01, 0.01], V=[0.01, 0.04], Q=[1, 1, 0], R=[1], lqr={"horizon": 20},
+                             kalman={"gain": "online"})
+        design = tinylqg.generate("bias.toml")
+        self.assertEqual(design.kalman, {"form": "filter"})
+        with self.refused("bias", "never becomes steady"):
+            design.to_control("controller")
+
     def test_other_files_are_refused(self):
         for name, text in (("a.json", "{"), ("b.json", "[1]"), ("c.json", '{"name": "c"}')):
             Path(name).write_text(text)

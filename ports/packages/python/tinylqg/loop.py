@@ -62,6 +62,8 @@ def controller(design, references):
 
     if "lqr" not in design:
         raise DesignError(f"{design.name}: expected a design with a control law, found an estimator alone")
+    if "kalman" in design and "L" not in design.kalman:
+        raise DesignError(f"{design.name}: expected a filter with a constant gain, found one that never becomes steady")
     plant = final_plant(design)
     shape = Shape(numpy, design, plant, references)
     e, u = innovation_and_input(design, plant, shape)
@@ -96,13 +98,11 @@ class Shape:
         table = design.plant
         names = state_names(design)
         measured = table.outputs if self.estimates else names
-        return {
-            "states": [f"estimate {state}" for state in names[: len(self.estimate)]]
-                      + [f"integral {table.outputs[i]}" for i in self.integrated]
-                      + [f"last {name}" for name in table.inputs[: len(self.last)]],
-            "inputs": list(measured) + [f"wanted {table.outputs[i]}" for i in wanted],
-            "outputs": list(table.inputs),
-        }
+        states = [f"estimate {name}" for name in names[: len(self.estimate)]]
+        states += [f"integral {table.outputs[i]}" for i in self.integrated]
+        states += [f"last {name}" for name in table.inputs[: len(self.last)]]
+        inputs = list(measured) + [f"wanted {table.outputs[i]}" for i in wanted]
+        return {"states": states, "inputs": inputs, "outputs": list(table.inputs)}
 
     def system(self, following, u):
         return following[:, : self.states], following[:, self.states:], u[:, : self.states], u[:, self.states:]
