@@ -1,8 +1,8 @@
-# For run.sh, to be sourced: how programs are built and run for a core, from its port's own files.
+# For bash scripts, to be sourced: how programs are built and run for a core, from its port's own files.
 #
 #   every_core             the cores that there are
-#   select_core <core>     sets core, family, port, startup, fused_reals, compiler, archiver, size, linked, machine, megahertz;
-#                          `options` go to the compiler
+#   select_core <core>     sets core, family, port, startup, fused_reals, cpu, compiler, archiver, size, linked, machine,
+#                          megahertz; `options` go to the compiler
 #   missing_tools          prints what the selected core needs and this machine has not
 
 every_core=(cortex-m0 cortex-m3 cortex-m4f cortex-m7 cortex-m33 cortex-m55 rv32 rv32f rv64)
@@ -11,8 +11,8 @@ every_core=(cortex-m0 cortex-m3 cortex-m4f cortex-m7 cortex-m33 cortex-m55 rv32 
 port_value() { sed -n "s/^set($1 *\"\{0,1\}\([^\")]*\)\"\{0,1\}).*/\1/p" "$port/toolchain.cmake"; }
 
 select_core() {
-  local cpu emulated=(-nographic -monitor none -serial none -chardev stdio,id=pc
-                      -semihosting-config "enable=on,target=native,chardev=pc" -kernel)
+  local emulated=(-nographic -monitor none -serial none -chardev stdio,id=pc
+                  -semihosting-config "enable=on,target=native,chardev=pc" -kernel)
   core=$1 port=$lqg_root/ports/$1
   [ -e "$port/memory.ld" ] || lqg_stop "no core $core: expected one of ${every_core[*]}"
   read -ra cpu <<<"$(port_value lqg_cpu)"
