@@ -52,8 +52,10 @@ select_riscv() {
 }
 
 missing_tools() {
-  local tool
-  for tool in "${compiler[0]}" "${machine[0]}"; do
-    lqg_has_command "$tool" || echo -n " $tool"
-  done
+  if ! lqg_has_command "${compiler[0]}"; then
+    echo -n " ${compiler[0]}"
+  elif ! echo '#include <stdio.h>' | "${compiler[@]}" -E -o /dev/null - 2>/dev/null; then
+    echo -n " the C library of ${compiler[0]}"
+  fi
+  lqg_has_command "${machine[0]}" || echo -n " ${machine[0]}"
 }

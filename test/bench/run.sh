@@ -12,9 +12,8 @@
 # Fused arithmetic is left out where the hardware has none.
 #
 # LQGEN names an lqgen that is there already; otherwise one is built. FOLDER is where all work is done, default
-# build/bench. Debian's packages:
-# gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf
-# qemu-system-misc.
+# build/bench. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
+# picolibc-riscv64-unknown-elf qemu-system-misc.
 #
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
 # library functions included. "most" is over the reference samples of the design's test and over the same with
@@ -255,12 +254,11 @@ print() {
 }
 
 require_tools() {
-  local core
+  local core packages='gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm'
+  packages+=' gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc'
   for core in "$@"; do
     select_core "$core"
-    [ -z "$(missing_tools)" ] || lqg_stop "$core needs$(missing_tools). Please install what Debian calls:" \
-      "gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm" \
-      "gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc"
+    [ -z "$(missing_tools)" ] || lqg_stop "$core needs$(missing_tools). Of Debian's packages: $packages"
   done
 }
 
