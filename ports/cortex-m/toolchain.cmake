@@ -3,7 +3,7 @@
 #     lqg_machine  the machine of QEMU that has this core
 #     lqg_port     its folder, where memory.ld is
 #     lqg_uart     the address of its UART, of Arm's design kit; another UART: lqg_board, the files that serve it and a counter
-#     lqg_hertz    of a real processor
+#     lqg_hertz    of the real processor that the same program is for, if there is one
 # and includes this one:
 #     cmake --toolchain ports/<port>/toolchain.cmake …
 # Debian: gcc-arm-none-eabi libnewlib-arm-none-eabi. Programs run in QEMU where that is installed

@@ -5,7 +5,8 @@
 /* What differs from robot to robot. */
 static const float battery = 8.0f;          /* V, under load */
 static const float counts_of_turn = 720.0f; /* of LEGO's NXT motor: 180 periods of both channels, each edge counted */
-enum { LEFT_SIGN = 1, RIGHT_SIGN = -1 };    /* the right motor is mounted the other way round */
+static const float left_sign = 1.0f;
+static const float right_sign = -1.0f;      /* the right motor is mounted the other way round */
 
 enum { PWM_STEPS = 800 };                   /* 16 MHz / 800 = 20 kHz: not to be heard */
 enum { AIN1 = 10, AIN2 = 4, BIN1 = 5, BIN2 = 3 };   /* of port B */
@@ -54,8 +55,8 @@ void wheels_read(float *left, float *right)
 
     left_counts += moved(TIM2, left_counts);
     right_counts += moved(TIM3, right_counts);
-    *left = LEFT_SIGN * angle_of_count * (float)left_counts;
-    *right = RIGHT_SIGN * angle_of_count * (float)right_counts;
+    *left = left_sign * angle_of_count * (float)left_counts;
+    *right = right_sign * angle_of_count * (float)right_counts;
 }
 
 /* ---- motors --------------------------------------------------------------------------------------------- */
@@ -103,8 +104,8 @@ static uint32_t drive_motor(float voltage, unsigned in1, unsigned in2)
 
 void wheels_drive(float left, float right)
 {
-    TIM1->ccr1 = drive_motor(LEFT_SIGN * left, AIN1, AIN2);
-    TIM1->ccr2 = drive_motor(RIGHT_SIGN * right, BIN1, BIN2);
+    TIM1->ccr1 = drive_motor(left_sign * left, AIN1, AIN2);
+    TIM1->ccr2 = drive_motor(right_sign * right, BIN1, BIN2);
     gpio_write(GPIOA, STBY, 1);
 }
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CLOCK = 16000000 };
+static const double clock_frequency = 16e6; /* Hz */
 
 world_t world;
 unsigned stm32_complaints;
@@ -85,7 +85,7 @@ void stm32_motors(double *left, double *right)
     const int has_current = is_high(GPIO_A, 10);
 
     complain(has_current && !runs, "the motors have current, but no PWM");
-    complain(runs && *at(TIM1 + ARR) + 1 != CLOCK / 20000, "the PWM has not 20 kHz");
+    complain(runs && *at(TIM1 + ARR) + 1 != 16000000 / 20000, "the PWM has not 20 kHz");
     *left = runs && has_current ? motor(10, 4, CCR_1) : 0.0;
     *right = runs && has_current ? -motor(5, 3, CCR_2) : 0.0;
 }
@@ -144,7 +144,7 @@ static struct {
 
 static void take_time(double bits)
 {
-    bus.seconds += bits * 3.0 * (double)(bus.divider & 0xFFF) / CLOCK;
+    bus.seconds += bits * 3.0 * (double)(bus.divider & 0xFFF) / clock_frequency;
     bus.looks = LOOKS_OF_A_BYTE;
 }
 
@@ -152,7 +152,7 @@ static void check_set_up(void)
 {
     complain((bus.control & 1) == 0, "a start without PE");
     complain(bus.frequency != 16, "I2C_CR2 is not the bus clock in MHz");
-    complain((bus.divider >> 15 & 1) == 0 || (double)CLOCK / (3.0 * (bus.divider & 0xFFF)) > 400e3, "SCL is not at most 400 kHz");
+    complain((bus.divider >> 15 & 1) == 0 || clock_frequency / (3.0 * (bus.divider & 0xFFF)) > 400e3, "SCL is not at most 400 kHz");
     complain(bus.rise != 5, "I2C_TRISE is not that of 300 ns"); /* 300 ns · 16 MHz, rounded down, and 1 */
     complain(!has_function(GPIO_B, 8, 4) || !has_function(GPIO_B, 9, 4), "SCL, SDA are not at the pins");
     complain((*at(GPIO_B + OTYPER) & 0x300) != 0x300, "SCL, SDA are not open drain");
@@ -341,7 +341,7 @@ static void write_serial(uint32_t offset, uint32_t value)
         return;
     complain(!has_function(GPIO_A, 2, 7), "TX is not at its pin");
     complain((*at(0x4000440C) & 0x2008) != 0x2008, "the serial port is not on");
-    complain(fabs(CLOCK / (double)*at(0x40004408) / 115200.0 - 1.0) > 0.01, "the baud rate is more than 1 % off");
+    complain(fabs(clock_frequency / (double)*at(0x40004408) / 115200.0 - 1.0) > 0.01, "the baud rate is more than 1 % off");
     if (serial_count < sizeof serial - 1)
         serial[serial_count++] = (char)value;
 }
@@ -355,7 +355,7 @@ const char *stm32_serial(void)
 
 double stm32_sample_time(void)
 {
-    return tick_control == 7 ? (double)(tick_reload + 1) / CLOCK : 0.0;
+    return tick_control == 7 ? (double)(tick_reload + 1) / clock_frequency : 0.0;
 }
 
 double stm32_watchdog_time(void)
