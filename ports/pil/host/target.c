@@ -61,8 +61,11 @@ static void say_refusal(const pil_frame_t *frame)
 /* The answer of this type, length and sequence number, or what went wrong. */
 static int expect(target_t *target, uint8_t type, uint8_t length, uint16_t sequence, pil_frame_t *frame)
 {
-    const line_result result = receive(target, frame, target->patience);
+    line_result result;
 
+    do /* a target that was slow to start may still answer the second HELLO */
+        result = receive(target, frame, target->patience);
+    while (result == LINE_BYTE && frame->type == PIL_HELLO);
     if (result != LINE_BYTE) {
         say_silence(target, name_of(type), sequence, result);
         return -1;
@@ -100,24 +103,23 @@ static int drain(target_t *target)
     return result == LINE_TIMEOUT ? 0 : -1;
 }
 
+/* Half a second is enough for a HELLO at 9600 baud. What is said before the target listens is lost. */
 int target_greet(target_t *target, pil_hello_t *hello)
 {
-    enum { TRIES = 10 };
+    const double end = line_seconds() + 5.0 * target->patience;
+    line_result result = LINE_TIMEOUT;
 
-    for (uint16_t i = 1; i <= TRIES; i++) {
+    for (uint16_t i = 1; line_seconds() < end && result != LINE_BROKEN; i++) {
         const pil_frame_t request = {.type = PIL_HELLO, .length = 0, .sequence = i};
         pil_frame_t frame;
-        line_result result;
 
         if (flush_target(target) != 0 || send(target, &request) != 0)
             break;
-        while ((result = receive(target, &frame, target->patience)) == LINE_BYTE)
+        while ((result = receive(target, &frame, 0.5)) == LINE_BYTE)
             if (frame.type == PIL_HELLO && frame.length == PIL_HELLO_SIZE) {
                 pil_get_hello(frame.payload, hello);
                 return drain(target);
             }
-        if (result == LINE_BROKEN)
-            break;
     }
     fprintf(stderr, "No target answers HELLO: is it running, and are line and baud rate right?\n"
                     "Found %u damaged frames and %lu bytes outside of frames.\n",

@@ -21,7 +21,7 @@ typedef struct {
     double round_trip;                  /* s from the first byte of y to the last of u */
 } answer_t;
 
-/* These return 0, or −1. Greeting is tried for ten times `patience`: a board may be starting. */
+/* These return 0, or −1. Greeting is tried for five times `patience`: a board may be starting. */
 int target_greet(target_t *target, pil_hello_t *hello);
 int target_start(target_t *target);
 int target_run_sample(target_t *target, uint16_t sequence, const float y[CONTROLLER_NY], answer_t *answer);

@@ -6,10 +6,12 @@
 
 static const char *const titles[TIMING_ROWS] = {"update", "control", "predict", "all three", "round trip, µs"};
 
+enum { CYCLES_MAX = 8 }; /* that a real processor takes to do nothing; a counter that is faster is an emulator's */
+
 int timing_start(timing_t *timing, unsigned count, const pil_hello_t *hello, int emulated)
 {
     timing->count = count;
-    timing->frequency = emulated ? 0.0 : hello->frequency;
+    timing->frequency = emulated || hello->ticks_of_thousand > 1000 * CYCLES_MAX ? 0.0 : hello->frequency;
     timing->ticks_of_unit = timing->frequency > 0.0 ? 1.0 : hello->ticks_of_thousand / 1000.0;
     for (int row = 0; row < TIMING_ROWS; row++) {
         timing->rows[row] = calloc(count, sizeof timing->rows[row][0]);

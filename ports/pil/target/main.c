@@ -165,6 +165,13 @@ static void complain_of_damage(void)
     refuse(next_sample, PIL_BAD_CRC, decoder.crc_expected, decoder.crc_found);
 }
 
+/* Some µs, far less than a byte takes. An emulator that is asked for a byte all the time does not come to fetch one. */
+static void wait_a_little(void)
+{
+    for (volatile int i = 0; i < 20; i++)
+        ;
+}
+
 int main(void)
 {
     lqg_status status = LQG_OK;
@@ -178,8 +185,10 @@ int main(void)
         const int byte = uart_read();
         pil_frame_t request;
 
-        if (byte < 0)
+        if (byte < 0) {
+            wait_a_little();
             continue;
+        }
         pil_take(&decoder, (uint8_t)byte);
         while (pil_next(&decoder, &request))
             serve(&request);
