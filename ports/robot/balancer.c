@@ -10,10 +10,11 @@
 enum { LATE_FOR = 5 };
 
 static const float upright = 0.09f;     /* rad, 5°: where it may begin */
-static const float fallen = 0.5f;       /* rad, 29°: 8 V cannot bring it back from there */
+static const float fallen = 0.5f;       /* rad, 29°: far more than while it balances */
 static const float calm = 0.17f;        /* rad/s, 10 °/s: a hand that holds it, and any gyroscope's offset */
 static const float let_go = 0.1f;       /* rad/s, 6 °/s: it tips */
 static const float turn_gain = 1.0f;    /* V/rad: how hard it holds its direction; the design knows nothing of it */
+static const float turn_limit = 1.0f;   /* V: what that may take from a wheel */
 
 void balancer_init(balancer_t *self)
 {
@@ -101,10 +102,15 @@ static unsigned in_a_row(unsigned count, int again)
     return again ? count + 1 : 0;
 }
 
+static float within(float value, float limit)
+{
+    return value > limit ? limit : value < -limit ? -limit : value;
+}
+
 static void drive(const balancer_t *self, const sensors_t *sensors, float voltage)
 {
     const float turned = sensors->right - sensors->left - self->turn;
-    const float correction = is_finite(turned) ? 0.5f * turn_gain * turned : 0.0f;
+    const float correction = is_finite(turned) ? within(0.5f * turn_gain * turned, turn_limit) : 0.0f;
 
     hardware_drive(voltage + correction, voltage - correction);
 }

@@ -233,6 +233,10 @@ static void test_turns_back_when_one_wheel_runs_ahead(void)
     run(1);
     TEST_ASSERT_TRUE(right_voltage < left_voltage);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.0f * balancer.voltage, left_voltage + right_voltage);
+    wrong.right = 100.0f;
+    wrong.left = -100.0f;
+    run(1);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.0f, left_voltage - right_voltage);
 }
 
 static void test_stops_when_it_has_fallen(void)
