@@ -44,6 +44,7 @@ bool is_rounding(const Real& coarse, const Real& fine, const Real& scale, unsign
 
 // A pole at 0 that one run met exactly is only nearly there in the next.
 bool settle_part(const Real& coarse, Real& fine) {
+  if (!isfinite(fine) || !isfinite(coarse)) return false;
   const Real distance = abs(fine - coarse);
   if (round_alike(fine - distance, fine + distance)) return true;
   if (abs(fine) > 1e-20 || (!coarse.is_zero() && abs(fine) > 1e-5 * abs(coarse))) return false;

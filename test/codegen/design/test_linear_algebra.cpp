@@ -125,6 +125,27 @@ void test_eigenvalues_of_a_jordan_block_have_a_part_of_the_digits() {
     expect_small(abs(hypot(value.re - 0.5, value.im) - 1e-12), 1e-20, "the distance from 0.5, less 1e-12");
 }
 
+// Three Jordan chains at 0, in other coordinates: of each eigenvalue a third, a fourth … of the digits is there, and a sweep
+// brings no more than a bit of it.
+void test_eigenvalues_of_several_jordan_chains_are_found() {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (Index length = 2; length <= 5; ++length) {
+      const Digits scope(100);
+      const Index chains = 3, n = chains * length + 1;
+      RealMatrix J = zeros(n, n);
+      for (Index i = 0; i + 1 < n; ++i)
+        if ((i + 1) % length != 0) J(i, i + 1) = 1;
+      J(n - 1, n - 1) = 0.5;
+      const RealMatrix S = real(Random(seed).matrix(n, n));
+      int zeros_found = 0;
+      for (const ComplexReal& value : eigenvalues(*solve(S, multiply(J, S)))) {
+        TEST_ASSERT_TRUE(isfinite(value.re) && isfinite(value.im));
+        zeros_found += hypot(value.re, value.im) < 1e-10;
+      }
+      TEST_ASSERT_EQUAL(chains * length, zeros_found);
+    }
+}
+
 void test_upper_factors_of_a_singular_matrix_have_zero_pivots() {
   const Digits scope(50);
   const RealMatrix P = real(Random(5).semidefinite(5, 2)) / Real(3);
@@ -231,6 +252,7 @@ int main() {
   RUN_TEST(test_eigenvalues_of_a_cyclic_permutation);
   RUN_TEST(test_eigenvalues_of_a_graded_matrix_keep_the_small_ones);
   RUN_TEST(test_eigenvalues_of_a_jordan_block_have_a_part_of_the_digits);
+  RUN_TEST(test_eigenvalues_of_several_jordan_chains_are_found);
   RUN_TEST(test_upper_factors_of_a_singular_matrix_have_zero_pivots);
   RUN_TEST(test_upper_factors_keep_a_pivot_that_is_small_and_no_rounding);
   RUN_TEST(test_definiteness_is_judged_whatever_the_units);

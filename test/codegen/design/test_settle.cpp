@@ -118,6 +118,14 @@ void test_what_is_not_finite_is_held_back() {
   TEST_ASSERT_FALSE(settled(fine, fine));
 }
 
+void test_poles_that_were_not_found_are_held_back() {
+  const Digits scope(100);
+  const Real unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ComplexReal> fine = {{unknown, unknown}};
+  TEST_ASSERT_FALSE(settle({{unknown, unknown}}, fine));
+  TEST_ASSERT_FALSE(settle({{Real(0.5), Real(0)}}, fine));
+}
+
 void test_matrices_of_different_shapes_are_held_back() {
   const Digits scope(100);
   RealMatrix fine = zeros(2, 1);
@@ -189,6 +197,7 @@ int main() {
   RUN_TEST(test_number_near_a_tie_but_not_on_it_is_held_back);
   RUN_TEST(test_negative_zero_loses_its_sign);
   RUN_TEST(test_what_is_not_finite_is_held_back);
+  RUN_TEST(test_poles_that_were_not_found_are_held_back);
   RUN_TEST(test_matrices_of_different_shapes_are_held_back);
   RUN_TEST(test_one_entry_holds_its_matrix_back);
   RUN_TEST(test_poles_are_compared_with_their_nearest);
