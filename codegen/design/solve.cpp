@@ -132,6 +132,23 @@ Nearest nearest_to_circle(const std::vector<ComplexReal>& poles) {
   return nearest;
 }
 
+// Do the poles keep away from the circle as they did with fewer digits? A pole that nears it has settled as a double on it
+// long before it does as a number.
+bool keeps_distance(const std::vector<ComplexReal>& coarse, const std::vector<ComplexReal>& fine) {
+  return nearest_to_circle(fine).distance > nearest_to_circle(coarse).distance / 2;
+}
+
+// Which poles belong to a gain that has to be stabilising; one that is held at an end need not be.
+bool is_for_ever(const std::optional<Regulator>& regulator) { return has_cost(regulator) && regulator->horizon == 0; }
+bool is_for_ever(const std::optional<Estimator>& estimator) {
+  return has_noise(estimator) && !(estimator->gain == Gain::schedule && estimator->horizon > 0);
+}
+
+bool keeps_distance(const Problem& problem, const Draft& coarse, const Draft& fine) {
+  return (!is_for_ever(problem.regulator) || keeps_distance(coarse.regulator_poles, fine.regulator_poles))
+         && (!is_for_ever(problem.estimator) || keeps_distance(coarse.estimator_poles, fine.estimator_poles));
+}
+
 // Has a pole no place but the circle to go to? From run to run it comes nearer, as near as the digits let it.
 class Tendency {
  public:
@@ -155,13 +172,14 @@ struct Tendencies {
 };
 
 // Refuses what no digits can settle: a solution that is not stabilising.
-void check_tendencies(const Draft& coarse, const Draft& fine, Tendencies& tendencies, Findings& findings) {
+void check_tendencies(const Problem& problem, const Draft& coarse, const Draft& fine, Tendencies& tendencies,
+                      Findings& findings) {
   const std::string limit = " on the stability limit: that mode carries no ";
-  if (tendencies.regulator.continues(coarse.regulator_poles, fine.regulator_poles))
+  if (is_for_ever(problem.regulator) && tendencies.regulator.continues(coarse.regulator_poles, fine.regulator_poles))
     add_error(findings, "lqr.Q",
               "a closed-loop pole tends to z = " + tendencies.regulator.pole() + limit
                   + "weight, and no stabilising gain is optimal");
-  if (tendencies.estimator.continues(coarse.estimator_poles, fine.estimator_poles))
+  if (is_for_ever(problem.estimator) && tendencies.estimator.continues(coarse.estimator_poles, fine.estimator_poles))
     add_error(findings, "kalman.process_noise",
               "a pole of the filter tends to z = " + tendencies.estimator.pole() + limit
                   + "noise, and no stable steady filter is optimal");
@@ -189,12 +207,12 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
       }
       return std::nullopt;
     }
-    if (has_start && !failed && settle_draft(*coarse, fine, coarse_digits)) {
+    if (has_start && !failed && keeps_distance(problem, *coarse, fine) && settle_draft(*coarse, fine, coarse_digits)) {
       finish(problem, fine, digits, findings);
       if (has_error(findings)) return std::nullopt;
       return fine.solution;
     }
-    if (has_start && !failed) check_tendencies(*coarse, fine, tendencies, findings);
+    if (has_start && !failed) check_tendencies(problem, *coarse, fine, tendencies, findings);
     if (has_error(findings)) return std::nullopt;
     coarse = std::move(fine);
     coarse_digits = digits;

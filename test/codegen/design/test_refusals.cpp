@@ -226,6 +226,23 @@ void test_zero_on_the_circle_under_free_inputs() {
   expect_refusal(problem, "lqr.Q", {"tends to z = -1", "no stabilising gain is optimal"});
 }
 
+// (x0 − x1)² of x⁺ = [x1; u]: u = x1 keeps it 0 for ever, and x where it is. The pole at 1 is one as a double with few digits.
+void test_pole_that_tends_to_exactly_one() {
+  Problem problem = regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 0, 1, 0, 0).finished(), Eigen::Vector2d(0, 1));
+  problem.regulator->Q = (MatrixXd(2, 2) << 1, -1, -1, 1).finished();
+  problem.regulator->R.setZero();
+  expect_refusal(problem, "lqr.Q", {"tends to z = 1 ", "no stabilising gain is optimal"});
+}
+
+// The gain that is held need not be optimal for ever: the integrator stays where it is.
+void test_pole_at_one_under_a_gain_that_is_held_is_no_reason() {
+  Problem problem = regulator_alone(Domain::discrete, 1, MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2));
+  problem.regulator->Q = (MatrixXd(2, 2) << 1, 1, 1, 1).finished() / 3;
+  problem.regulator->horizon = 3;
+  Findings findings;
+  TEST_ASSERT_TRUE(solve(problem, findings).has_value());
+}
+
 void test_free_inputs_are_no_reason_where_every_state_is_weighed() {
   Problem problem = discrete_integrators(1, 1);
   problem.regulator->R.setZero();
@@ -319,6 +336,8 @@ int main() {
   RUN_TEST(test_weight_a_rounding_below_zero_on_a_stable_mode_is_no_reason);
   RUN_TEST(test_integrator_without_weight_under_free_inputs);
   RUN_TEST(test_zero_on_the_circle_under_free_inputs);
+  RUN_TEST(test_pole_that_tends_to_exactly_one);
+  RUN_TEST(test_pole_at_one_under_a_gain_that_is_held_is_no_reason);
   RUN_TEST(test_free_inputs_are_no_reason_where_every_state_is_weighed);
   RUN_TEST(test_output_without_noise_is_named);
   RUN_TEST(test_weight_that_is_not_symmetric);
