@@ -117,11 +117,13 @@ struct Requirements {
 enum class Scalar { float32, float64 };
 enum class Arithmetic { plain, fused };
 enum class Style { automatic, unrolled, compact };
+enum class Realisation { physical, folded, modal, cheapest };  // which numbers the controller keeps: x̂, or others
 
 struct Code {
   Scalar real = Scalar::float32;
   Arithmetic arithmetic = Arithmetic::plain;
   Style style = Style::automatic;
+  Realisation realisation = Realisation::physical;
   long flash = 16384;  // bytes
 };
 

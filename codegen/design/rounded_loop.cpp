@@ -10,17 +10,17 @@
 
 namespace lqg::design {
 
-namespace {
-
-RealMatrix held(const RealMatrix& a, Scalar real) {
+RealMatrix held_by(Scalar real, const RealMatrix& a) {
   RealMatrix result(a.rows(), a.cols());
   for (Index i = 0; i < a.size(); ++i)
     result.data()[i] = real == Scalar::float32 ? Real(to_float(a.data()[i])) : Real(to_double(a.data()[i]));
   return result;
 }
 
+namespace {
+
 SampledPlant held(const SampledPlant& plant, Scalar real) {
-  return {held(plant.A, real), held(plant.B, real), held(plant.C, real), held(plant.D, real), plant.G};
+  return {held_by(real, plant.A), held_by(real, plant.B), held_by(real, plant.C), held_by(real, plant.D), plant.G};
 }
 
 Solution held(const Solution& solution, Scalar real) {
@@ -28,12 +28,12 @@ Solution held(const Solution& solution, Scalar real) {
   result.plant = held(final_plant(solution), real);
   if (solution.regulator) {
     result.regulator.emplace();
-    result.regulator->K = held(solution.regulator->K, real);
+    result.regulator->K = held_by(real, solution.regulator->K);
   }
   if (solution.estimator) {
     result.estimator.emplace();
-    result.estimator->L = held(solution.estimator->L, real);
-    result.estimator->M = held(solution.estimator->M, real);
+    result.estimator->L = held_by(real, solution.estimator->L);
+    result.estimator->M = held_by(real, solution.estimator->M);
   }
   return result;
 }
@@ -98,10 +98,17 @@ void check_filter(const Solution& rounded, Scalar real, Findings& findings) {
   check_poles(eigenvalues(A - multiply(gain, rounded.plant.C)), "the filter", real, findings);
 }
 
-void check_loop(const Problem& problem, const SampledStage& last, const Solution& rounded, Solution& solution,
-                Findings& findings) {
+bool is_stable(const Poles& poles) {
+  for (const std::complex<double>& pole : poles)
+    if (!(std::abs(pole) < 1)) return false;
+  return true;
+}
+
+}  // namespace
+
+void check_rounded_controller(const Problem& problem, const SampledStage& last, const Compensator& controller,
+                              Solution& solution, Findings& findings) {
   const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
-  const Compensator controller = compensator(problem, rounded);
   const std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, controller).A);
   check_poles(poles, "the loop", problem.code.real, findings);
   if (has_error(findings)) return;
@@ -112,14 +119,6 @@ void check_loop(const Problem& problem, const SampledStage& last, const Solution
   check_cost(last, controller, solution, loop, findings);
 }
 
-bool is_stable(const Poles& poles) {
-  for (const std::complex<double>& pole : poles)
-    if (!(std::abs(pole) < 1)) return false;
-  return true;
-}
-
-}  // namespace
-
 void check_rounded(const Problem& problem, const SampledStage& last, Solution& solution, Findings& findings) {
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   const Solution rounded = held(solution, problem.code.real);
@@ -128,7 +127,7 @@ void check_rounded(const Problem& problem, const SampledStage& last, Solution& s
   if (has_error(findings) || !is_stable(solution.loop.poles)) return;
   if (solution.regulator && solution.estimator == std::nullopt && problem.estimator) return;
   if (solution.regulator)
-    check_loop(problem, last, rounded, solution, findings);
+    check_rounded_controller(problem, last, compensator(problem, rounded), solution, findings);
   else if (solution.estimator)
     check_filter(rounded, problem.code.real, findings);
 }

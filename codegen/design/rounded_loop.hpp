@@ -1,6 +1,7 @@
 // What becomes of the loop when the target holds the controller's numbers.
 #pragma once
 
+#include "design/compensator.hpp"
 #include "design/finding.hpp"
 #include "design/solution.hpp"
 #include "design/stages.hpp"
@@ -13,5 +14,12 @@ namespace lqg::design {
 // is lost: A ≠ I rounds to I, a column of B or a row of C to 0; a note when it costs more than 1 % more. With stages
 // the loop is that of the `last` one.
 void check_rounded(const Problem& problem, const SampledStage& last, Solution& solution, Findings& findings);
+
+// The same of a controller with numbers as the target holds them, around the exact plant: fills in solution.loop.rounded.
+void check_rounded_controller(const Problem& problem, const SampledStage& last, const Compensator& controller,
+                              Solution& solution, Findings& findings);
+
+// `a` as the target holds it.
+RealMatrix held_by(Scalar real, const RealMatrix& a);
 
 }  // namespace lqg::design

@@ -27,6 +27,9 @@ std::string only_update_body(const Controller& controller);
 // Straight-line code in either style: who does not call it does not pay for it.
 std::string innovation_body(const Controller& controller);
 
+// What all straight-line code begins with: includes, options, init.
+Bodies straight_line_bodies(const Controller& controller);
+
 Bodies unrolled_bodies(const Controller& controller);
 Bodies compact_bodies(const Controller& controller);
 

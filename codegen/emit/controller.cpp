@@ -6,6 +6,7 @@
 #include "emit/figures.hpp"
 #include "emit/gains.hpp"
 #include "emit/model_of.hpp"
+#include "emit/realisation.hpp"
 
 namespace lqg::emit {
 
@@ -118,19 +119,29 @@ design::Style style_of(const Controller& controller, const Figures& unrolled, co
                                                                          : design::Style::compact;
 }
 
+void choose_style(Controller& controller) {
+  if (controller.linear) {
+    controller.style = design::Style::unrolled;
+    controller.figures = linear_figures(controller);
+    return;
+  }
+  const Figures unrolled = unrolled_figures(controller), compact = compact_figures(controller);
+  controller.style = style_of(controller, unrolled, compact);
+  controller.figures = controller.style == design::Style::unrolled ? unrolled : compact;
+}
+
 }  // namespace
 
 std::optional<Controller> make_controller(design::Problem problem, design::Solution solution, Source source,
                                           design::Findings& findings) {
-  Controller controller{std::move(problem), std::move(solution), std::move(source), {}, {}, {}, {}};
+  Controller controller{std::move(problem), std::move(solution), std::move(source), {}, {}, {}, {}, {}, {}};
   check_emittable(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
   const design::Code& code = controller.problem.code;
-  const Figures unrolled = unrolled_figures(controller), compact = compact_figures(controller);
-  controller.style = style_of(controller, unrolled, compact);
-  controller.figures = controller.style == design::Style::unrolled ? unrolled : compact;
+  if (!choose_realisation(controller, findings)) return std::nullopt;
+  choose_style(controller);
   if (controller.figures.flash > code.flash) {
     findings.push_back({code.style == design::Style::automatic ? design::Severity::error : design::Severity::note,
                         "code.flash",

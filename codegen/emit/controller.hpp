@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "design/linear_form.hpp"
 #include "design/solution.hpp"
 #include "step/model.hpp"
 
@@ -27,6 +28,17 @@ struct Figures {
 // gate needs them}.
 using Gains = std::vector<design::RealMatrix>;
 
+// What each form that the design can have costs and loses, when it asks for another than the physical one.
+struct FormFigures {
+  long multiply_adds = 0;     // in one sample, of straight-line code
+  double rounding_error = 0;  // of u for the same y: rms of the error in the target's numbers / rms of u, the worst input
+};
+struct Realisations {
+  design::Realisation chosen = design::Realisation::physical;
+  FormFigures physical;
+  std::optional<FormFigures> folded, modal;
+};
+
 struct Controller {
   design::Problem problem;
   design::Solution solution;
@@ -35,6 +47,8 @@ struct Controller {
   Figures figures;
   std::vector<Gains> laws;     // of sample 0, 1, …; the last one is held. One only: it is constant. Empty: no regulator
   std::vector<Gains> filters;  // likewise; empty without a filter of given gains
+  std::optional<design::LinearForm> linear;   // the controller keeps z of this form; else it keeps x̂
+  std::optional<Realisations> realisations;   // among which it was chosen
 
   bool is_double() const { return problem.code.real == design::Scalar::float64; }
   bool is_fused() const { return problem.code.arithmetic == design::Arithmetic::fused; }
@@ -63,6 +77,7 @@ struct Controller {
   const std::vector<int>& integral() const;  // the outputs that are integrated, ξ by ξ
   std::vector<int> references() const;       // the outputs that r names, rising
   int nr() const { return static_cast<int>(references().size()); }
+  int nz() const { return linear ? static_cast<int>(linear->A.rows()) : 0; }
   int nxi() const { return static_cast<int>(integral().size()); }
   bool has_servo() const { return nr() > 0 || nxi() > 0 || continues(); }  // the law is more than −K x̂ within limits
   bool has_state() const { return has_filter() || has_servo() || keeps_sample(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emit/gains.hpp"
+#include "emit/linear_traced.hpp"
 #include "emit/model_of.hpp"
 #include "emit/state_fields.hpp"
 #include "emit/traced.hpp"
@@ -181,7 +182,22 @@ long filter_stack(const Controller& controller) {
   }
 }
 
+long initial_state_bytes(const Controller& controller, long ram) {
+  return controller.has_state() ? std::min(30 + 2 * ram, 300L) : 0;
+}
+
 }  // namespace
+
+Figures linear_figures(const Controller& controller) {
+  const TracedLinear traced = trace_linear(controller);
+  Figures figures;
+  for (const TracedFunction* function : {&traced.control, &traced.advance}) add_function(figures, controller, *function);
+  Figures rest;  // what is there for the sample that is not as the others
+  for (const TracedFunction* function : {&traced.control_fault, &traced.hear}) add_function(rest, controller, *function);
+  figures.ram = state_bytes(controller);
+  figures.flash += rest.flash + rates(controller).numbers_in_software + initial_state_bytes(controller, figures.ram);
+  return figures;
+}
 
 Figures unrolled_figures(const Controller& controller) {
   const TracedController traced = trace_controller(controller);
@@ -190,7 +206,7 @@ Figures unrolled_figures(const Controller& controller) {
   for (const TracedFunction* function : {&traced.update, &traced.control, &traced.predict})
     add_function(figures, controller, *function);
   figures.ram = state_bytes(controller);
-  const long initial_state = controller.has_state() ? std::min(30 + 2 * figures.ram, 300L) : 0;
+  const long initial_state = initial_state_bytes(controller, figures.ram);
   const long entries = static_cast<long>(changing_places(controller.laws, controller.is_double()).size() * controller.laws.size() +
                                          changing_places(controller.filters, controller.is_double()).size() * controller.filters.size());
   const bool divides = controller.has_filter() && controller.filter() != step::Filter::steady;

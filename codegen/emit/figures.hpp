@@ -6,6 +6,7 @@
 namespace lqg::emit {
 
 Figures unrolled_figures(const Controller& controller);
+Figures linear_figures(const Controller& controller);  // of controller.linear
 Figures compact_figures(const Controller& controller);
 
 }  // namespace lqg::emit

@@ -1,5 +1,6 @@
 #include "emit/functions.hpp"
 
+#include "emit/linear_functions.hpp"
 #include "emit/text.hpp"
 
 namespace lqg::emit {
@@ -298,6 +299,8 @@ static inline lqg_status {name}_set_input({parameters})
 }  // namespace
 
 std::string functions(const Controller& controller, const Bodies& bodies) {
+  if (controller.linear)
+    return init_function(controller, bodies) + reset_function(controller) + linear_functions(controller);
   std::string out;
   if (controller.has_state()) out += init_function(controller, bodies);
   if (bodies.resets) out += reset_function(controller);

@@ -33,6 +33,7 @@ std::string dimensions(const Controller& controller) {
   std::string out = fill("\n#define {NAME}_NX {nx}  /* states */\n", words);
   if (controller.nu()) out += fill("#define {NAME}_NU {nu}  /* inputs */\n", words);
   if (controller.has_filter()) out += fill("#define {NAME}_NY {ny}  /* outputs */\n", words);
+  if (controller.linear) out += fill("#define {NAME}_NZ {nz}  /* numbers that stand for them */\n", words);
   if (controller.nr()) out += fill("#define {NAME}_NR {nr}  /* references */\n", words);
   return out + fill("#define {NAME}_SAMPLE_TIME ", words) +
          trace::literal(controller.problem.plant.sample_time, controller.is_double()) + "  /* s between two samples */\n";
@@ -63,8 +64,9 @@ std::string state_type(const Controller& controller) {
 }  // namespace
 
 std::string header(const Controller& controller) {
-  const Bodies bodies =
-      controller.style == design::Style::compact ? compact_bodies(controller) : unrolled_bodies(controller);
+  const Bodies bodies = controller.linear                              ? straight_line_bodies(controller)
+                        : controller.style == design::Style::compact ? compact_bodies(controller)
+                                                                     : unrolled_bodies(controller);
   const design::Plant& plant = controller.problem.plant;
   const std::string guard = upper(controller.problem.name) + "_H";
   std::string out = preamble(controller) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;

@@ -1,9 +1,11 @@
 #include "emit/json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "design/reference.hpp"
 #include "emit/preamble.hpp"
+#include "emit/realisation.hpp"
 #include "emit/rounding.hpp"
 #include "emit/text.hpp"
 
@@ -159,14 +161,46 @@ Json stages(const std::vector<design::StageSolution>& stages) {
   return out;
 }
 
+// Of each form that was looked at: "multiply_adds": {"physical": …}.
+template <class Value>
+Json of_each_form(const Realisations& forms, Value value) {
+  Json out = {{"physical", value(forms.physical)}};
+  if (forms.folded) out["folded"] = value(*forms.folded);
+  if (forms.modal) out["modal"] = value(*forms.modal);
+  return out;
+}
+
+Json realisation(const Controller& controller) {
+  const Realisations& forms = *controller.realisations;
+  Json out = {{"kind", name_of(forms.chosen)},
+              {"multiply_adds", of_each_form(forms, [](const FormFigures& of) { return of.multiply_adds; })},
+              {"rounding_error", of_each_form(forms, [](const FormFigures& of) { return of.rounding_error; })}};
+  if (controller.linear) {
+    out["condition"] = controller.linear->condition;
+    out["agreement_digits"] = std::floor(controller.linear->agreement);
+  }
+  return out;
+}
+
+Json compensator(const design::LinearForm& form) {
+  Json out = {{"A", rows(form.A)}, {"B", rows(form.B)}, {"C", rows(form.C)}, {"D", rows(form.D)}, {"T", rows(form.T)},
+              {"expected", rows(form.expected)}, {"estimate", rows(form.estimate)}, {"heard", rows(form.heard)},
+              {"of_state", rows(form.of_state)}};
+  add(out, "keep", form.keep);
+  out["z0"] = rows(form.z0);
+  return out;
+}
+
 Json code(const Controller& controller) {
-  return {{"real", controller.is_double() ? "double" : "float"},
-          {"arithmetic", controller.is_fused() ? "fused" : "plain"},
-          {"style", controller.style == design::Style::compact ? "compact" : "unrolled"},
-          {"flash", controller.figures.flash},
-          {"ram", controller.figures.ram},
-          {"stack", controller.figures.stack},
-          {"multiply_adds", controller.figures.multiply_adds}};
+  Json out = {{"real", controller.is_double() ? "double" : "float"},
+              {"arithmetic", controller.is_fused() ? "fused" : "plain"},
+              {"style", controller.style == design::Style::compact ? "compact" : "unrolled"},
+              {"flash", controller.figures.flash},
+              {"ram", controller.figures.ram},
+              {"stack", controller.figures.stack},
+              {"multiply_adds", controller.figures.multiply_adds}};
+  if (controller.realisations) out["realisation"] = realisation(controller);
+  return out;
 }
 
 }  // namespace
@@ -189,6 +223,7 @@ std::string json(const Controller& controller) {
   }
   if (controller.has_filter()) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
+  if (controller.linear) out["compensator"] = compensator(*controller.linear);
   out["loop"] = loop(solution.loop);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
   out["code"] = code(controller);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "emit/model_of.hpp"
+#include "emit/realisation.hpp"
 #include "emit/summary.hpp"
 #include "emit/text.hpp"
 #include "lqg/version.h"
@@ -153,6 +154,34 @@ std::string loop(const Controller& controller) {
   return out.empty() ? "" : " *\n * Closed loop, opened at the plant's input:\n *\n" + out;
 }
 
+std::string form_figures(const char* name, const FormFigures& figures) {
+  return std::string(" *   ") + name + std::to_string(figures.multiply_adds) + " multiply-adds, " +
+         rounded(figures.rounding_error) + "\n";
+}
+
+std::string realisations(const Controller& controller) {
+  if (!controller.realisations) return "";
+  const Realisations& forms = *controller.realisations;
+  std::string out = " *\n * Forms of the controller, what a sample costs, and the error of u that rounding makes (rms, beside u):\n *\n" +
+                    form_figures("physical  ", forms.physical);
+  if (forms.folded) out += form_figures("folded    ", *forms.folded);
+  if (forms.modal) out += form_figures("modal     ", *forms.modal);
+  return out + " *   of these it is the " + name_of(forms.chosen) + " one\n";
+}
+
+std::string linear_form(const Controller& controller) {
+  if (!controller.linear) return "";
+  const design::LinearForm& form = *controller.linear;
+  const bool is_double = controller.is_double(), predicts = controller.is_predictor();
+  std::string out = std::string(" *\n * All of this as one linear system, equal to it in ") +
+                    std::to_string(static_cast<int>(form.agreement)) + " digits:  z⁺ = A z + B y,  u = C z" +
+                    (predicts ? "" : " + D y") + ",  x̂ = X z" + (predicts ? "" : " + L y") + "\n *\n";
+  out += matrix_comment("A", form.A, is_double) + matrix_comment("B", form.B, is_double) +
+         matrix_comment("C", form.C, is_double);
+  if (!predicts) out += matrix_comment("D", form.D, is_double);
+  return out + matrix_comment("X", form.estimate, is_double);
+}
+
 std::string figures(const Controller& controller) {
   const Figures& figures = controller.figures;
   return " *\n * One sample takes " + std::to_string(figures.multiply_adds) + " multiply-adds and " +
@@ -181,13 +210,14 @@ std::string provenance(const Controller& controller) {
 std::string preamble(const Controller& controller) {
   const design::Problem& problem = controller.problem;
   return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" + provenance(controller) +
-         plant(controller) + regulator(controller) + estimator(controller) + loop(controller) + figures(controller) +
+         plant(controller) + regulator(controller) + estimator(controller) + linear_form(controller) + loop(controller) +
+         realisations(controller) + figures(controller) +
          " */\n";
 }
 
 std::string summary(const Controller& controller) {
   std::string comment = controller.problem.name + "\n" + regulator(controller) + gains(controller) + loop(controller) +
-                        figures(controller), out;
+                        realisations(controller) + figures(controller), out;
   for (std::size_t at = 0; at < comment.size();) {
     const std::size_t end = comment.find('\n', at) + 1;
     const std::string line = comment.substr(at, end - at);

@@ -36,10 +36,22 @@ void add_law(const Controller& controller, Fields& fields) {
   add_reals(fields, "demand", nxi ? controller.nu() : 0, "{NAME}_NU", "what the law asked for, before its limits");
 }
 
+void add_linear_state(const Controller& controller, Fields& fields) {
+  std::vector<double> z0;
+  for (int i = 0; i < controller.nz(); ++i) z0.push_back(rounded_to_target(controller.linear->z0(i), controller.is_double()));
+  add_reals(fields, "z", controller.nz(), "{NAME}_NZ", "the numbers that stand for x̂, see above", z0);
+  if (!controller.is_predictor())
+    add_reals(fields, "y", controller.ny(), "{NAME}_NY", "the outputs that control has heard, for advance");
+}
+
 }  // namespace
 
 std::vector<Field> state_fields(const Controller& controller) {
   Fields fields;
+  if (controller.linear) {
+    add_linear_state(controller, fields);
+    return fields;
+  }
   if (controller.has_filter()) add_estimate(controller, fields);
   if (controller.keeps_input())
     add_reals(fields, "u_applied", controller.nu(), "{NAME}_NU", "the input that acts: of the last predict or control");

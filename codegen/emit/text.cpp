@@ -75,6 +75,7 @@ Words common_words(const Controller& controller) {
           {"nu", std::to_string(controller.nu())},
           {"ny", std::to_string(controller.ny())},
           {"nr", std::to_string(controller.nr())},
+          {"nz", std::to_string(controller.nz())},
           {"file", controller.source.file},
           {"filter", filter_name(controller.filter())}};
 }

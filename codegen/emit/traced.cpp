@@ -3,6 +3,7 @@
 #include "design/linear_algebra.hpp"
 #include "emit/gains.hpp"
 #include "emit/model_of.hpp"
+#include "emit/recorder.hpp"
 #include "emit/rounding.hpp"
 #include "emit/text.hpp"
 #include "step/innovation.hpp"
@@ -13,80 +14,9 @@ namespace lqg::emit {
 
 namespace {
 
-using trace::Condition;
 using trace::Expr;
 using Model = step::Model<Expr>;
 using State = step::State<Expr>;
-using Symbols = step::Vector<Expr>;
-
-const char* status_name(step::Event event) {
-  switch (event) {
-    case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
-    case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
-    case step::Event::input_limited: return "LQG_INPUT_LIMITED";
-    case step::Event::output_gated: return "LQG_OUTPUT_GATED";
-    case step::Event::reference_not_finite: return "LQG_REFERENCE_NOT_FINITE";
-    default: return "LQG_STATE_RESET";
-  }
-}
-
-// Hears the names and equations of a step and keeps them in the graph.
-class Recorder {
- public:
-  Recorder(const Controller& controller, TracedFunction& function) : controller_(controller), function_(function) {}
-
-  void section(const std::string& equation, int output = -1) {
-    if (output < 0) return function_.graph->section(equation, "");
-    const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
-    const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";
-    function_.graph->section("output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation,
-                             "_" + signal.name);
-  }
-  template <class Value>  // Expr or Condition
-  void name(const Value& value, const char* base, int i = -1, int j = -1) {
-    function_.graph->name(value.node, base + index_suffix(i, j, controller_.nx()));
-  }
-  void raise(step::Event event, const Condition& condition) {
-    if (!function_.graph->is_constant(condition.node, 0))
-      function_.statuses.push_back(choice(condition, flag(event), flag_ok()));
-  }
-  // The fault is decided where it is found and asked for afterwards: one comparison on the way of an honest output.
-  Condition accept(const Condition& usable, step::Event reason) { return accept_or(usable, flag(reason)); }
-  Condition accept(const Condition& usable, const Condition& finite, step::Event if_finite, step::Event if_not) {
-    return accept_or(usable, choice(finite, flag(if_finite), flag(if_not)));
-  }
-  void gate(const Condition& gated, int output) {
-    raise(step::Event::output_gated, gated);
-    function_.gates.emplace_back(output, gated.node);
-  }
-
- private:
-  int flag_ok() { return function_.graph->flag("LQG_OK"); }
-  int flag(step::Event event) { return function_.graph->flag(status_name(event)); }
-  int choice(const Condition& condition, int yes, int no) {
-    return function_.graph->make(trace::Op::select, condition.node, yes, no);
-  }
-  Condition accept_or(const Condition& usable, int fault) {
-    const int status = choice(usable, flag_ok(), fault);
-    function_.graph->name(status, "fault");
-    function_.statuses.push_back(status);
-    const int same = function_.graph->make(trace::Op::same, status, flag_ok());
-    function_.graph->name(same, "usable");
-    return {same};
-  }
-
-  const Controller& controller_;
-  TracedFunction& function_;
-};
-
-std::string element(const std::string& array, int i) { return array + "[" + std::to_string(i) + "]"; }
-
-Symbols load(trace::Graph& graph, const std::string& array, const std::string& name, int size) {
-  Symbols symbols(size);
-  for (int i = 0; i < size; ++i)
-    symbols(i) = Expr::of(graph.input(element(array, i), name + index_suffix(i, -1, size)));
-  return symbols;
-}
 
 // Symbols for the entries of the pattern, zeros elsewhere. `place` tells row and column of an entry.
 template <class Place>
@@ -146,12 +76,6 @@ State load_state(const Model& model, const std::vector<bool>& pattern) {
   return state;
 }
 
-void store(TracedFunction& function, const std::string& target, const Expr& value) {
-  const trace::Node& node = function.graph->nodes()[static_cast<std::size_t>(value.node)];
-  if (node.op == trace::Op::input && node.text == target) return;  // as it was
-  function.stores.push_back({target, value.node});
-}
-
 void store_state(TracedFunction& function, const State& state, const std::vector<bool>& pattern) {
   const auto store_vector = [&](const char* array, const Symbols& values) {
     for (int i = 0; i < values.size(); ++i) store(function, element(std::string("self->") + array, i), values(i));
@@ -169,12 +93,6 @@ void store_state(TracedFunction& function, const State& state, const std::vector
   store_vector("xi", state.xi);
   store_vector("error", state.error);
   store_vector("demand", state.demand);
-}
-
-TracedFunction new_function(const Controller& controller) {
-  TracedFunction function;
-  function.graph = std::make_shared<trace::Graph>(trace::Target{controller.is_double(), controller.is_fused()});
-  return function;
 }
 
 // Entries that change from sample to sample are read from a row of their table.
@@ -284,12 +202,6 @@ void grow(std::vector<bool>& pattern, const Controller& controller, bool predict
 }
 
 }  // namespace
-
-std::string index_suffix(int i, int j, int size) {
-  if (i < 0) return "";
-  if (j < 0) return "_" + std::to_string(i);
-  return "_" + std::to_string(i) + (size > 10 ? "_" : "") + std::to_string(j);
-}
 
 std::vector<int> TracedFunction::results() const {
   std::vector<int> nodes;

@@ -16,6 +16,7 @@ struct TracedFunction {
   std::vector<trace::Store> stores;
   std::vector<int> statuses;  // joined by |
   int finite = -1;  // condition; −1: cannot become infinite
+  std::string recovery;  // the call that answers where it is not finite; empty: NAME_reset
   bool is_void = false;
   std::vector<std::pair<int, int>> gates;  // output, and the condition that it was gated
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "emit/linear_test.hpp"
 #include "emit/preamble.hpp"
 #include "emit/text.hpp"
 #include "emit/vectors.hpp"
@@ -41,7 +42,7 @@ std::string data(const Controller& controller, const Vectors& vectors) {
   if (controller.has_filter()) {
     out += "/* What the sensors say. */\n" +
            table("y_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
-    out += "\n/* What the reference says: the estimate after update … */\n" +
+    out += std::string("\n/* What the reference says: the estimate ") + (controller.linear ? "that u is made of" : "after update") + " … */\n" +
            table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
   } else {
     out += "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
@@ -66,6 +67,7 @@ std::string data(const Controller& controller, const Vectors& vectors) {
 }
 
 std::string hash_of_state(const Controller& controller) {
+  if (controller.linear) return "        hash = hash_of(hash, self.z, {NAME}_NZ);\n";
   std::string out = controller.has_filter() ? "        hash = hash_of(hash, self.x, {NAME}_NX);\n" : "";
   if (controller.filter() == step::Filter::plain)
     out += "        hash = hash_of(hash, self.P, (int)(sizeof self.P / sizeof self.P[0]));\n";
@@ -90,6 +92,7 @@ std::string covariance_check(const Controller& controller) {
 
 // The calls of one sample in the order of the form; {after_update} and {after_control} are what a test looks at.
 std::string sample(const Controller& controller, const std::string& after_update, const std::string& after_control) {
+  if (controller.linear) return linear_sample(controller, after_update + after_control);
   const std::string reference = controller.nr() ? "        memcpy(self.r, r_in[k], sizeof self.r);\n" : "";
   if (!controller.has_filter())
     return reference + "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(" +
@@ -110,7 +113,8 @@ std::string begin(const Controller& controller) {
 }
 
 std::string reference_test(const Controller& controller) {
-  const std::string update = controller.has_filter()
+  const std::string update = controller.linear ? linear_estimate_check()
+                             : controller.has_filter()
                                  ? "        assert_near(x_tolerance, x_out[k], self.x, {NAME}_NX);\n" + covariance_check(controller)
                                  : "";
   const std::string control =
@@ -130,6 +134,7 @@ std::string bits_test(const Controller& controller) {
 // A hostile number in each output in turn: the loop goes on, finite and within its limits, and comes back.
 std::string fault_test(const Controller& controller) {
   if (!controller.has_filter()) return "";
+  if (controller.linear) return linear_fault_test(controller);
   const std::string act = controller.has_regulator() ? "                (void){name}_control(&self, u);\n"
                                                        "                for (int i = 0; i < {NAME}_NU; i++)\n"
                                                        "                    TEST_ASSERT_TRUE(u[i] - u[i] == {zero}{within});\n"

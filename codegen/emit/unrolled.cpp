@@ -1,12 +1,10 @@
 // Straight-line code of this plant's structure.
-#include <initializer_list>
-
 #include "emit/bodies.hpp"
 #include "emit/gains.hpp"
 #include "emit/rounding.hpp"
 #include "emit/state_fields.hpp"
+#include "emit/straight_line.hpp"
 #include "emit/text.hpp"
-#include "emit/traced.hpp"
 
 namespace lqg::emit {
 
@@ -21,6 +19,9 @@ std::string status(const Controller& controller, const TracedFunction& function,
   if (raised.empty()) raised = "LQG_OK";
   if (function.finite < 0 && function.is_void) return "";
   if (function.finite < 0) return "    return " + raised + ";\n";
+  if (!function.recovery.empty())
+    return "    if (!(" + printer.expression(function.finite) + "))\n        return " + function.recovery + ";\n    return " +
+           raised + ";\n";
   return fill(R"({status}
     if (!({finite}))
         return {name}_reset(self, status);
@@ -38,23 +39,6 @@ std::string rows(const Controller& controller, const std::string& statements) {
   if (reads(statements, "law")) out += "    const {real} *const law = {NAME}_LAW[self->sample];\n";
   if (reads(statements, "gains")) out += "    const {real} *const gains = {NAME}_GAINS[self->gain_row];\n";
   return fill(out, common_words(controller));
-}
-
-// `parameters` that the body does not need are said to be unused; `last` stands behind its statements.
-std::string body(const Controller& controller, const TracedFunction& function,
-                 std::initializer_list<const char*> parameters, const std::string& last = "") {
-  const trace::Printer printer(*function.graph, function.results());
-  std::string statements = printer.statements(function.stores);
-  if (!function.gates.empty()) statements += "\n";
-  for (const auto& [output, gated] : function.gates)
-    statements += "    self->gated[" + std::to_string(output) + "] += " + printer.operand(gated) + " ? 1 : 0;\n";
-  const std::string end = last + status(controller, function, printer);
-  std::string unused;
-  for (const std::string parameter : parameters)
-    if ((statements + end).find(parameter == "self" ? "self" : " " + parameter + "[") == std::string::npos)
-      unused += "    (void)" + parameter + ";\n";
-  return "    LQG_STRICT_BODY\n" + unused + rows(controller, statements) + statements +
-         (end.empty() ? "" : "\n") + end;
 }
 
 template <class Values>
@@ -80,7 +64,24 @@ std::string table(const Controller& controller, const std::string& name, const s
               std::to_string(places.size()) + "] = {\n" + values + "};\n", common_words(controller));
 }
 
-// All fields of the state, in their order.
+}  // namespace
+
+std::string body(const Controller& controller, const TracedFunction& function,
+                 std::initializer_list<const char*> parameters, const std::string& last) {
+  const trace::Printer printer(*function.graph, function.results());
+  std::string statements = printer.statements(function.stores);
+  if (!function.gates.empty()) statements += "\n";
+  for (const auto& [output, gated] : function.gates)
+    statements += "    self->gated[" + std::to_string(output) + "] += " + printer.operand(gated) + " ? 1 : 0;\n";
+  const std::string end = last + status(controller, function, printer);
+  std::string unused;
+  for (const std::string parameter : parameters)
+    if ((statements + end).find(parameter == "self" ? "self" : " " + parameter + "[") == std::string::npos)
+      unused += "    (void)" + parameter + ";\n";
+  return "    LQG_STRICT_BODY\n" + unused + rows(controller, statements) + statements +
+         (end.empty() ? "" : "\n") + end;
+}
+
 std::string initial_state(const Controller& controller) {
   const std::vector<Field> fields = state_fields(controller);
   std::string values;
@@ -99,10 +100,7 @@ std::string initial_state(const Controller& controller) {
 )", {{"name", controller.problem.name}, {"values", values}});
 }
 
-}  // namespace
-
-Bodies unrolled_bodies(const Controller& controller) {
-  const TracedController traced = trace_controller(controller);
+Bodies straight_line_bodies(const Controller& controller) {
   Bodies bodies;
   bodies.includes = std::string(controller.is_fused() ? "#include <math.h>\n\n" : "") +
                     "#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
@@ -110,8 +108,14 @@ Bodies unrolled_bodies(const Controller& controller) {
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter")  /* as written: few values wait in registers */
 #endif
 )";
-  bodies.constants = table(controller, "LAW", controller.laws) + table(controller, "GAINS", controller.filters);
   if (controller.has_state()) bodies.init = initial_state(controller);
+  return bodies;
+}
+
+Bodies unrolled_bodies(const Controller& controller) {
+  const TracedController traced = trace_controller(controller);
+  Bodies bodies = straight_line_bodies(controller);
+  bodies.constants = table(controller, "LAW", controller.laws) + table(controller, "GAINS", controller.filters);
   const std::string advance = advance_counters(controller);
   bodies.resets = controller.has_filter() || traced.control.finite >= 0;
   if (controller.has_filter()) {

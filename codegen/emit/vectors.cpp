@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
+#include "emit/linear_vectors.hpp"
 #include "emit/model_of.hpp"
 #include "emit/plant_simulation.hpp"
+#include "emit/reference_run.hpp"
 #include "emit/rounding.hpp"
 #include "step/loop.hpp"
 
@@ -18,34 +18,7 @@ using design::Real;
 using step::Fused;
 using step::Vector;
 
-constexpr std::size_t sample_count = 200;
-constexpr std::uint64_t seed = 20260101;
-constexpr double far_away = 1e18;        // a plant that nobody stabilises has left by then: the vectors end
-constexpr unsigned reference_digits = 40;  // of the reference of a controller in double
-
-double as_double(double value) { return value; }
-double as_double(float value) { return static_cast<double>(value); }
-double as_double(const Real& value) { return design::to_double(value); }
-template <class T>
-double as_double(Fused<T> value) { return static_cast<double>(value.value); }
-
-double to_target(double value, bool is_double) {
-  return is_double ? value : static_cast<double>(static_cast<float>(value));
-}
-
-template <class S>
-Vector<S> vector_of(const std::vector<double>& values) {
-  Vector<S> out(static_cast<Eigen::Index>(values.size()));
-  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = S(values[static_cast<std::size_t>(i)]);
-  return out;
-}
-
-template <class S>
-std::vector<double> doubles(const Vector<S>& values) {
-  std::vector<double> out;
-  for (Eigen::Index i = 0; i < values.size(); ++i) out.push_back(as_double(values(i)));
-  return out;
-}
+constexpr double far_away = 1e18;  // a plant that nobody stabilises has left by then: the vectors end
 
 // P, lower triangle, of either covariance form; empty with a steady gain.
 template <class S>
@@ -164,45 +137,6 @@ void record_reference(const Timeline<S>& models, std::vector<Sample>& samples, s
   });
 }
 
-class Hash {
- public:
-  explicit Hash(bool is_double) : is_double_(is_double) {}
-  void add(double value) {
-    value += 0.0;  // the sign of a zero does not count
-    if (is_double_) {
-      std::uint64_t bits;
-      std::memcpy(&bits, &value, sizeof bits);
-      add_bits(bits, 8);
-    } else {
-      const float number = static_cast<float>(value);
-      std::uint32_t bits;
-      std::memcpy(&bits, &number, sizeof bits);
-      add_bits(bits, 4);
-    }
-  }
-  std::uint32_t value() const { return hash_; }
-
- private:
-  void add_bits(std::uint64_t bits, int bytes) {
-    for (int i = 0; i < bytes; ++i) hash_ = (hash_ ^ static_cast<std::uint32_t>(bits >> (8 * i) & 0xff)) * 16777619u;
-  }
-  bool is_double_;
-  std::uint32_t hash_ = 2166136261u;
-};
-
-void widen(std::vector<double>& errors, const std::vector<double>& found, const std::vector<double>& reference) {
-  errors.resize(found.size(), 0);
-  for (std::size_t i = 0; i < found.size(); ++i) errors[i] = std::max(errors[i], std::abs(found[i] - reference[i]));
-}
-
-// A result that came out exactly by luck may still be a rounding off: at least one ulp of the largest value counts.
-void finish(std::vector<double>& errors, const std::vector<double>& largest, bool is_double) {
-  const double unit = is_double ? std::numeric_limits<double>::epsilon()
-                                : static_cast<double>(std::numeric_limits<float>::epsilon());
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    errors[i] = Tolerances::margin * std::max(errors[i], unit * largest[i]);
-}
-
 // Every bit of a sample in the order of the emitted test.
 template <class S>
 void add_sample(bool has_filter, const step::State<S>& state, const Vector<S>& control, Hash& hash) {
@@ -274,6 +208,7 @@ void fill_in(const Controller& controller, Round round, Vectors& vectors) {
 }  // namespace
 
 Vectors make_vectors(const Controller& controller) {
+  if (controller.linear) return linear_vectors(controller);
   Vectors vectors;
   if (controller.is_double()) {
     const design::Digits digits(reference_digits);

@@ -198,6 +198,10 @@ design::Code code(const Values& values) {
   if (values.text("code.arithmetic") == "fused") result.arithmetic = design::Arithmetic::fused;
   if (style == "unrolled") result.style = design::Style::unrolled;
   if (style == "compact") result.style = design::Style::compact;
+  const std::string realisation = values.text("code.realisation");
+  if (realisation == "folded") result.realisation = design::Realisation::folded;
+  if (realisation == "modal") result.realisation = design::Realisation::modal;
+  if (realisation == "cheapest") result.realisation = design::Realisation::cheapest;
   result.flash = static_cast<long>(values.number("code.flash", static_cast<double>(result.flash)));
   return result;
 }

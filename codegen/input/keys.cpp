@@ -108,6 +108,7 @@ const std::vector<KeyRule> rules = {
     {"code.real", Type::word, no, no, optional, {"float", "double"}},
     {"code.arithmetic", Type::word, no, no, optional, {"plain", "fused"}},
     {"code.style", Type::word, no, no, optional, {"auto", "unrolled", "compact"}},
+    {"code.realisation", Type::word, no, no, optional, {"physical", "folded", "modal", "cheapest"}},
     {"code.flash", Type::whole},
 };
 

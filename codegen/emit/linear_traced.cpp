@@ -1,0 +1,99 @@
+#include "emit/linear_traced.hpp"
+
+#include "emit/linear_model_of.hpp"
+#include "emit/recorder.hpp"
+#include "emit/rounding.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using trace::Expr;
+using Model = step::LinearModel<Expr>;
+using State = step::LinearState<Expr>;
+
+void store_all(TracedFunction& function, const std::string& array, const Symbols& values) {
+  for (int i = 0; i < values.size(); ++i) store(function, element(array, i), values(i));
+}
+
+// Runs `step(function, model, state, recorder)` on a fresh graph. state.y is what self->y holds, where that `hears` it.
+template <class Step>
+TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = linear_model_of<Expr>(controller, [&](const design::Real& value) {
+    return Expr(rounded_to_target(value, controller.is_double()));
+  });
+  State state{load(*function.graph, "self->z", "z", controller.nz()),
+              load(*function.graph, "self->y", "y", hears ? controller.ny() : 0)};
+  Recorder recorder(controller, function);
+  step(function, model, state, recorder);
+  return function;
+}
+
+Symbols load_outputs(const Controller& controller) { return load(trace::graph(), "y", "y", controller.ny()); }
+
+TracedFunction trace_control(const Controller& controller) {
+  const auto step = [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+    const Symbols y = controller.is_predictor() ? Symbols() : load_outputs(controller);
+    Symbols u;
+    into.finite = step::control_expected(model, state, y, u, recorder).node;
+    store_all(into, "u", u);
+    store_all(into, "self->y", state.y);
+  };
+  TracedFunction function = trace_step(controller, false, step);
+  function.recovery = controller.problem.name + "_control_fault(self, u)";
+  return function;
+}
+
+TracedFunction trace_control_fault(const Controller& controller) {
+  return trace_step(controller, !controller.is_predictor(), [](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+    const Symbols u = step::control(model, state, state.y, recorder);
+    store_all(into, "self->y", state.y);
+    store_all(into, "u", u);
+  });
+}
+
+TracedFunction trace_advance(const Controller& controller) {
+  return trace_step(controller, !controller.is_predictor(), [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+    const Symbols y = controller.is_predictor() ? load_outputs(controller) : state.y;
+    into.finite = step::advance(model, state, y, recorder).node;
+    store_all(into, "self->z", state.z);
+  });
+}
+
+TracedFunction trace_hear(const Controller& controller) {
+  return trace_step(controller, false, [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+    store_all(into, "heard", step::heard_outputs(model, state, load_outputs(controller), recorder));
+  });
+}
+
+TracedFunction trace_estimate(const Controller& controller) {
+  return trace_step(controller, !controller.is_predictor(), [](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+    into.is_void = true;
+    store_all(into, "x", step::estimate(model, state, recorder));
+  });
+}
+
+TracedFunction trace_set_state(const Controller& controller) {
+  return trace_step(controller, false, [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+    const Symbols x = load(*into.graph, "x", "x", controller.nx());
+    into.finite = step::set_state(model, state, x, recorder).node;
+    store_all(into, "self->z", state.z);
+  });
+}
+
+}  // namespace
+
+TracedLinear trace_linear(const Controller& controller) {
+  TracedLinear traced;
+  traced.control = trace_control(controller);
+  traced.control_fault = trace_control_fault(controller);
+  traced.advance = trace_advance(controller);
+  if (controller.is_predictor()) traced.hear = trace_hear(controller);
+  traced.estimate = trace_estimate(controller);
+  traced.set_state = trace_set_state(controller);
+  return traced;
+}
+
+}  // namespace lqg::emit
