@@ -118,15 +118,37 @@ bool fits(const LinearForm& form, Scalar scalar) {
   return true;
 }
 
-// Systems of order n answer all inputs alike if and only if D, CB, CAB … CA²ⁿ⁻¹B are the same (Cayley–Hamilton).
-double agreement(const LinearForm& a, const LinearForm& b) {
-  RealMatrix difference = (a.D - b.D).cwiseAbs(), scale = a.D.cwiseAbs(), of_a = a.B, of_b = b.B;
-  for (Index k = 0; k < 2 * a.A.rows(); ++k) {
-    const RealMatrix one = multiply(a.C, of_a), other = multiply(b.C, of_b);
-    difference = difference.cwiseMax((one - other).cwiseAbs());
-    scale = scale.cwiseMax(one.cwiseAbs());
-    of_a = multiply(a.A, of_a);
-    of_b = multiply(b.A, of_b);
+// The physical form's answers u to an impulse of each output, sample by sample: update, control and predict as they are.
+std::vector<RealMatrix> answers_of_physical_form(const Problem& problem, const Solution& solution, Index count) {
+  const SampledPlant& plant = solution.plant;
+  const RealMatrix &K = solution.regulator->K, &L = solution.estimator->L, &M = solution.estimator->M;
+  const bool answers_at_once = problem.estimator->form == Form::filter;
+  const Index ny = plant.C.rows();
+  RealMatrix x = zeros(plant.A.rows(), ny), u = zeros(plant.B.cols(), ny), y = identity(ny);
+  std::vector<RealMatrix> answers;
+  while (static_cast<Index>(answers.size()) < count) {
+    if (!answers_at_once) u = -multiply(K, x);
+    const RealMatrix e = y - multiply(plant.C, x) - multiply(plant.D, u);
+    x += multiply(L, e);
+    if (answers_at_once) u = -multiply(K, x);
+    answers.push_back(u);
+    x = multiply(plant.A, x) + multiply(plant.B, u) + multiply(M, e);
+    y = zeros(ny, ny);
+  }
+  return answers;
+}
+
+// In how many digits `form` gives the same answers to an impulse: D, CB, CAB … CA²ⁿ⁻¹B. Systems of order n that agree in
+// these agree in all (Cayley–Hamilton).
+double agreement(const Problem& problem, const Solution& solution, const LinearForm& form) {
+  const Index count = 2 * form.A.rows() + 1;
+  const std::vector<RealMatrix> wanted = answers_of_physical_form(problem, solution, count);
+  RealMatrix found = form.D, states = form.B, difference = zeros(found.rows(), found.cols()), scale = difference;
+  for (const RealMatrix& answer : wanted) {
+    difference = difference.cwiseMax((found - answer).cwiseAbs());
+    scale = scale.cwiseMax(answer.cwiseAbs());
+    found = multiply(form.C, states);
+    states = multiply(form.A, states);
   }
   const Real whole = largest_entry(scale);
   Real worst = negligible(1);
@@ -165,7 +187,7 @@ LinearFormResult settled_form(const Problem& problem, const Solution& solution, 
   if (!settle_form(*coarse, *result.form, digits / 2))
     return refuse(std::to_string(digits / 2) + " digits do not settle its numbers");
   if (!fits(*result.form, problem.code.real)) return refuse("a number of it is too large for " + name_of(problem.code.real));
-  result.form->agreement = agreement(in_physical_states(problem, in_present_digits(solution)), *result.form);
+  result.form->agreement = agreement(problem, in_present_digits(solution), *result.form);
   if (result.form->agreement < digits / 2.0) return refuse("it is not equal to the physical form in half of the digits");
   return result;
 }

@@ -20,7 +20,7 @@ struct LinearForm {
   RealMatrix of_state, keep;   // z of a state x that is set by hand: `of_state` x + `keep` z; without u[k−1] no keep
   RealMatrix z0;               // of x0, nothing applied yet
   double condition = 1;        // of its worst pole
-  double agreement = 0;        // digits in which its Markov parameters are those of the physical form
+  double agreement = 0;        // digits in which it answers outputs as update, control and predict do
 };
 
 // Why the design has no such form; empty: it has. There is one system for ever with constant gains of a regulator and an

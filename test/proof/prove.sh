@@ -33,8 +33,12 @@ mkdir -p "$scratch"
 
 # One statement a line, then restated.
 sed -z 's/\n *\([-+?:] \)/ \1/g' "$emitted/$name.h" | sed "$break" | awk -f "$here/restate.awk" >"$scratch/$name.h"
-sources=("$here/controller.c") control=
+sources=("$here/controller.c") control= state=x
 grep -q "^static inline .*${name}_control(" "$scratch/$name.h" && control=${name}_control
+if grep -q "^static inline .*${name}_advance(" "$scratch/$name.h"; then  # it keeps z
+  sources=("$here/linear_controller.c") control=${name}_control_fault state=z
+  ! grep -q "${name}_control(.* y\\[" "$scratch/$name.h" || echo "#define HEARS_FIRST" >>"$scratch/design.h"
+fi
 if [ "$style" = compact ]; then
   restate_library "$scratch"
   for source in "$scratch"/{kalman_plain,kalman_steady,kalman_ud,factors,plant,lqr,servo}.c; do sources+=("$source"); done
@@ -54,5 +58,5 @@ checks=1
 grep -A 2 '^\[eva:alarm\]' "$scratch/eva.log" >&2 && stop "not proved; see $scratch/eva.log"
 grep -q "^  0 alarms generated" "$scratch/eva.log" || stop "not proved; see $scratch/eva.log"
 grep -Eq "Assertions +$checks valid +0 unknown +0 invalid +$checks total" "$scratch/eva.log" || stop "not all checks were reached; see $scratch/eva.log"
-finite=("x finite" "x and u finite" "x and u finite, u within its limits")
+finite=("$state finite" "$state and u finite" "$state and u finite, u within its limits")
 echo "$name, $style, $real: no undefined behaviour, ${finite[checks - 1]}"
