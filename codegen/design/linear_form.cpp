@@ -9,6 +9,7 @@
 #include "design/modes.hpp"
 #include "design/poles.hpp"
 #include "design/reference.hpp"
+#include "design/riccati.hpp"
 #include "design/rounded_loop.hpp"
 #include "design/rounding.hpp"
 #include "design/settle.hpp"
@@ -55,12 +56,13 @@ LinearForm in_physical_states(const Problem& problem, const Solution& solution) 
 // Columns of T within a block, times R = [p q; −q p] (or [p]), which the block does not notice: the largest row of its C
 // becomes [1 0]. A block that u does not see stays as it is.
 void take_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C) {
-  const RealMatrix own = multiply(C, basis.T.middleCols(start, size));
+  const RealMatrix columns = basis.T.middleCols(start, size), own = multiply(C, columns);
+  const RealMatrix squares = own.cwiseProduct(own).rowwise().sum();
   Index largest = 0;
-  RealMatrix squares = own.cwiseProduct(own).rowwise().sum();
   for (Index i = 1; i < own.rows(); ++i)
     if (squares(i) > squares(largest)) largest = i;
-  if (!(squares(largest) > 0)) return;
+  const Real terms = largest_entry(multiply(C.cwiseAbs(), columns.cwiseAbs()));
+  if (!(sqrt(squares(largest)) > negligible(0.6) * terms)) return;
   const RealMatrix row = own.row(largest);
   RealMatrix R = zeros(size, size), inverse = zeros(size, size);
   for (Index i = 0; i < size; ++i) {
@@ -71,8 +73,32 @@ void take_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C
     R(1, 0) = row(1) / squares(largest), R(0, 1) = -R(1, 0);
     inverse(0, 1) = row(1), inverse(1, 0) = -row(1);
   }
-  basis.T.middleCols(start, size) = multiply(basis.T.middleCols(start, size), R);
+  basis.T.middleCols(start, size) = multiply(columns, R);
   basis.inverse.middleRows(start, size) = multiply(inverse, basis.inverse.middleRows(start, size));
+}
+
+// What modal_form calls the condition. P_j = Σ Aᵏ b_j b_jᵀ Aᵏᵀ holds all norms: ‖c z‖² = c P_j cᵀ.
+double cancellation(const LinearForm& form, const std::vector<Index>& starts) {
+  const RealMatrix C = above(form.C, form.estimate), D = above(form.D, form.heard);
+  RealMatrix parts = D.cwiseAbs(), whole = D.cwiseProduct(D);
+  for (Index j = 0; j < D.cols(); ++j) {
+    const std::optional<RealMatrix> P = solve_stein(form.A.transpose(), multiply_transpose(form.B.col(j), form.B.col(j)));
+    if (!P) return std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < D.rows(); ++i) {
+      whole(i, j) += congruence(C.row(i), *P)(0, 0);
+      for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
+        const Index at = starts[k], size = starts[k + 1] - at;
+        parts(i, j) += sqrt(abs(congruence(C.row(i).middleCols(at, size), P->block(at, at, size, size))(0, 0)));
+      }
+    }
+  }
+  Real worst = 1;
+  for (Index i = 0; i < D.rows(); ++i) {
+    const Real least = negligible(0.6) * largest_entry(parts.row(i));  // y_j has nothing to do with it
+    for (Index j = 0; j < D.cols(); ++j)
+      if (parts(i, j) > least) worst = std::max<Real>(worst, parts(i, j) / sqrt(abs(whole(i, j))));
+  }
+  return to_double(worst);
 }
 
 std::optional<LinearForm> in_modes(const Problem& problem, const Solution& solution) {
@@ -91,7 +117,7 @@ std::optional<LinearForm> in_modes(const Problem& problem, const Solution& solut
   if (form.keep.size() > 0) form.keep = multiply(inverse, multiply(form.keep, T));
   form.of_state = multiply(inverse, form.of_state);
   form.z0 = multiply(inverse, form.z0);
-  form.condition = to_double(basis->condition);
+  form.condition = cancellation(form, basis->starts);
   return form;
 }
 
@@ -182,8 +208,9 @@ LinearFormResult settled_form(const Problem& problem, const Solution& solution, 
   if (!coarse || !result.form) return refuse("a pole of the controller is repeated");
   const double most = largest_condition(problem.code.real);
   if (!(result.form->condition <= most))
-    return refuse("a pole of the controller has the condition " + short_number(result.form->condition) + ", in " +
-                  name_of(problem.code.real) + " at most " + short_number(most) + " will do");
+    return refuse("poles of the controller are so near each other that their modes cancel by a factor of " +
+                  short_number(result.form->condition) + ", in " + name_of(problem.code.real) + " at most " +
+                  short_number(most) + " will do");
   if (!settle_form(*coarse, *result.form, digits / 2))
     return refuse(std::to_string(digits / 2) + " digits do not settle its numbers");
   if (!fits(*result.form, problem.code.real)) return refuse("a number of it is too large for " + name_of(problem.code.real));

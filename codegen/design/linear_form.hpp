@@ -19,7 +19,7 @@ struct LinearForm {
   RealMatrix estimate, heard;  // x̂ = `estimate` z + `heard` y, of which u = −K x̂ is made
   RealMatrix of_state, keep;   // z of a state x that is set by hand: `of_state` x + `keep` z; without u[k−1] no keep
   RealMatrix z0;               // of x0, nothing applied yet
-  double condition = 1;        // of its worst pole
+  double condition = 1;        // by how much the answers of its modes cancel, see modal_form
   double agreement = 0;        // digits in which it answers outputs as update, control and predict do
 };
 
@@ -38,8 +38,10 @@ struct LinearFormResult {
 LinearFormResult folded_form(const Problem& problem, const Solution& solution);
 
 // A has the blocks of modal_basis(). What freedom they leave makes the largest row of a block's C [1] or [1 0]: this
-// part of u takes no multiplication. Refused when a pole's condition is beyond 1/√ε of the target's numbers, half of their
-// digits.
+// part of u takes no multiplication. Where poles come near each other their modes become large and cancel. The condition says
+// by how much: with the Euclidean norms of answers to an impulse of y_j,
+//   (Σ ‖part of a mode in u_i‖ + |D_ij|) / ‖u_i‖,
+// for the worst i and j, likewise for x̂. Refused beyond 1/√ε of the target's numbers, half of their digits.
 LinearFormResult modal_form(const Problem& problem, const Solution& solution);
 
 // Replaces solution.loop.rounded by what becomes of the loop when the target holds the numbers of `form`; errors and notes

@@ -58,19 +58,6 @@ bool is_before(const Eigenmode& a, const Eigenmode& b) {
   return size(a) != size(b) ? size(a) > size(b) : to_float(a.value.re) > to_float(b.value.re);
 }
 
-Real length(const RealMatrix& re, const RealMatrix& im, Index k) { return hypot(re(k), im(k)); }
-
-// κ of the block that begins at `start`; of a pair l = (row − j next row)/2.
-Real condition_of(const ModalBasis& basis, Index start, Index size) {
-  const Index n = basis.T.rows();
-  const RealMatrix none = zeros(n, 1), r = basis.T.col(start), l = basis.inverse.row(start).transpose();
-  const RealMatrix r_im = size == 2 ? RealMatrix(basis.T.col(start + 1)) : none;
-  const RealMatrix l_im = size == 2 ? RealMatrix(basis.inverse.row(start + 1).transpose()) : none;
-  Real sum;
-  for (Index k = 0; k < n; ++k) sum += length(r, r_im, k) * length(l, l_im, k) / size;
-  return sum;
-}
-
 }  // namespace
 
 std::optional<ModalBasis> modal_basis(const RealMatrix& A) {
@@ -95,9 +82,6 @@ std::optional<ModalBasis> modal_basis(const RealMatrix& A) {
   const std::optional<RealMatrix> inverse = solve(basis.T, identity(A.rows()));
   if (!inverse) return std::nullopt;
   basis.inverse = *inverse;
-  for (std::size_t i = 0; i + 1 < basis.starts.size(); ++i)
-    basis.condition =
-        std::max<Real>(basis.condition, condition_of(basis, basis.starts[i], basis.starts[i + 1] - basis.starts[i]));
   return basis;
 }
 
