@@ -192,10 +192,14 @@ Figures linear_figures(const Controller& controller) {
   const TracedLinear traced = trace_linear(controller);
   Figures figures;
   for (const TracedFunction* function : {&traced.control, &traced.advance}) add_function(figures, controller, *function);
-  Figures rest;  // what is there for the sample that is not as the others
-  for (const TracedFunction* function : {&traced.control_fault, &traced.hear}) add_function(rest, controller, *function);
+  Figures aside;  // for the sample that is not as the others
+  for (const TracedFunction* function : {&traced.control_fault, &traced.hear}) add_function(aside, controller, *function);
+  if (controller.is_predictor()) {
+    add_function(aside, controller, traced.advance);  // compilers put it into both of its callers
+    figures.stack = std::max(figures.stack, 8 + bytes_of_real(controller) * controller.ny());  // heard[], return address
+  }
   figures.ram = state_bytes(controller);
-  figures.flash += rest.flash + rates(controller).numbers_in_software + initial_state_bytes(controller, figures.ram);
+  figures.flash += aside.flash + rates(controller).numbers_in_software + initial_state_bytes(controller, figures.ram);
   return figures;
 }
 

@@ -8,9 +8,9 @@ typedef void function(void);
 
 void start_counting(void);
 
-/* Calls f(object, signals) on the stack that ends at `top`; returns what has passed since before the call, in the
- * counter's own unit. */
-uint32_t ticks_of_call(void *object, const void *signals, function *f, uint32_t *top);
+/* Calls f(object, signals, results) on the stack that ends at `top`; returns what has passed since before the call, in
+ * the counter's own unit. */
+uint32_t ticks_of_call(void *object, const void *signals, void *results, function *f, uint32_t *top);
 
 /* What `ticks` are in instructions. */
 unsigned instructions_in(uint32_t ticks);

@@ -13,9 +13,14 @@ extern function *const roots[];
 
 __attribute__((section(".roots"))) function *const roots[] = {
     (function *)OF(init),
+#ifdef KEEPS_Z
+    (function *)OF(control),
+    (function *)OF(advance),
+#else
     (function *)OF(update),
 #ifndef ESTIMATES
     (function *)OF(control),
 #endif
     (function *)OF(predict),
+#endif
 };

@@ -1,6 +1,7 @@
 /* What the controller in HEADER costs: instructions executed by each of its functions, and the stack that they use,
  * for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES says that it has
- * no input. */
+ * no input. A controller that keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to the
+ * first of them, or to the second with PREDICTS. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -41,17 +42,17 @@ static unsigned deepest_reach(void)
     return 4 * (STACK_WORDS - untouched);
 }
 
-static unsigned instructions_of(function *f, void *object, const void *signals)
+static unsigned instructions_of(function *f, void *object, const void *signals, void *results)
 {
-    const unsigned frame = instructions_in(ticks_of_call(NULL, NULL, do_nothing, stack + STACK_WORDS));
-    const unsigned all = instructions_in(ticks_of_call(object, signals, f, stack + STACK_WORDS));
+    const unsigned frame = instructions_in(ticks_of_call(NULL, NULL, NULL, do_nothing, stack + STACK_WORDS));
+    const unsigned all = instructions_in(ticks_of_call(object, signals, results, f, stack + STACK_WORDS));
 
     return all - frame + 1; /* 1: do_nothing's own */
 }
 
 static int counts_right(void)
 {
-    return instructions_of(do_nothing_a_thousand_times, NULL, NULL) == 1001;
+    return instructions_of(do_nothing_a_thousand_times, NULL, NULL, NULL) == 1001;
 }
 
 /* ---- the samples ------------------------------------------------------------------------------------- */
@@ -70,9 +71,9 @@ static unsigned larger(unsigned a, unsigned b)
     return a > b ? a : b;
 }
 
-static void measure(record_t *record, unsigned sample, function *f, void *object, const void *signals)
+static void measure(record_t *record, unsigned sample, function *f, void *object, const void *signals, void *results)
 {
-    record->instructions[sample] = instructions_of(f, object, signals);
+    record->instructions[sample] = instructions_of(f, object, signals, results);
     record->most = larger(record->most, record->instructions[sample]);
 }
 
@@ -89,12 +90,19 @@ static void run(unsigned left_out)
     for (unsigned k = 0; k < SAMPLES; k++) {
         for (unsigned i = 0; i < NY; i++)
             y[i] = i == left_out && k % 3 == 1 ? (REAL)NAN : y_in[k][i];
-        measure(&records[UPDATE], k, (function *)OF(update), &self, y);
-#ifdef ESTIMATES
-        measure(&records[PREDICT], k, (function *)OF(predict), &self, NULL);
+#if defined PREDICTS
+        measure(&records[CONTROL], k, (function *)OF(control), &self, u, NULL);
+        measure(&records[PREDICT], k, (function *)OF(advance), &self, y, NULL);
+#elif defined KEEPS_Z
+        measure(&records[CONTROL], k, (function *)OF(control), &self, y, u);
+        measure(&records[PREDICT], k, (function *)OF(advance), &self, NULL, NULL);
+#elif defined ESTIMATES
+        measure(&records[UPDATE], k, (function *)OF(update), &self, y, NULL);
+        measure(&records[PREDICT], k, (function *)OF(predict), &self, NULL, NULL);
 #else
-        measure(&records[CONTROL], k, (function *)OF(control), &self, u);
-        measure(&records[PREDICT], k, (function *)OF(predict), &self, u_out[k]);
+        measure(&records[UPDATE], k, (function *)OF(update), &self, y, NULL);
+        measure(&records[CONTROL], k, (function *)OF(control), &self, u, NULL);
+        measure(&records[PREDICT], k, (function *)OF(predict), &self, u_out[k], NULL);
 #endif
     }
 }

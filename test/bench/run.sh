@@ -8,7 +8,8 @@
 #
 # A core is the name of its folder in ports/; without any it is all nine. The record has every design in both styles, in
 # float, and where the FPU computes in double, too, those that are meant for it; --all has every design in both reals.
-# With them comes two_mass with the covariance carried as it is, which is the filter that others are compared by.
+# With them comes two_mass with the covariance carried as it is, which is the filter that others are compared by, and
+# three designs without their limits in each form of a constant gain; advance is called predict there.
 # Fused arithmetic is left out where the hardware has none.
 #
 # LQGEN names an lqgen that is there already; otherwise one is built. FOLDER is where all work is done, default
@@ -54,18 +55,22 @@ wait_for_all() {
 
 # The value of a key of a design file, and of "code" in a NAME.json.
 design_value() { sed -n "s/^$2 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$1"; }
-json_value() { sed -n "s/^ *\"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
+json_value() { sed -n "s/^    \"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
 
 # make_controller <folder> <title> <design> <style> <real>: its header, reference samples and figures; prints what
 # add_row wants to know of it.
 make_controller() {
-  local name arithmetic has_input=yes
+  local name arithmetic has_input=yes keeps_z='' predicts=''
   name=$(design_value "$3" name)
   arithmetic=$(design_value "$3" arithmetic)
   grep -q '^B *=' "$3" || has_input=
   "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet
   sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$1/${name}_test.c" >"$1/vectors.h"
-  echo "title='$2' name=$name arithmetic=${arithmetic:-plain} style=$4 real=$5 has_input=$has_input"
+  if grep -q "_advance(" "$1/$name.h"; then
+    keeps_z=yes
+    grep -q "_control(.* y\[" "$1/$name.h" || predicts=yes
+  fi
+  echo "title='$2' name=$name arithmetic=${arithmetic:-plain} style=$4 real=$5 has_input=$has_input keeps_z=$keeps_z predicts=$predicts"
 }
 
 # start_controller <title> <design> <style> <real>: in a folder of its own; those of the tables in their order.
@@ -86,6 +91,17 @@ start_carried_controller() {
   start_controller "two_mass, covariance carried, $1" "$design" unrolled float
 }
 
+# The design without its limits, in each form of a constant gain.
+start_controllers_of_forms() {
+  local form design=$lqg_root/codegen/designs/$1.toml changed
+  for form in physical folded modal; do
+    changed=$folder/$form/$1.toml
+    mkdir -p "$folder/$form"
+    sed -e '/^\[limits\]/,/^\[code\]/{/^\[code\]/!d}' -e "s/^\[code\]/&\nrealisation = \"$form\"/" "$design" >"$changed"
+    start_controller "$1 without limits, $form" "$changed" unrolled float
+  done
+}
+
 make_controllers() {
   local real design style
   controllers=()
@@ -99,6 +115,9 @@ make_controllers() {
         done
       fi
     done
+  done
+  for design in two_mass dc_motor quadrotor; do
+    start_controllers_of_forms $design
   done
   wait_for_all
 }
@@ -143,6 +162,8 @@ add_row() {
   [ "$arithmetic" = plain ] || variant+=(-DLQG_FUSED)
   names=("-I$1" "-DHEADER=\"$name.h\"" '-DVECTORS="vectors.h"' "-DNAME=$name" "-DUPPER_NAME=${name^^}" "-DREAL=$real")
   [ -n "$has_input" ] || names+=(-DESTIMATES)
+  [ -z "$keeps_z" ] || names+=(-DKEEPS_Z)
+  [ -z "$predicts" ] || names+=(-DPREDICTS)
   find_library "$work/${real}_$arithmetic" "${variant[@]}"
   link_controller footprint -Wl,-e,roots
   link_controller measure "$work/counter.o" "$work/startup.o"
@@ -167,7 +188,7 @@ heading() { echo "$("${compiler[0]}" --version | head -n 1), ${options[*]}"; }
 
 # measure_core <core>: its section of the tables.
 measure_core() {
-  local made title name arithmetic style real has_input
+  local made title name arithmetic style real has_input keeps_z predicts
   select_core "$1"
   work=$folder/work/$core
   compile_once

@@ -30,5 +30,14 @@ std::vector<BadDesign> impossible() {
       {"integrator that no output shows",
        {{0, design("continuous", "[[0, 1], [0, 0]]", "[[0], [1]]", "[[0, 1]]")}},
        {"7:5: plant.C: …angle…not detectable"}},
+      {"folded form of a law with limits",
+       {{40, "realisation = \"folded\""}},
+       {"40:15: code.realisation: expected \"physical\": with [limits] x̂ has to hear of the input that was applied"}},
+      {"modal form of a gain that is not constant",
+       {{27, "gain = \"online\""}, {33, "", 35}, {40, "realisation = \"modal\""}},
+       {"40:15: code.realisation: expected \"physical\": the filter's gain is not constant"}},
+      {"folded form in the library's loops",
+       {{33, "", 35}, {40, "style = \"compact\"\nrealisation = \"folded\""}},
+       {"41:15: code.realisation: expected \"physical\": the library's loops, style = \"compact\", are of x̂"}},
   };
 }

@@ -42,6 +42,7 @@ std::string library(const lqg::emit::Controller& controller) {
 void expect_emitted_to_pass(lqg::emit::Controller controller, const std::vector<Language>& languages) {
   const std::string name = controller.problem.name;
   for (const auto style : {lqg::design::Style::unrolled, lqg::design::Style::compact}) {
+    if (controller.linear && style == lqg::design::Style::compact) continue;  // the library's loops are of x̂
     controller.style = style;
     const fs::path folder = empty_folder(name + (style == lqg::design::Style::compact ? "_compact" : "_unrolled"));
     write(folder / (name + ".h"), lqg::emit::header(controller));

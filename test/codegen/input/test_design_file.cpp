@@ -47,6 +47,7 @@ u_max = [1, 2]
 real = "double"
 arithmetic = "fused"
 style = "compact"
+realisation = "cheapest"
 flash = 1024
 )";
 
@@ -183,6 +184,7 @@ void test_estimator_and_code_have_what_the_file_says() {
   expect_matrix({9, 0, 0, 10}, p.estimator->P0);
   TEST_ASSERT_TRUE(p.code.real == design::Scalar::float64 && p.code.arithmetic == design::Arithmetic::fused);
   TEST_ASSERT_TRUE(p.code.style == design::Style::compact);
+  TEST_ASSERT_TRUE(p.code.realisation == design::Realisation::cheapest);
   TEST_ASSERT_EQUAL_INT(1024, p.code.flash);
 }
 
@@ -252,7 +254,8 @@ void test_what_is_left_out_has_its_default() {
   TEST_ASSERT_TRUE(p.estimator->gain == design::Gain::steady && p.estimator->form == design::Form::filter);
   TEST_ASSERT_TRUE(p.estimator->covariance == design::Covariance::ud && !p.limits);
   TEST_ASSERT_TRUE(p.code.real == design::Scalar::float32 && p.code.arithmetic == design::Arithmetic::plain);
-  TEST_ASSERT_TRUE(p.code.style == design::Style::automatic && p.code.flash == 16384 && p.brief.empty());
+  TEST_ASSERT_TRUE(p.code.style == design::Style::automatic && p.code.realisation == design::Realisation::physical &&
+                   p.code.flash == 16384 && p.brief.empty());
 }
 
 void test_cost_and_noise_follow_the_domain() {
