@@ -8,6 +8,7 @@
 #include "design/draft_parts.hpp"
 #include "design/estimator.hpp"
 #include "design/representable.hpp"
+#include "design/rounded_loop.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -82,6 +83,8 @@ Draft draft(const Problem& problem, const Draft* coarser) {
   check_representable(result.solution, problem.code.real, result.findings);
   if (has_error(result.findings)) return result;
   result.findings.clear();  // the notes come at the end, with the others
+  if (problem.estimator) check_model(stages.back().samples.plant, problem.code.real, result.findings);
+  if (has_error(result.findings)) return result;
   if (problem.regulator) draft_regulator(problem, stages, coarser, result);
   if (problem.estimator) draft_estimator(problem, stages, coarser, result);
   if (has_error(result.findings)) return result;

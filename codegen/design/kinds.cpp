@@ -22,6 +22,12 @@ void check_continuous_cost(const Problem& problem, Findings& findings) {
               "a continuous trajectory has no Δu: expected cost = \"sampled\" or \"discrete\"");
 }
 
+void check_steps(int count, const std::string& key, Findings& findings) {
+  if (count > most_steps)
+    add_error(findings, key,
+              "expected at most " + std::to_string(most_steps) + " samples, found " + std::to_string(count));
+}
+
 // Where the gain is one number for ever, the problem must be one, too.
 void check_gains_and_stages(const Problem& problem, Findings& findings) {
   bool changes_plant = false, changes_filter = false;
@@ -66,6 +72,9 @@ void check_kinds(const Problem& problem, Findings& findings) {
   if (has_cost(problem.regulator) && problem.regulator->cost == Cost::continuous)
     check_continuous_cost(problem, findings);
   check_gains_and_stages(problem, findings);
+  if (has_cost(problem.regulator)) check_steps(problem.regulator->horizon, "lqr.horizon", findings);
+  if (has_noise(problem.estimator)) check_steps(problem.estimator->horizon, "kalman.horizon", findings);
+  if (!problem.stages.empty()) check_steps(problem.stages.back().from, "stage", findings);
   if (has_noise(problem.estimator)) check_correlation_times(*problem.estimator, findings);
 }
 

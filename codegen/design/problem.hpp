@@ -54,6 +54,9 @@ struct Integral {
   Eigen::MatrixXd Q;
 };
 
+// Samples that may have gains of their own: of a horizon, of a schedule, until the last stage. More take hours.
+constexpr int most_steps = 100000;
+
 // J = Σ xᵀQx + uᵀRu + 2xᵀNu, of the samples or of the continuous trajectory.
 struct Regulator {
   Eigen::MatrixXd Q, R, N;          // Q and R are empty where Q_output or bryson give them

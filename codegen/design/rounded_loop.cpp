@@ -63,16 +63,6 @@ bool loses_column(const RealMatrix& exact, const RealMatrix& rounded) {
   return false;
 }
 
-void check_model(const SampledPlant& exact, const SampledPlant& rounded, Scalar real, Findings& findings) {
-  const RealMatrix one = identity(exact.A.rows());
-  const std::string end = " in " + name_of(real) + ": the sampled plant cannot be represented" + remedy(real);
-  if (is_zero(rounded.A - one) && !is_zero(exact.A - one))
-    add_error(findings, "code.real", "A becomes the identity" + end);
-  if (loses_column(exact.B, rounded.B)) add_error(findings, "code.real", "the effect of an input, B, becomes 0" + end);
-  if (loses_column(exact.C.transpose(), rounded.C.transpose()))
-    add_error(findings, "code.real", "an output's row of C becomes 0" + end);
-}
-
 void check_poles(const std::vector<ComplexReal>& poles, const std::string& what, Scalar real, Findings& findings) {
   if (const ComplexReal* pole = unstable_pole(poles))
     add_error(findings, "code.real",
@@ -119,11 +109,20 @@ void check_rounded_controller(const Problem& problem, const SampledStage& last, 
   check_cost(last, controller, solution, loop, findings);
 }
 
+void check_model(const SampledPlant& exact, Scalar real, Findings& findings) {
+  const SampledPlant rounded = held(exact, real);
+  const RealMatrix one = identity(exact.A.rows());
+  const std::string end = " in " + name_of(real) + ": the sampled plant cannot be represented" + remedy(real);
+  if (is_zero(rounded.A - one) && !is_zero(exact.A - one))
+    add_error(findings, "code.real", "A becomes the identity" + end);
+  if (loses_column(exact.B, rounded.B)) add_error(findings, "code.real", "the effect of an input, B, becomes 0" + end);
+  if (loses_column(exact.C.transpose(), rounded.C.transpose()))
+    add_error(findings, "code.real", "an output's row of C becomes 0" + end);
+}
+
 void check_rounded(const Problem& problem, const SampledStage& last, Solution& solution, Findings& findings) {
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   const Solution rounded = held(solution, problem.code.real);
-  if (solution.estimator || solution.online)
-    check_model(final_plant(solution), rounded.plant, problem.code.real, findings);
   if (has_error(findings) || !is_stable(solution.loop.poles)) return;
   if (solution.regulator && solution.estimator == std::nullopt && problem.estimator) return;
   if (solution.regulator)

@@ -9,8 +9,6 @@ namespace lqg::design {
 
 namespace {
 
-const int longest_schedule = 100000;
-
 // Joseph's form: F P Fᵀ + [G −L_p] [W Swv; Swvᵀ V] [G −L_p]ᵀ with F = A − L_p C stays definite.
 RealMatrix next_covariance(const Samples& samples, const EstimatorSolution& filter) {
   const SampledPlant& plant = samples.plant;
@@ -77,7 +75,7 @@ GainSchedule gains_until_steady(const std::vector<SampledStage>& stages, const R
 int most_gains(const Problem& problem, const EstimatorSolution& steady) {
   const Index tables = is_zero(steady.M) ? 1 : 2;
   const long bytes = (problem.code.real == Scalar::float64 ? 8 : 4) * static_cast<long>(tables * steady.L.size());
-  return static_cast<int>(std::min<long>(longest_schedule, problem.code.flash / std::max<long>(bytes, 1)));
+  return static_cast<int>(std::min<long>(most_steps, problem.code.flash / std::max<long>(bytes, 1)));
 }
 
 }  // namespace lqg::design

@@ -1,9 +1,11 @@
 #include "input/consistency.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "input/definite.hpp"
+#include "input/matrices.hpp"
 
 namespace lqg::input {
 namespace {
@@ -82,6 +84,47 @@ void check_companions(const Values& values, Report& report) {
   if (values.has("observer")) needs("stage", false, "[kalman]: poles are placed for one plant");
 }
 
+// The periods that an input is on its way; rather a bound than more than can be counted.
+double periods_of_delay(const Values& values) {
+  const double periods = values.number("plant.delay", 0) / values.number("plant.sample_time", 1);
+  const double whole = std::round(periods);
+  return std::abs(periods - whole) <= 1e-9 * periods ? whole : std::ceil(periods);
+}
+
+// Inputs on their way are states of the controller's model.
+void check_delay(const Values& values, Report& report) {
+  const double nx = values.sizes.at(Size::nx), nu = values.sizes.at(Size::nu), periods = periods_of_delay(values);
+  if (nx > 0 && nu > 0 && nx + periods * nu > most_signals)
+    report.error("plant.delay", "expected at most " + std::to_string(most_signals) +
+                                    " states together with the inputs on their way, found " + shown(nx + periods * nu));
+}
+
+// A pole for every state, and of a regulator for every input on its way, too.
+void check_number_of_poles(const Values& values, Report& report) {
+  const double nx = values.sizes.at(Size::nx), nu = values.sizes.at(Size::nu);
+  for (const std::string& table : {std::string("pole_placement"), std::string("observer")})
+    for (const std::string& key : {table + ".poles", table + ".continuous_poles"}) {
+      const auto found = values.poles.find(key);
+      if (found == values.poles.end() || nx < 1) continue;
+      const double on_their_way = table == "observer" ? 0 : periods_of_delay(values) * std::max(0.0, nu);
+      const double count = static_cast<double>(found->second.size());
+      if (count != nx + on_their_way)
+        report.error(key, "expected " + shown(nx + on_their_way) + " poles, one for each state" +
+                              (on_their_way > 0 ? " and each input on its way" : "") + ", found " + shown(count));
+    }
+}
+
+// No more outputs can be held than there are inputs.
+void check_held_outputs(const Values& values, Report& report) {
+  const int nu = values.sizes.at(Size::nu);
+  for (const char* key : {"lqr.track", "lqr.integral.outputs"}) {
+    const auto held = values.indices.find(key);
+    if (held != values.indices.end() && nu > 0 && static_cast<int>(held->second.size()) > nu)
+      report.error(key, "expected at most as many outputs as inputs (" + std::to_string(nu) + "), found " +
+                            std::to_string(held->second.size()));
+  }
+}
+
 void check_numbers(const Values& values, Report& report) {
   const double decay = values.number("lqr.decay", 1);
   if (decay < 1 && values.text("lqr.cost") != "continuous")
@@ -89,11 +132,6 @@ void check_numbers(const Values& values, Report& report) {
   const double periods = values.number("plant.delay", 0) / values.number("plant.sample_time", 1);
   if (values.text("plant.domain") == "discrete" && std::abs(periods - std::round(periods)) > 1e-9 * periods)
     report.error("plant.delay", "expected whole periods with a discrete plant, found " + shown(periods) + " periods");
-  const auto track = values.indices.find("lqr.track");
-  const int nu = values.sizes.at(Size::nu);
-  if (track != values.indices.end() && nu > 0 && static_cast<int>(track->second.size()) > nu)
-    report.error("lqr.track", "expected at most as many outputs as inputs (" + std::to_string(nu) + "), found " +
-                                  std::to_string(track->second.size()));
   double before = 0;
   for (const std::string& stage : values.tables_of("stage")) {
     const double from = values.number(stage + ".from", before + 1);
@@ -225,6 +263,9 @@ void check_consistency(Values& values, Report& report) {
   check_alternatives(values, report);
   check_companions(values, report);
   check_numbers(values, report);
+  check_delay(values, report);
+  check_number_of_poles(values, report);
+  check_held_outputs(values, report);
   check_domain(values, report);
   check_correlation_times(values, report);
   check_definiteness(values, report);

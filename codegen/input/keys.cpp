@@ -46,7 +46,7 @@ const std::vector<KeyRule> rules = {
     {"lqr.cost", Type::word, no, no, optional, {"sampled", "discrete", "continuous"}},
     {"lqr.decay", Type::not_negative},
     {"lqr.settling_time", Type::positive},
-    {"lqr.horizon", Type::count},
+    {"lqr.horizon", Type::steps},
     {"lqr.Q_final", Type::weight, nx, nx},
     {"lqr.structure", Type::mask, nu, nx},
     {"lqr.integral", Type::table},
@@ -67,7 +67,7 @@ const std::vector<KeyRule> rules = {
     {"kalman.initial_covariance", Type::weight, nx, nx},
     {"kalman.process_correlation_time", Type::positives, nw},
     {"kalman.measurement_correlation_time", Type::positives, ny},
-    {"kalman.horizon", Type::count},
+    {"kalman.horizon", Type::steps},
     {"kalman.structure", Type::mask, nx, ny},
     {"kalman.gate", Type::not_negative},
 
@@ -86,7 +86,7 @@ const std::vector<KeyRule> rules = {
     {"limits.u_rate", Type::bounds, nu},
 
     {"stage", Type::tables},
-    {"stage.from", Type::whole, no, no, required},
+    {"stage.from", Type::step, no, no, required},
     {"stage.A", Type::matrix, nx, nx},
     {"stage.B", Type::matrix, nx, nu},
     {"stage.C", Type::matrix, ny, nx},

@@ -15,7 +15,8 @@ enum class Type {
   positive,    // a number > 0
   not_negative,
   whole,       // a whole number ≥ 1
-  count,       // a whole number ≥ 0
+  steps,       // a number of samples that have gains of their own, 0 to most_steps
+  step,        // the number of such a sample, ≥ 1
   matrix,      // an array of rows
   weight,      // a square symmetric matrix, or the array of its diagonal
   mask,        // a matrix of 0 and 1

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -115,8 +116,9 @@ class ValueReader {
       case Type::word: read_word(rule, node); break;
       case Type::positive: read_number(rule, node, "a number > 0", [](double x) { return x > 0; }); break;
       case Type::not_negative: read_number(rule, node, "a number ≥ 0", [](double x) { return x >= 0; }); break;
-      case Type::whole: read_whole(rule, node, 1); break;
-      case Type::count: read_whole(rule, node, 0); break;
+      case Type::whole: read_whole(rule, node, 1, std::numeric_limits<int>::max()); break;
+      case Type::steps: read_whole(rule, node, 0, design::most_steps); break;
+      case Type::step: read_whole(rule, node, 1, design::most_steps); break;
       case Type::signals: read_signals(rule, node); break;
       case Type::indices:
         if (auto indices = read_indices(rule, node, values_.sizes, report_)) values_.indices[rule.path] = *indices;
@@ -172,10 +174,10 @@ class ValueReader {
     values_.numbers[rule.path] = node.number;
   }
 
-  void read_whole(const KeyRule& rule, const Node& node, int least) {
-    const std::string wanted = "a whole number from " + std::to_string(least) + " to 2147483647";
+  void read_whole(const KeyRule& rule, const Node& node, int least, int most) {
+    const std::string wanted = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
-    const bool good = node.number >= least && node.number <= 2147483647 && node.number == std::floor(node.number);
+    const bool good = node.number >= least && node.number <= most && node.number == std::floor(node.number);
     if (!good) return expected(rule, wanted, shown(node.number));
     values_.numbers[rule.path] = node.number;
   }

@@ -112,6 +112,13 @@ void test_plant_that_stands_still_in_float_is_refused() {
   expect_errors(problem, {"code.real: A becomes the identity in float: the sampled plant cannot be represented"});
 }
 
+// Nor in double or any other digits; the gains need not be tried.
+void test_plant_that_stands_still_in_every_number_is_refused_for_that() {
+  const MatrixXd one = MatrixXd::Constant(1, 1, 1);
+  const Problem problem = problem_of(Domain::continuous, 1e-300, -one, one, one);
+  expect_errors(problem, {"code.real: A becomes the identity in double: the sampled plant cannot be represented"});
+}
+
 }  // namespace
 
 int main() {
@@ -125,5 +132,6 @@ int main() {
   RUN_TEST(test_loop_that_float_makes_unstable_is_refused);
   RUN_TEST(test_filter_alone_that_float_makes_unstable_is_refused);
   RUN_TEST(test_plant_that_stands_still_in_float_is_refused);
+  RUN_TEST(test_plant_that_stands_still_in_every_number_is_refused_for_that);
   return UNITY_END();
 }
