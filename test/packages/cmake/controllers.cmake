@@ -5,7 +5,7 @@ foreach(style IN ITEMS unrolled compact)
     set(target ${style}_${real})
     add_executable(${target} ${CMAKE_CURRENT_LIST_DIR}/regulate.c)
     target_compile_definitions(${target} PRIVATE real=${real})
-    lqg_add_controller(${target} ${CMAKE_CURRENT_LIST_DIR}/../../codegen/designs/double_integrator.toml
+    lqg_add_controller(${target} ${CMAKE_CURRENT_LIST_DIR}/../../../codegen/designs/double_integrator.toml
                        STYLE ${style} REAL ${real})
     add_test(NAME ${target} COMMAND ${target})
   endforeach()
