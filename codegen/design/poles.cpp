@@ -1,6 +1,7 @@
 #include "design/poles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "design/rounding.hpp"
@@ -29,7 +30,7 @@ std::string short_number(double value) {
 std::string short_complex(const ComplexReal& value, const Real& scale) {
   const Real size = std::max<Real>(hypot(value.re, value.im), scale) * 1e-14;
   const double re = abs(value.re) <= size ? 0 : to_double(value.re);
-  const double im = abs(value.im) <= size ? 0 : to_double(value.im);
+  const double im = abs(value.im) <= size ? 0 : std::abs(to_double(value.im));  // ± says both signs
   if (im == 0) return short_number(re);
   return (re == 0 ? "±" : short_number(re) + " ± ") + short_number(im) + "j";
 }

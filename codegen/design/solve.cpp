@@ -160,7 +160,7 @@ class Tendency {
     limit_ = now.pole;
     return times_ >= 2;
   }
-  std::string pole() const { return short_complex({limit_.re, abs(limit_.im)}, 1); }
+  std::string pole() const { return short_complex(limit_, 1); }
 
  private:
   int times_ = 0;

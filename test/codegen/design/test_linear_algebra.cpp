@@ -6,6 +6,7 @@
 #include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"
+#include "design/poles.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;
@@ -240,6 +241,13 @@ void test_reached_dimension_of_random_pairs() {
   }
 }
 
+void test_a_pole_of_either_half_plane_is_told_with_one_sign() {
+  for (const double imaginary : {2.0, -2.0}) {
+    TEST_ASSERT_EQUAL_STRING("0.5 ± 2j", short_complex({Real(0.5), Real(imaginary)}, Real(1)).c_str());
+    TEST_ASSERT_EQUAL_STRING("±2j", short_complex({Real(0), Real(imaginary)}, Real(1)).c_str());
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -260,5 +268,6 @@ int main() {
   RUN_TEST(test_unreached_pair_is_found_with_its_states);
   RUN_TEST(test_reached_dimension_is_exact);
   RUN_TEST(test_reached_dimension_of_random_pairs);
+  RUN_TEST(test_a_pole_of_either_half_plane_is_told_with_one_sign);
   return UNITY_END();
 }
