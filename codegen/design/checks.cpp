@@ -156,6 +156,7 @@ struct Pair {
 struct Words {
   std::string key, none, weak, lost;
   bool every_mode = false;
+  std::string decay_key = "", slow = "";  // of a mode that is stable and slower than asked for
 };
 
 // Errors for unstable modes (or all) that B does not reach, or that it reaches no more by sampling. False when the
@@ -165,8 +166,10 @@ bool check_pair(const Plant& plant, const Pair& pair, const Decay& decay, const 
   const Unreached unreached = unreached_modes_of(plant, pair.A, pair.B);
   const bool certain = unreached.dimension == pair.A.rows() - reached_dimension(pair.A, pair.B);
   for (const Mode& mode : unreached.modes)
-    if (words.every_mode || is_too_slow(plant, mode, decay))
+    if (words.every_mode || is_too_slow(plant, mode, Decay()))
       add_once(findings, words.key, name_mode(plant, mode, true) + (certain ? words.none : words.weak));
+    else if (is_too_slow(plant, mode, decay))
+      add_once(findings, words.decay_key, name_mode(plant, mode, true) + words.slow);
   if (!certain || has_error(findings) || plant.domain == Domain::discrete) return certain;
   for (const Mode& mode : modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held,
                                                  words.every_mode, decay.alpha))
@@ -183,7 +186,9 @@ bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Fin
                     {"plant.B", " is reached by no input: the plant is not stabilisable",
                      " is reached too weakly by the inputs: the plant is hardly stabilisable",
                      " can be stabilised, but not with inputs held that long: the sample time matches its "
-                     "oscillation"},
+                     "oscillation",
+                     false, problem.regulator->settling_time ? "lqr.settling_time" : "lqr.decay",
+                     " is reached by no input, or too weakly, and is slower than asked for"},
                     findings);
 }
 

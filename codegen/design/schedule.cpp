@@ -22,10 +22,26 @@ bool round_alike(const Real& a, const Real& b, Scalar real) {
   return real == Scalar::float64 ? to_double(a) == to_double(b) : to_float(a) == to_float(b);
 }
 
-bool has_arrived(const RealMatrix& gain, const RealMatrix& steady, Scalar real) {
+// The largest entry that each row of a gain has had.
+class RowSizes {
+ public:
+  void take(const RealMatrix& gain) {
+    sizes_.resize(static_cast<std::size_t>(gain.rows()));
+    for (std::size_t i = 0; i < sizes_.size(); ++i)
+      sizes_[i] = std::max<Real>(sizes_[i], largest_entry(gain.row(static_cast<Index>(i))));
+  }
+  const Real& of(Index row) const { return sizes_[static_cast<std::size_t>(row)]; }
+
+ private:
+  std::vector<Real> sizes_;
+};
+
+// A gain that tends to 0 has arrived when it is nothing beside what its row once was.
+bool has_arrived(const RealMatrix& gain, const RealMatrix& steady, RowSizes& sizes, Scalar real) {
+  sizes.take(gain);
   const Real rounding = real == Scalar::float64 ? ldexp(Real(1), -106) : ldexp(Real(1), -48);
   for (Index i = 0; i < gain.rows(); ++i) {
-    const Real nothing = rounding * largest_entry(steady.row(i));
+    const Real nothing = rounding * sizes.of(i);
     for (Index j = 0; j < gain.cols(); ++j)
       if (!round_alike(gain(i, j), steady(i, j), real) && abs(gain(i, j) - steady(i, j)) > nothing) return false;
   }
@@ -58,10 +74,12 @@ GainSchedule gains_until_steady(const std::vector<SampledStage>& stages, const R
   // A gain that swings passes the steady one; it does not stay there.
   const int enough = 2 * static_cast<int>(P0.rows()) + 10;
   std::size_t length = 0;
+  RowSizes of_L, of_M;
   for (int k = 0, at_rest = 0; at_rest < enough; ++k) {
     advance(stages, k, P, schedule);
-    const bool arrived = k >= last_change(stages) && has_arrived(schedule.last.L, steady.L, real)
-                         && has_arrived(schedule.last.M, steady.M, real);
+    const bool L_arrived = has_arrived(schedule.last.L, steady.L, of_L, real);
+    const bool M_arrived = has_arrived(schedule.last.M, steady.M, of_M, real);
+    const bool arrived = k >= last_change(stages) && L_arrived && M_arrived;
     at_rest = arrived ? at_rest + 1 : 0;
     if (!arrived) length = schedule.L.size();
     schedule.is_settled = static_cast<int>(length) <= most;

@@ -50,6 +50,15 @@ void test_stable_mode_that_no_input_reaches_is_no_reason() {
                          Eigen::Vector2d(1, 0)));
 }
 
+void test_stable_mode_that_no_input_makes_as_fast_as_asked_for() {
+  Problem problem = regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(), Eigen::Vector2d(1, 0));
+  problem.regulator->decay = 1.06;
+  expect_refusal(problem, "lqr.decay", {"s = -0.5", "state x1", "slower than asked for"});
+  problem.regulator->decay.reset();
+  problem.regulator->settling_time = 9;
+  expect_refusal(problem, "lqr.settling_time", {"s = -0.5", "state x1", "slower than asked for"});
+}
+
 void test_undamped_pair_that_no_input_reaches() {
   MatrixXd A = MatrixXd::Zero(3, 3);
   A(0, 0) = -1;
@@ -312,6 +321,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(test_unstable_mode_that_no_input_reaches);
   RUN_TEST(test_stable_mode_that_no_input_reaches_is_no_reason);
+  RUN_TEST(test_stable_mode_that_no_input_makes_as_fast_as_asked_for);
   RUN_TEST(test_undamped_pair_that_no_input_reaches);
   RUN_TEST(test_discrete_mode_on_the_circle_that_no_input_reaches);
   RUN_TEST(test_defective_mode_that_no_input_reaches);

@@ -273,6 +273,21 @@ void test_schedule_ends_where_the_gains_round_to_the_steady_ones() {
   }
 }
 
+// No noise drives the second state: its gain is 0 in the end, and before that a power of 0.3 that no double ends.
+void test_schedule_ends_where_a_steady_gain_is_zero() {
+  Problem problem = estimator_alone(problem_of(Domain::discrete, 1, (MatrixXd(2, 2) << 1.5, 0.1, 0, 0.3).finished(),
+                                               Eigen::Vector2d(1, 0), Eigen::RowVector2d(1, 0)));
+  problem.estimator->W.setZero();
+  problem.estimator->gain = Gain::schedule;
+  problem.code.flash = 1 << 20;
+  for (const lqg::design::Scalar real : {lqg::design::Scalar::float32, lqg::design::Scalar::float64}) {
+    problem.code.real = real;
+    const Solution found = solved(problem);
+    TEST_ASSERT_TRUE(to_double(found.estimator->L(1, 0)) == 0);
+    TEST_ASSERT_LESS_THAN(100, found.estimator->L_schedule.size());
+  }
+}
+
 void test_schedule_that_does_not_fit_into_flash_is_refused() {
   Problem problem = estimator_alone(two_mass());
   problem.estimator->gain = Gain::schedule;
@@ -425,6 +440,7 @@ int main() {
   RUN_TEST(test_scheduled_gains_of_a_constant_average_what_was_seen);
   RUN_TEST(test_scheduled_gains_are_those_of_the_information_filter);
   RUN_TEST(test_schedule_ends_where_the_gains_round_to_the_steady_ones);
+  RUN_TEST(test_schedule_ends_where_a_steady_gain_is_zero);
   RUN_TEST(test_schedule_that_does_not_fit_into_flash_is_refused);
   RUN_TEST(test_schedule_goes_through_the_stages);
   RUN_TEST(test_steady_gain_and_stages_of_the_filter_exclude_each_other);
