@@ -1,6 +1,7 @@
 #include "design/checks.hpp"
 
 #include "design/augmentation.hpp"
+#include "design/elimination.hpp"
 #include "design/exact_reach.hpp"
 #include "design/factor.hpp"
 #include "design/modes.hpp"
@@ -279,8 +280,10 @@ void check_weights_on_limit(const Problem& problem, const RiccatiEquation& e, Fi
                  + " is on the stability limit and carries no weight: no stabilising gain is optimal");
 }
 
-// The modes of (A − G Swv V⁻¹C, G(W − Swv V⁻¹Swvᵀ)Gᵀ) that are not reached.
-void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
+namespace {
+
+// (A − G Swv V⁻¹C, G(W − Swv V⁻¹Swvᵀ)Gᵀ): the noise that no output tells.
+LimitPair untold_noise(const Samples& samples) {
   const SampledPlant plant = own_plant(samples);
   const SampledNoise& noise = *samples.noise;
   const RealMatrix told = *solve(noise.V, beside(plant.C, noise.Swv.transpose()));
@@ -288,7 +291,33 @@ void check_noise_on_limit(const Problem& problem, const Samples& samples, Findin
   const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
   const RealMatrix own =
       congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
-  for (const Mode& mode : unweighted_on_limit({free, own, false}))
+  return {free, own, false};
+}
+
+}  // namespace
+
+// vᴴP0 v of the left eigenvectors v of those modes, all together, has to be as large as their space.
+void check_start(const Problem& problem, const Samples& samples, Findings& findings) {
+  const LimitPair pair = untold_noise(samples);
+  RealMatrix vectors(pair.A.rows(), 0);
+  std::string modes;
+  for (const Mode& mode : unreached_sampled_modes(pair.A, pair.weight).modes) {
+    if (!on_or_outside_circle(mode.value)) continue;
+    const LeftEigenvector v = left_eigenvector(pair.A, mode.value);
+    vectors = beside(vectors, v.re);
+    if (!mode.value.im.is_zero()) vectors = beside(vectors, v.im);
+    modes += (modes.empty() ? "" : ", ") + name_mode(problem.plant, mode, false);
+  }
+  if (vectors.cols() == 0) return;
+  const RealMatrix known = transpose_congruence(vectors, real(problem.estimator->P0));
+  if (eliminated(known).rank < eliminated(transpose_multiply(vectors, vectors)).rank)
+    add_error(findings, "kalman.initial_covariance",
+              modes + ": no process noise drives this, and in some direction of it P0 has no uncertainty: the gains never "
+                      "become the steady ones");
+}
+
+void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
+  for (const Mode& mode : unweighted_on_limit(untold_noise(samples)))
     add_once(findings, "kalman.process_noise",
              name_mode(problem.plant, mode, false)
                  + " is on the stability limit and driven by no process noise: "

@@ -53,6 +53,8 @@ void take_tables(const GainSchedule& schedule, Draft& result) {
 }
 
 void draft_schedule_to_steady(const Problem& problem, const std::vector<SampledStage>& stages, Draft& result) {
+  if (stages.size() == 1) check_start(problem, stages.front().samples, result.findings);
+  if (has_error(result.findings)) return;
   const EstimatorSolution& steady = *result.solution.estimator;
   const int most = most_gains(problem, steady);
   const GainSchedule schedule =

@@ -228,6 +228,17 @@ void test_integrator_without_weight_under_free_inputs() {
   expect_refusal(problem, "lqr.Q", {"z = 1 (state x0)", "carries no weight"});
 }
 
+// P0 knows the difference of two growing modes; so it stays.
+void test_schedule_from_a_start_that_leaves_an_unstable_mode_certain() {
+  Problem problem = estimator_alone(Domain::discrete, 1, Eigen::Vector2d(1.5, 1.2).asDiagonal(), Eigen::RowVector2d(1, 1));
+  problem.estimator->W.setZero();
+  problem.estimator->gain = Gain::schedule;
+  problem.estimator->P0 = MatrixXd::Ones(2, 2);
+  expect_refusal(problem, "kalman.initial_covariance", {"z = 1.5", "z = 1.2", "never become the steady ones"});
+  problem.estimator->P0(0, 0) = 1.5;
+  solved(problem);
+}
+
 // With R = 0 the poles go to the zeros from u to what is weighed: x has one at z = −1.
 void test_zero_on_the_circle_under_free_inputs() {
   Problem problem = discrete_integrators(1, 0);
@@ -345,6 +356,7 @@ int main() {
   RUN_TEST(test_weight_a_rounding_below_zero_on_a_mode_on_the_limit);
   RUN_TEST(test_weight_a_rounding_below_zero_on_a_stable_mode_is_no_reason);
   RUN_TEST(test_integrator_without_weight_under_free_inputs);
+  RUN_TEST(test_schedule_from_a_start_that_leaves_an_unstable_mode_certain);
   RUN_TEST(test_zero_on_the_circle_under_free_inputs);
   RUN_TEST(test_pole_that_tends_to_exactly_one);
   RUN_TEST(test_pole_at_one_under_a_gain_that_is_held_is_no_reason);
