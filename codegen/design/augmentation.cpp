@@ -94,8 +94,13 @@ void check_set_points(const SampledPlant& plant, const std::vector<int>& outputs
   const RealMatrix CD = beside(rows_of(plant.C, outputs), rows_of(plant.D, outputs));
   if (eliminated(CD).rank < held)
     return add_error(findings, key, "these outputs depend on each other: they have no set points of their own");
-  const RealMatrix M = above(beside(plant.A - identity(nx), plant.B), CD);
-  if (eliminated(M).rank < nx + held)
+  const auto rank_at = [&](const Real& z) {
+    return eliminated(above(beside(plant.A - z * identity(nx), plant.B), CD)).rank;
+  };
+  if (rank_at(Real(1)) == nx + held) return;
+  if (rank_at(sqrt(Real(3))) < nx + held)  // no zero is there but by chance
+    add_error(findings, key, "the inputs do not move these outputs independently: no constant input holds them at a set point");
+  else
     add_error(findings, key,
               "the plant has a zero at z = 1 (s = 0) from its inputs to these outputs: no constant input holds "
               "them at a set point");

@@ -401,6 +401,15 @@ void test_set_point_of_many_takes_the_least_input() {
   expect_small(abs(found.regulator->Nu(1, 0) - Real(1) / 10), 1e-16, "u1");
 }
 
+// x and the sum of both states, of which the second has no input.
+void test_tracked_outputs_that_one_input_moves_together_are_refused() {
+  Problem problem = regulator_alone(problem_of(Domain::discrete, 1, Eigen::Vector2d(0.5, 0.25).asDiagonal(),
+                                               (MatrixXd(2, 2) << 1, 2, 0, 0).finished(),
+                                               (MatrixXd(2, 2) << 1, 0, 1, 1).finished()));
+  problem.regulator->track = {0, 1};
+  TEST_ASSERT_TRUE(is_refused(problem, "lqr.track", "the inputs do not move these outputs independently"));
+}
+
 void test_set_points_that_do_not_exist_are_refused_with_the_reason() {
   Problem problem = regulator_alone(two_mass());
   problem.regulator->track = {0, 1};
@@ -448,6 +457,7 @@ int main() {
   RUN_TEST(test_tracked_outputs_come_to_rest_at_r);
   RUN_TEST(test_set_point_that_needs_no_input_has_an_exact_zero);
   RUN_TEST(test_set_point_of_many_takes_the_least_input);
+  RUN_TEST(test_tracked_outputs_that_one_input_moves_together_are_refused);
   RUN_TEST(test_set_points_that_do_not_exist_are_refused_with_the_reason);
   RUN_TEST(test_integral_of_a_speed_is_refused_with_the_reason);
   return UNITY_END();
