@@ -1,6 +1,7 @@
 #include "design/linear_form.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -60,7 +61,7 @@ void take_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C
   const RealMatrix squares = own.cwiseProduct(own).rowwise().sum();
   Index largest = 0;
   for (Index i = 1; i < own.rows(); ++i)
-    if (squares(i) > squares(largest)) largest = i;
+    if (squares(i) > 1.001 * squares(largest)) largest = i;  // of equal ones the first, whatever their rounding is
   const Real terms = largest_entry(multiply(C.cwiseAbs(), columns.cwiseAbs()));
   if (!(sqrt(squares(largest)) > negligible(0.6) * terms)) return;
   const RealMatrix row = own.row(largest);

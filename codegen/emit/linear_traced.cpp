@@ -9,6 +9,7 @@ namespace lqg::emit {
 namespace {
 
 using trace::Expr;
+using Function = TracedFunction;
 using Model = step::LinearModel<Expr>;
 using State = step::LinearState<Expr>;
 
@@ -31,10 +32,13 @@ TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
   return function;
 }
 
+// In filter form control keeps y for advance.
+bool keeps_outputs(const Controller& controller) { return !controller.is_predictor(); }
+
 Symbols load_outputs(const Controller& controller) { return load(trace::graph(), "y", "y", controller.ny()); }
 
 TracedFunction trace_control(const Controller& controller) {
-  const auto step = [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+  const auto step = [&](Function& into, const Model& model, State& state, Recorder& recorder) {
     const Symbols y = controller.is_predictor() ? Symbols() : load_outputs(controller);
     Symbols u;
     into.finite = step::control_expected(model, state, y, u, recorder).node;
@@ -47,7 +51,7 @@ TracedFunction trace_control(const Controller& controller) {
 }
 
 TracedFunction trace_control_fault(const Controller& controller) {
-  return trace_step(controller, !controller.is_predictor(), [](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+  return trace_step(controller, keeps_outputs(controller), [](Function& into, const Model& model, State& state, Recorder& recorder) {
     const Symbols u = step::control(model, state, state.y, recorder);
     store_all(into, "self->y", state.y);
     store_all(into, "u", u);
@@ -55,7 +59,7 @@ TracedFunction trace_control_fault(const Controller& controller) {
 }
 
 TracedFunction trace_advance(const Controller& controller) {
-  return trace_step(controller, !controller.is_predictor(), [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+  return trace_step(controller, keeps_outputs(controller), [&](Function& into, const Model& model, State& state, Recorder& recorder) {
     const Symbols y = controller.is_predictor() ? load_outputs(controller) : state.y;
     into.finite = step::advance(model, state, y, recorder).node;
     store_all(into, "self->z", state.z);
@@ -63,20 +67,20 @@ TracedFunction trace_advance(const Controller& controller) {
 }
 
 TracedFunction trace_hear(const Controller& controller) {
-  return trace_step(controller, false, [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+  return trace_step(controller, false, [&](Function& into, const Model& model, State& state, Recorder& recorder) {
     store_all(into, "heard", step::heard_outputs(model, state, load_outputs(controller), recorder));
   });
 }
 
 TracedFunction trace_estimate(const Controller& controller) {
-  return trace_step(controller, !controller.is_predictor(), [](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+  return trace_step(controller, keeps_outputs(controller), [](Function& into, const Model& model, State& state, Recorder& recorder) {
     into.is_void = true;
     store_all(into, "x", step::estimate(model, state, recorder));
   });
 }
 
 TracedFunction trace_set_state(const Controller& controller) {
-  return trace_step(controller, false, [&](TracedFunction& into, const Model& model, State& state, Recorder& recorder) {
+  return trace_step(controller, false, [&](Function& into, const Model& model, State& state, Recorder& recorder) {
     const Symbols x = load(*into.graph, "x", "x", controller.nx());
     into.finite = step::set_state(model, state, x, recorder).node;
     store_all(into, "self->z", state.z);

@@ -173,9 +173,9 @@ std::string linear_form(const Controller& controller) {
   if (!controller.linear) return "";
   const design::LinearForm& form = *controller.linear;
   const bool is_double = controller.is_double(), predicts = controller.is_predictor();
-  std::string out = std::string(" *\n * All of this as one linear system, equal to it in ") +
-                    std::to_string(static_cast<int>(form.agreement)) + " digits:  z⁺ = A z + B y,  u = C z" +
-                    (predicts ? "" : " + D y") + ",  x̂ = X z" + (predicts ? "" : " + L y") + "\n *\n";
+  std::string out = " *\n * The same as one linear system, equal to it in " + std::to_string(static_cast<int>(form.agreement)) +
+                    " digits:\n *\n *   z⁺ = A z + B y,  u = C z" + (predicts ? "" : " + D y") + ",  x̂ = X z" +
+                    (predicts ? "" : " + L y") + "\n *\n";
   out += matrix_comment("A", form.A, is_double) + matrix_comment("B", form.B, is_double) +
          matrix_comment("C", form.C, is_double);
   if (!predicts) out += matrix_comment("D", form.D, is_double);

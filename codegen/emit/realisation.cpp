@@ -24,7 +24,8 @@ FormFigures figures_of(Controller& controller, const std::optional<design::Linea
 Realisation cheapest(const Realisations& among) {
   Realisation best = Realisation::physical;
   long least = among.physical.multiply_adds;
-  for (const auto& [kind, figures] : {std::pair(Realisation::folded, &among.folded), std::pair(Realisation::modal, &among.modal)}) {
+  for (const auto& [kind, figures] :
+       {std::pair(Realisation::folded, &among.folded), std::pair(Realisation::modal, &among.modal)}) {
     if (!*figures || (*figures)->multiply_adds >= least) continue;
     if ((*figures)->rounding_error > most_loss * among.physical.rounding_error) continue;
     best = kind;

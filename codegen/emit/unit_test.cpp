@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "emit/linear_test.hpp"
+#include "emit/linear_unit_test.hpp"
 #include "emit/preamble.hpp"
 #include "emit/text.hpp"
 #include "emit/vectors.hpp"

@@ -55,7 +55,7 @@ wait_for_all() {
 
 # The value of a key of a design file, and of "code" in a NAME.json.
 design_value() { sed -n "s/^$2 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$1"; }
-json_value() { sed -n "s/^    \"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
+json_value() { sed -n "s/^ *\"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
 
 # make_controller <folder> <title> <design> <style> <real>: its header, reference samples and figures; prints what
 # add_row wants to know of it.

@@ -64,7 +64,8 @@ void expect_equal_to_the_physical_form(const Problem& problem, const Solution& s
       y = multiply(form.expected, z);
       const bool predicts = problem.estimator->form == Form::predictor;
       const RealMatrix acts = predicts ? RealMatrix(-multiply(solution.regulator->K, physical.x)) : physical.u;
-      expect_small(largest_entry(multiply(solution.plant.C, physical.x) + multiply(solution.plant.D, acts) - y), equal, "expected y");
+      const RealMatrix wanted = multiply(solution.plant.C, physical.x) + multiply(solution.plant.D, acts);
+      expect_small(largest_entry(wanted - y), equal, "expected y");
     }
     physical.sample(y);
     expect_small(largest_entry(multiply(form.C, z) + multiply(form.D, y) - physical.u), equal, "error of u");
@@ -92,7 +93,8 @@ int count_equal_forms(Make make) {
     if (!no_linear_form(problem, solution).empty()) continue;
     const LinearFormResult result = make(problem, solution);
     TEST_ASSERT_TRUE_MESSAGE(result.form || result.obstacle.find("cancel") != std::string::npos ||
-                                 result.obstacle.find("repeated") != std::string::npos, (std::to_string(seed) + ": " + result.obstacle).c_str());
+                                 result.obstacle.find("repeated") != std::string::npos,
+                             (std::to_string(seed) + ": " + result.obstacle).c_str());
     if (!result.form) continue;
     ++forms;
     TEST_ASSERT_TRUE(result.form->agreement > 40);
@@ -134,6 +136,16 @@ RealMatrix matrix_of(std::initializer_list<double> entries) {
   Index at = 0;
   for (const double entry : entries) a(at / n, at % n) = entry, ++at;
   return a;
+}
+
+// Two inputs that are one: no row of C is the largest, and the first is taken whatever the digits are.
+void test_inputs_that_share_a_mode_evenly() {
+  Problem problem = double_integrator(0.1);
+  problem = problem_of(Domain::continuous, 0.1, problem.plant.A, (Eigen::MatrixXd(2, 2) << 0, 0, 1, 1).finished(), problem.plant.C);
+  const LinearFormResult result = modal_form(problem, solved(problem));
+  TEST_ASSERT_TRUE_MESSAGE(result.form.has_value(), result.obstacle.c_str());
+  for (Index j = 0; j < 2; ++j) TEST_ASSERT_TRUE(to_double(result.form->C(0, j)) == to_double(result.form->C(1, j)));
+  TEST_ASSERT_TRUE(to_double(result.form->C(0, 0)) == 1);
 }
 
 // The same matrix twice over: every eigenvalue is there twice, and each part has its own.
@@ -270,6 +282,7 @@ int main() {
   RUN_TEST(test_folded_form_equals_update_control_and_predict);
   RUN_TEST(test_modal_form_equals_update_control_and_predict);
   RUN_TEST(test_modal_form_has_blocks_and_ones);
+  RUN_TEST(test_inputs_that_share_a_mode_evenly);
   RUN_TEST(test_parts_that_know_nothing_of_each_other_may_be_equal);
   RUN_TEST(test_poles_that_meet_are_refused_with_their_condition);
   RUN_TEST(test_condition_grows_as_poles_meet);

@@ -20,10 +20,8 @@ using nlohmann::json;
 
 namespace {
 
-// The design in a form; refused designs give none.
 Controller in_form(const DesignText& design, const std::string& form) {
-  return controller_of(toml(design) + (toml(design).find("[code]") == std::string::npos ? "[code]\n" : "") +
-                       "realisation = \"" + form + "\"\n");
+  return controller_of(toml(design) + "realisation = \"" + form + "\"\n");
 }
 
 // Two springs that pull at each other, both seen, one driven: every number of its forms is another one.
@@ -54,6 +52,28 @@ void test_emitted_forms_pass_their_own_test() {
           design.name = "form_" + std::to_string(made++);
           expect_emitted_to_pass(in_form(design, realisation), {Language::c, Language::cxx});
         }
+}
+
+// Everything by chance but what has no such form. Of each form at least some must come about.
+void test_random_designs_pass_in_every_form_that_they_have() {
+  int made[2] = {0, 0};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Random random(seed);
+    DesignText design = random_design(random, 1 + static_cast<int>(seed % 8));
+    design.gain = "steady", design.covariance = "", design.style = "auto";
+    design.u_min.resize(0), design.u_max.resize(0);
+    const Controller controller = in_form(design, "cheapest");
+    if (!controller.realisations) continue;
+    const bool has[2] = {controller.realisations->folded.has_value(), controller.realisations->modal.has_value()};
+    for (int form = 0; form < 2; ++form) {
+      if (!has[form]) continue;
+      design.name = "random_" + std::to_string(seed);
+      expect_emitted_to_pass(in_form(design, form == 0 ? "folded" : "modal"), {Language::c});
+      ++made[form];
+    }
+  }
+  TEST_ASSERT_GREATER_THAN_INT(3, made[0]);
+  TEST_ASSERT_GREATER_THAN_INT(3, made[1]);
 }
 
 MatrixXd matrix(const json& rows) {
@@ -243,6 +263,7 @@ realisation = "cheapest"
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_emitted_forms_pass_their_own_test);
+  RUN_TEST(test_random_designs_pass_in_every_form_that_they_have);
   RUN_TEST(test_json_has_the_compensator_and_what_each_form_costs);
   RUN_TEST(test_nothing_is_said_of_forms_when_none_is_asked_for);
   RUN_TEST(test_missing_outputs_mean_the_same_in_every_form);

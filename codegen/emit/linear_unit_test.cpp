@@ -1,4 +1,4 @@
-#include "emit/linear_test.hpp"
+#include "emit/linear_unit_test.hpp"
 
 namespace lqg::emit {
 
