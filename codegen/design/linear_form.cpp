@@ -62,8 +62,7 @@ void take_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C
   Index largest = 0;
   for (Index i = 1; i < own.rows(); ++i)
     if (squares(i) > 1.001 * squares(largest)) largest = i;  // of equal ones the first, whatever their rounding is
-  const Real terms = largest_entry(multiply(C.cwiseAbs(), columns.cwiseAbs()));
-  if (!(sqrt(squares(largest)) > negligible(0.6) * terms)) return;
+  if (!(sqrt(squares(largest)) > negligible(0.6) * largest_entry(C) * largest_entry(columns))) return;
   const RealMatrix row = own.row(largest);
   RealMatrix R = zeros(size, size), inverse = zeros(size, size);
   for (Index i = 0; i < size; ++i) {

@@ -54,6 +54,21 @@ void test_emitted_forms_pass_their_own_test() {
         }
 }
 
+// L has a column of zeros: no u and no z is made of the second output. The emitted test asks that NaN in it is reported.
+void test_an_output_that_nothing_is_made_of_is_looked_at() {
+  for (const char* form : {"filter", "predictor"})
+    for (const char* realisation : {"folded", "modal"}) {
+      DesignText design = two_springs(form);
+      design.name = std::string("unheard_") + form;
+      design.Swv.resize(0, 0);
+      std::string text = toml(design) + "realisation = \"" + realisation + "\"\n";
+      text.insert(text.find("[kalman]\n") + 9, "structure = [[1, 0], [1, 0], [1, 0], [1, 0]]\n");
+      const Controller controller = controller_of(text);
+      TEST_ASSERT_TRUE(controller.linear->B.col(1).isZero(0) && controller.linear->D.col(1).isZero(0));
+      expect_emitted_to_pass(controller, {Language::c});
+    }
+}
+
 // Everything by chance but what has no such form. Of each form at least some must come about.
 void test_random_designs_pass_in_every_form_that_they_have() {
   int made[2] = {0, 0};
@@ -263,6 +278,7 @@ realisation = "cheapest"
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_emitted_forms_pass_their_own_test);
+  RUN_TEST(test_an_output_that_nothing_is_made_of_is_looked_at);
   RUN_TEST(test_random_designs_pass_in_every_form_that_they_have);
   RUN_TEST(test_json_has_the_compensator_and_what_each_form_costs);
   RUN_TEST(test_nothing_is_said_of_forms_when_none_is_asked_for);
