@@ -51,6 +51,7 @@ inline Expr multiply_subtract(const Expr& a, const Expr& b, const Expr& c) {
 inline Expr select(const Condition& condition, const Expr& yes, const Expr& no) {
   return Expr::of(graph().make(Op::select, condition.node, yes.node, no.node));
 }
+inline Expr absolute(const Expr& a) { return Expr::of(graph().make(Op::absolute, a.node)); }
 inline bool is_zero(const Expr& a) { return graph().is_constant(a.node, 0); }
 inline Condition is_finite(const Expr& a) { return {graph().make(Op::finite, a.node)}; }
 inline Condition is_less(const Expr& a, const Expr& b) { return {graph().make(Op::less, a.node, b.node)}; }

@@ -16,6 +16,7 @@ double compute(Op op, bool fused, T a, T b, T c) {
     case Op::multiply: return a * b;
     case Op::divide: return a / b;
     case Op::negate: return -a;
+    case Op::absolute: return std::abs(a);
     case Op::multiply_add: {
       const T product = a * b;
       return fused ? std::fma(a, b, c) : product + c;
@@ -134,6 +135,8 @@ int Graph::fold(Op op, int a, int b, int c) {
       return a == b ? constant(1) : -1;
     case Op::negate:
       return nodes_[a].op == Op::negate ? nodes_[a].a : -1;
+    case Op::absolute:
+      return nodes_[a].op == Op::absolute ? a : -1;
     case Op::multiply_add: return fold_multiply_add(a, b, c);
     case Op::multiply_subtract: return fold_multiply_subtract(a, b, c);
     default: return fold_condition(op, a, b, c);

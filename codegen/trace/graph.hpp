@@ -11,12 +11,12 @@
 namespace lqg::trace {
 
 enum class Op {
-  constant, input, add, subtract, multiply, divide, negate,
+  constant, input, add, subtract, multiply, divide, negate, absolute,
   multiply_add,       // a b + c
   multiply_subtract,  // c − a b
   select,             // a ? b : c
   finite, less, either, both, negation,  // conditions
-  usable,             // a finite and b positive
+  usable,             // a finite and b positive, in one comparison
   flag,               // a status, by its name in C; select chooses between statuses too
   same,               // a == b, of statuses
 };

@@ -133,6 +133,7 @@ std::string Printer::print_operation(int node, int level) const {
     case Op::multiply: return binary(" * ", product);
     case Op::divide: return binary(" / ", product);
     case Op::negate: return bracketed("-" + print(at.a, unary + 1), unary, level);
+    case Op::absolute: return (graph_.target().is_double ? "fabs(" : "fabsf(") + print(at.a, any) + ")";
     case Op::multiply_add:
     case Op::multiply_subtract: return print_multiply_add(at, level);
     case Op::select:
@@ -196,7 +197,7 @@ Operations Printer::operations() const {
   for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
     if (!needs(node)) continue;
     switch (graph_.nodes()[static_cast<std::size_t>(node)].op) {
-      case Op::add: case Op::subtract: case Op::finite: ++count.additions; break;
+      case Op::add: case Op::subtract: case Op::absolute: case Op::finite: ++count.additions; break;
       case Op::multiply: ++count.multiplications; break;
       case Op::multiply_add: case Op::multiply_subtract: ++count.multiply_adds; break;
       case Op::divide: ++count.divisions; break;

@@ -50,7 +50,7 @@ Operation random_operation(Random& random, const Program& program) {
     case 2: case 3: return {Op::subtract, number(), number()};
     case 4: case 5: return {Op::multiply, number(), number()};
     case 6: return {Op::divide, number(), number()};
-    case 7: return {Op::negate, number()};
+    case 7: return {random.one_in(2) ? Op::negate : Op::absolute, number()};
     case 8: case 9: return {Op::multiply_add, number(), number(), number()};
     case 10: case 11: return {Op::multiply_subtract, number(), number(), number()};
     default: break;
@@ -76,6 +76,7 @@ T apply_to(Op op, bool fused, T a, T b, T c) {
     case Op::multiply: return product;
     case Op::divide: return a / b;
     case Op::negate: return -a;
+    case Op::absolute: return std::abs(a);
     case Op::multiply_add: return fused ? std::fma(a, b, c) : product + c;
     case Op::multiply_subtract: return fused ? std::fma(-a, b, c) : c - product;
     case Op::select: return a != 0 ? b : c;

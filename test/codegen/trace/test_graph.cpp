@@ -114,6 +114,8 @@ void test_a_value_with_itself_is_folded() {
   TEST_ASSERT_TRUE(graph.is_constant(graph.make(Op::subtract, x, x), 0));
   TEST_ASSERT_TRUE(graph.is_constant(graph.make(Op::divide, x, x), 1));
   TEST_ASSERT_EQUAL_INT(x, graph.make(Op::negate, graph.make(Op::negate, x)));
+  const int size = graph.make(Op::absolute, x);
+  TEST_ASSERT_EQUAL_INT(size, graph.make(Op::absolute, size));
   TEST_ASSERT_EQUAL_INT(x, graph.make(Op::select, low, x, x));
   TEST_ASSERT_EQUAL_INT(low, graph.make(Op::either, low, low));
   TEST_ASSERT_EQUAL_INT(low, graph.make(Op::negation, graph.make(Op::negation, low)));
