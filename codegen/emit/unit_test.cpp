@@ -102,7 +102,9 @@ std::string sample(const Controller& controller, const std::string& after_update
       controller.has_regulator() ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, u){limited});\n" : "";
   const std::string predict = controller.nu() ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
                                               : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
-  return reference + (controller.is_predictor() ? control + update : update + control) + after_update + after_control +
+  const std::string recorded = controller.has_feedthrough() && controller.has_regulator()
+                                   ? "        memcpy(self.u_applied, u_out[k], sizeof self.u_applied);  /* what acts on these outputs */\n" : "";
+  return reference + (controller.is_predictor() ? control + recorded + update : update + control) + after_update + after_control +
          predict;
 }
 

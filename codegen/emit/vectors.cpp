@@ -70,6 +70,8 @@ void replay(const Timeline<S>& models, const std::vector<Sample>& inputs, Hear h
       if (model.K.rows()) u = step::control(model, state, listener);
     };
     if (model.predictor_form) act();
+    // These outputs are those of the recorded u. With a D they would drive away an estimate that thinks of its own.
+    if (model.predictor_form && step::has_feedthrough(model)) state.u = vector_of<S>(inputs[k].u);
     step::update(model, state, vector_of<S>(inputs[k].y), listener);
     if (!model.predictor_form) act();
     hear(state, u);
