@@ -1,6 +1,7 @@
 /* The Kalman filter that carries the covariance P of its error, as a lower triangle. */
 #include "kernel.h"
 #include "plant.h"
+#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -11,10 +12,16 @@ void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_r
     copy(P, kalman->P0, LQG_TRIANGLE(kalman->plant.nx));
 }
 
-static lqg_status reset_unless_finite(const lqg_kalman_plain_t *kalman, lqg_real sum, lqg_real x[],
-                                      lqg_real P[], lqg_real u_applied[], lqg_real innovation[])
+/* `diagonal`: P is looked at, too. What is beyond its bounds elsewhere is on the diagonal one sample later. */
+static lqg_status reset_unless_bounded(const lqg_kalman_plain_t *kalman, int diagonal, lqg_real x[],
+                                       lqg_real P[], lqg_real u_applied[], lqg_real innovation[])
 {
-    if (is_finite(sum))
+    total_t total = {0, 0};
+
+    lqg_total_add(&total, x, kalman->x_scale, kalman->plant.nx);
+    for (unsigned i = 0; diagonal && i < kalman->plant.nx; i++)
+        lqg_total_add_variance(&total, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
+    if (is_within_bounds(&total))
         return LQG_OK;
 
     lqg_kalman_plain_init(kalman, x, P, u_applied, innovation);
@@ -49,10 +56,12 @@ static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lq
         f[j] = symmetric_row_product(P, j, nx, c);
     const lqg_real s = add_row_product(kalman->V[i], c, 0, nx, f);
 
-    const lqg_real innovation = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
-    const lqg_status left_out = !is_finite(innovation) ? LQG_OUTPUT_NOT_FINITE
-                                : !(s > 0)             ? LQG_INNOVATION_NOT_POSITIVE
-                                                       : LQG_OK;
+    const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
+    const int believable = is_believable(measured, kalman->innovation_limit, i);
+    const lqg_real innovation = believable ? measured : 0;
+    const lqg_status left_out = !believable ? LQG_OUTPUT_NOT_FINITE
+                                : !(s > 0)  ? LQG_INNOVATION_NOT_POSITIVE
+                                            : LQG_OK;
     const lqg_status watched = lqg_watch_output(watch, i, innovation, s);
     const int usable = !left_out && !watched;
     const lqg_real nu = usable ? innovation : 0;
@@ -94,7 +103,7 @@ lqg_status lqg_kalman_plain_update_watched(const lqg_kalman_plain_t *kalman, lqg
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);
 
-    return status | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, P, u_applied, innovation);
+    return status | reset_unless_bounded(kalman, 0, x, P, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
@@ -107,7 +116,7 @@ lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_
     const lqg_status left_out = update_output(kalman, i, x, P, u_applied, alone, watch, work);
     if (kalman->M)
         innovation[i] = left_out ? 0 : lqg_plant_innovation(plant, i, x, u_applied, alone);
-    return left_out | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, P, u_applied, innovation);
+    return left_out | reset_unless_bounded(kalman, 0, x, P, u_applied, innovation);
 }
 
 /* P ← A P Aᵀ + W. AP[nx × nx] is scratch. */
@@ -129,15 +138,9 @@ lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x
                                     lqg_real u_applied[], lqg_real innovation[], const lqg_real u[],
                                     lqg_real work[])
 {
-    const unsigned nx = kalman->plant.nx;
-
     lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
     predict_covariance(kalman, P, work);
-
-    lqg_real sum = add_all(0, x, nx);
-    for (unsigned i = 0; i < nx; i++) /* what is not finite elsewhere is on the diagonal one sample later */
-        sum += P[LQG_TRIANGLE(i) + i];
-    return reset_unless_finite(kalman, sum, x, P, u_applied, innovation);
+    return reset_unless_bounded(kalman, 1, x, P, u_applied, innovation);
 }
 
 LQG_STRICT_END

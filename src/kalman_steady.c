@@ -1,6 +1,7 @@
 /* The Kalman filter with constant gain. */
 #include "kernel.h"
 #include "plant.h"
+#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -10,11 +11,13 @@ void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg
     lqg_plant_begin(&kalman->plant, kalman->x0, x, u_applied, innovation);
 }
 
-static lqg_status reset_unless_finite(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
-                                      lqg_real innovation[])
+static lqg_status reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
+                                       lqg_real innovation[])
 {
-    LQG_STRICT_BODY
-    if (is_finite(add_all(0, x, kalman->plant.nx)))
+    total_t total = {0, 0};
+
+    lqg_total_add(&total, x, kalman->x_scale, kalman->plant.nx);
+    if (is_within_bounds(&total))
         return LQG_OK;
 
     lqg_kalman_steady_init(kalman, x, u_applied, innovation);
@@ -22,11 +25,14 @@ static lqg_status reset_unless_finite(const lqg_kalman_steady_t *kalman, lqg_rea
 }
 
 /* y_i − C_i x̂ − D_i u, 0 where output i is left out: it counts as one that came as expected. */
-static lqg_real innovate(const lqg_plant_t *plant, unsigned i, const lqg_real x[], const lqg_real u_applied[],
-                         lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch, lqg_status *status)
+static lqg_real innovate(const lqg_kalman_steady_t *kalman, unsigned i, const lqg_real x[],
+                         const lqg_real u_applied[], lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch,
+                         lqg_status *status)
 {
-    const lqg_real nu = lqg_plant_innovation(plant, i, x, u_applied, y_i);
-    const lqg_status left_out = (is_finite(nu) ? LQG_OK : LQG_OUTPUT_NOT_FINITE) |
+    const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
+    const int believable = is_believable(measured, kalman->innovation_limit, i);
+    const lqg_real nu = believable ? measured : 0;
+    const lqg_status left_out = (believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) |
                                 (s ? lqg_watch_output(watch, i, nu, s[i]) : LQG_OK);
 
     *status |= left_out;
@@ -48,13 +54,13 @@ lqg_status lqg_kalman_steady_update_watched(const lqg_kalman_steady_t *kalman, l
     lqg_status status = LQG_OK;
 
     for (unsigned i = 0; i < plant->ny; i++)
-        nu[i] = lqg_watch_uses(watch, i) ? innovate(plant, i, x, u_applied, y[i], s, watch, &status) : 0;
+        nu[i] = lqg_watch_uses(watch, i) ? innovate(kalman, i, x, u_applied, y[i], s, watch, &status) : 0;
 
     /* x̂ ← x̂ + L innovation */
     for (unsigned j = 0; j < plant->nx; j++)
         x[j] = add_row_product(x[j], kalman->L, j, plant->ny, nu);
 
-    return status | reset_unless_finite(kalman, x, u_applied, innovation);
+    return status | reset_unless_bounded(kalman, x, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_steady_update_output(const lqg_kalman_steady_t *kalman, lqg_real x[],
@@ -63,21 +69,21 @@ lqg_status lqg_kalman_steady_update_output(const lqg_kalman_steady_t *kalman, lq
 {
     const lqg_plant_t *plant = &kalman->plant;
     lqg_status status = LQG_OK;
-    const lqg_real nu = innovate(plant, i, x, u_applied, y_i, s, watch, &status);
+    const lqg_real nu = innovate(kalman, i, x, u_applied, y_i, s, watch, &status);
 
     for (unsigned j = 0; j < plant->nx; j++)
         x[j] = multiply_add(kalman->L[j * plant->ny + i], nu, x[j]);
     if (kalman->M)
         innovation[i] = nu;
 
-    return status | reset_unless_finite(kalman, x, u_applied, innovation);
+    return status | reset_unless_bounded(kalman, x, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_steady_predict(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
                                      lqg_real innovation[], const lqg_real u[], lqg_real work[])
 {
     lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
-    return reset_unless_finite(kalman, x, u_applied, innovation);
+    return reset_unless_bounded(kalman, x, u_applied, innovation);
 }
 
 LQG_STRICT_END

@@ -1,6 +1,7 @@
 /* The Kalman filter that carries its covariance as P = U diag(d) Uᵀ, U unit upper triangular. */
 #include "factors.h"
 #include "plant.h"
+#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -14,10 +15,20 @@ void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[
     copy(d, kalman->d0, nx);
 }
 
-static lqg_status reset_unless_finite(const lqg_kalman_ud_t *kalman, lqg_real sum, lqg_real x[], lqg_real U[],
-                                      lqg_real d[], lqg_real u_applied[], lqg_real innovation[])
+/* `factors`: U and d are looked at, too. */
+static lqg_status reset_unless_bounded(const lqg_kalman_ud_t *kalman, int factors, lqg_real x[], lqg_real U[],
+                                       lqg_real d[], lqg_real u_applied[], lqg_real innovation[])
 {
-    if (is_finite(sum))
+    LQG_STRICT_BODY
+    total_t total = {0, 0};
+
+    lqg_total_add(&total, x, kalman->x_scale, kalman->plant.nx);
+    for (unsigned i = kalman->plant.nx; factors && i-- > 0;) {
+        lqg_total_add_variance(&total, d[i], kalman->x_scale, i);
+        for (unsigned j = 0; j < i; j++)
+            total.others += U[LQG_STRICT_TRIANGLE(i) + j];
+    }
+    if (is_within_bounds(&total))
         return LQG_OK;
 
     lqg_kalman_ud_init(kalman, x, U, d, u_applied, innovation);
@@ -33,8 +44,10 @@ static lqg_status update_output(const lqg_kalman_ud_t *kalman, unsigned i, lqg_r
     const unsigned nx = kalman->plant.nx;
     const lqg_real *c = kalman->plant.C + i * nx;
 
-    const lqg_real innovation = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
-    lqg_status left_out = is_finite(innovation) ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
+    const int believable = is_believable(measured, kalman->innovation_limit, i);
+    const lqg_real innovation = believable ? measured : 0;
+    lqg_status left_out = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
     if (watch) {
         lqg_factors_project(U, nx, c, 1, f);
         left_out |= lqg_watch_output(watch, i, innovation, lqg_factors_variance(d, nx, f, kalman->V[i]));
@@ -77,7 +90,7 @@ lqg_status lqg_kalman_ud_update_watched(const lqg_kalman_ud_t *kalman, lqg_real 
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);
 
-    return status | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, U, d, u_applied, innovation);
+    return status | reset_unless_bounded(kalman, 0, x, U, d, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[],
@@ -90,7 +103,7 @@ lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x
     const lqg_status left_out = update_output(kalman, i, x, U, d, u_applied, alone, watch, work);
     if (kalman->M)
         innovation[i] = left_out ? 0 : lqg_plant_innovation(plant, i, x, u_applied, alone);
-    return left_out | reset_unless_finite(kalman, add_all(0, x, plant->nx), x, U, d, u_applied, innovation);
+    return left_out | reset_unless_bounded(kalman, 0, x, U, d, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],
@@ -103,8 +116,7 @@ lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lq
     lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
     lqg_factors_predict(U, d, nx, A, kalman->nq, kalman->G, kalman->w, work);
 
-    const lqg_real sum = lqg_factors_sum(add_all(0, x, nx), U, d, nx);
-    return reset_unless_finite(kalman, sum, x, U, d, u_applied, innovation);
+    return reset_unless_bounded(kalman, 1, x, U, d, u_applied, innovation);
 }
 
 LQG_STRICT_END

@@ -7,9 +7,7 @@
 
 #include "lqg/arithmetic.h"
 
-#ifdef LQG_FUSED
 #include <math.h>
-#endif
 
 LQG_STRICT_BEGIN
 
@@ -44,6 +42,21 @@ static inline int is_finite(lqg_real a)
 {
     LQG_STRICT_BODY
     return a - a == 0;
+}
+
+static inline lqg_real absolute(lqg_real a)
+{
+#ifdef LQG_REAL_DOUBLE
+    return fabs(a);
+#else
+    return fabsf(a);
+#endif
+}
+
+/* |a| is below limits_i; where there are no limits, a is finite. */
+static inline int is_believable(lqg_real a, const lqg_real limits[], unsigned i)
+{
+    return limits ? absolute(a) < limits[i] : is_finite(a);
 }
 
 /* sum + Σ_j M_ij v_j for row i of M; M is not looked at when it has no columns. */

@@ -40,7 +40,7 @@ void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[
 /* Output i is to be used. */
 int lqg_watch_uses(const lqg_watch_t *watch, unsigned i);
 
-/* Writes down the innovation of output i and its variance s. LQG_OUTPUT_GATED when the gate leaves it out,
+/* Writes down the innovation of output i, which is 0 if it is not believable, and its variance s. LQG_OUTPUT_GATED when the gate leaves it out,
  * which is counted; an innovation that is not finite passes. */
 lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s);
 

@@ -1,7 +1,7 @@
 /* The control law with a memory. */
 #include "lqg/servo.h"
 
-#include "kernel.h"
+#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -19,7 +19,7 @@ void lqg_servo_observe(const lqg_servo_t *servo, const lqg_real r[], lqg_real er
     LQG_STRICT_BODY
     for (unsigned i = 0; i < servo->nxi; i++) {
         const lqg_real left = r[servo->reference[i]] - y[servo->output[i]];
-        error[i] = is_finite(left) ? left : 0;
+        error[i] = is_believable(left, servo->error_limit, i) ? left : 0;
     }
 }
 
@@ -86,16 +86,16 @@ lqg_status lqg_servo_control(const lqg_servo_t *servo, const lqg_real x[], const
     return status;
 }
 
-/* Begins anew unless ξ and u are finite. */
-static lqg_status reset_unless_finite(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[],
-                                      lqg_real demand[], lqg_real u_applied[], const lqg_real u[])
+/* Begins anew unless ξ is within its bounds and u is finite. */
+static lqg_status reset_unless_bounded(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[],
+                                       lqg_real demand[], lqg_real u_applied[], const lqg_real u[])
 {
-    LQG_STRICT_BODY
-    lqg_real sum = add_all(0, xi, servo->nxi);
+    total_t total = {0, 0};
 
+    lqg_total_add(&total, xi, servo->xi_scale, servo->nxi);
     if (u_applied)
-        sum = add_all(sum, u, servo->nu);
-    if (is_finite(sum))
+        lqg_total_add(&total, u, NULL, servo->nu);
+    if (is_within_bounds(&total))
         return LQG_OK;
 
     lqg_servo_init(servo, xi, error, demand, u_applied);
@@ -126,7 +126,7 @@ lqg_status lqg_servo_advance(const lqg_servo_t *servo, lqg_real xi[], lqg_real e
         copy(demand, u, servo->nu);
     if (u_applied)
         copy(u_applied, u, servo->nu);
-    return reset_unless_finite(servo, xi, error, demand, u_applied, u);
+    return reset_unless_bounded(servo, xi, error, demand, u_applied, u);
 }
 
 lqg_status lqg_servo_set_input(const lqg_servo_t *servo, const lqg_real x[], const lqg_real r[], lqg_real xi[],
@@ -144,7 +144,7 @@ lqg_status lqg_servo_set_input(const lqg_servo_t *servo, const lqg_real x[], con
             xi[i] = conditioned(servo, i, xi, u, demand);
         copy(demand, u, servo->nu);
     }
-    return status | reset_unless_finite(servo, xi, error, demand, u_applied, u);
+    return status | reset_unless_bounded(servo, xi, error, demand, u_applied, u);
 }
 
 LQG_STRICT_END

@@ -4,13 +4,13 @@
 const char *lqg_status_text(lqg_status status)
 {
     if (status & LQG_STATE_RESET)
-        return "the state was not finite and begins anew";
+        return "the state left its bounds and begins anew";
     if (status & LQG_INNOVATION_NOT_POSITIVE)
         return "the variance of an innovation was not positive: the output was left out";
     if (status & LQG_REFERENCE_NOT_FINITE)
         return "a reference was not finite and counted as 0";
     if (status & LQG_OUTPUT_NOT_FINITE)
-        return "an output was not finite and was left out";
+        return "an output was not finite or absurd and was left out";
     if (status & LQG_OUTPUT_GATED)
         return "an output was too unlikely and was left out";
     if (status & LQG_INPUT_LIMITED)

@@ -11,10 +11,9 @@ namespace lqg::emit {
 
 namespace {
 
-// The library restores the filter alone after a fault; the rest is up to us.
+// The library restores the filter alone after a fault; the rest, and counting, is up to us.
 bool needs_reset(const Controller& controller) {
-  if (controller.nxi() > 0 || controller.continues() || controller.keeps_gain_row() || controller.can_set_input()) return true;
-  return controller.has_filter() && (controller.nr() > 0 || controller.keeps_sample() || controller.gates());
+  return controller.has_filter() || controller.nxi() > 0 || controller.continues() || controller.can_set_input();
 }
 
 std::string multiply_add(const Controller& controller, const std::string& a, const std::string& b) {
@@ -90,7 +89,7 @@ std::string init_body(const Controller& controller, const Words& words) {
   if (controller.has_servo()) out += "    lqg_servo_init(&{NAME}_SERVO, {memory});\n";
   if (controller.nr()) out += "    for (int i = 0; i < {NAME}_NR; i++)\n        self->r[i] = 0;\n";
   for (const Field& field : state_fields(controller))
-    if (field.kind == Kind::counter) out += "    self->" + field.name + " = 0;\n";
+    if (field.kind == Kind::counter || field.kind == Kind::total) out += "    self->" + field.name + " = 0;\n";
   if (controller.gates()) out += "    for (int i = 0; i < {NAME}_NY; i++)\n        self->gated[i] = 0;\n";
   return fill(out, words);
 }
@@ -106,7 +105,6 @@ std::string update_body(const Controller& controller, const Words& words) {
   const std::string work = "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
   const std::string call = controller.gates() ? "lqg_kalman_{filter}_update_watched({kalman}, {state}, y, {variances}&watch, work);\n"
                                               : "lqg_kalman_{filter}_update({kalman}, {state}, y, work);\n";
-  if (!needs_reset(controller)) return fill(work + watch(controller) + "\n    return " + call, words);
   return fill(work + gains_of_sample(controller) + watch(controller) + "    const lqg_status status = " + call + "\n" +
                   (controller.nxi() ? "    lqg_servo_observe(&{NAME}_SERVO, self->r, self->error, y);\n" : "") +
                   end(controller), words);
@@ -125,8 +123,8 @@ std::string update_alone_body(const Controller& controller, Words words, int out
          "    const lqg_status status = lqg_kalman_{filter}_update_output({kalman}, {state}, {i}, {y}, {s}{watch}{scratch});\n\n";
   for (int k = 0; k < controller.nxi(); ++k)
     if (controller.integral()[static_cast<std::size_t>(k)] == output)
-      out += fill("    const lqg_real error = self->r[{NAME}_R_{OUTPUT}] - {y};\n    self->error[{k}] = error - error == 0 ? error : 0;\n",
-                  {{"k", std::to_string(k)}, {"OUTPUT", upper(words["y"].substr(2))}, {"NAME", words["NAME"]}, {"y", words["y"]}});
+      out += fill("    const lqg_real error = self->r[{NAME}_R_{OUTPUT}] - {y};\n    self->error[{k}] = error > -{limit} && error < {limit} ? error : 0;\n",
+                  {{"k", std::to_string(k)}, {"limit", trace::literal(controller.bounds.error(k), controller.is_double())}, {"OUTPUT", upper(words["y"].substr(2))}, {"NAME", words["NAME"]}, {"y", words["y"]}});
   return fill("    LQG_STRICT_BODY\n" + out + end(controller), words);
 }
 
@@ -134,7 +132,6 @@ std::string predict_body(const Controller& controller, const Words& words) {
   const std::string work = "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
   const std::string call = "lqg_kalman_{filter}_predict({kalman}, {state}, {u}, work)";
   const std::string counters = advance_counters(controller);
-  if (!needs_reset(controller) && counters.empty()) return fill(work + "\n    return " + call + ";\n", words);
   const bool remembers = controller.nxi() > 0 || controller.continues();
   return fill(work + gains_of_sample(controller) + (remembers ? law_of_sample(controller) : "") +
                   "    lqg_status status = " + call + ";\n\n" +
@@ -186,17 +183,26 @@ std::string act_body(const Controller& controller, const Words& words, std::stri
 }
 
 std::string set_input_body(const Controller& controller, const Words& words) {
+  const bool fills_delay = controller.delayed() && controller.has_filter();
+  const std::string accumulate = !controller.is_fused()   ? "bounded += part * part;"
+                                 : controller.is_double() ? "bounded = fma(part, part, bounded);"
+                                                          : "bounded = fmaf(part, part, bounded);";
   std::string out = "    LQG_STRICT_BODY\n" + std::string(controller.nxi() ? law_of_sample(controller) : "") +
+                    (fills_delay ? "    static const lqg_real bound[{NAME}_NX] = {NAME}_X_BOUNDS;\n    lqg_real bounded = 0;\n" : "") +
                     "    lqg_status status = LQG_OK;\n    lqg_real sum = 0;\n\n" +
                     (controller.has_filter() || controller.nxi() ? "" : "    (void)x;\n") +
                     "    for (int i = 0; i < {NAME}_NU; i++)\n        sum += u[i];\n";
-  if (controller.delayed() && controller.has_filter())
-    out += "    for (int i = 0; i < " + std::to_string(controller.delayed()) + "; i++)\n        self->x[{NAME}_NX - " +
-           std::to_string(controller.delayed()) + " + i] = u[i % {NAME}_NU];\n";
+  if (fills_delay) out += fill(R"(    for (int i = 0; i < {count}; i++) {
+        const int at = {NAME}_NX - {count} + i;
+        const lqg_real part = u[i % {NAME}_NU] / bound[at];
+        {accumulate}
+        self->x[at] = u[i % {NAME}_NU];
+    }
+)", {{"accumulate", accumulate}, {"count", std::to_string(controller.delayed())}, {"NAME", words.at("NAME")}});
   if (controller.keeps_input())
     out += "    for (int i = 0; i < {NAME}_NU; i++)\n        self->u_applied[i] = u[i];\n";
   if (controller.nxi()) out += "    status |= lqg_servo_set_input({servo}, {x}, {r}, {memory}, u);\n";
-  out += "    if (!(sum - sum == 0) || (status & LQG_STATE_RESET))\n        return {name}_reset(self, status);\n"
+  out += "    if (!(sum - sum == 0" + std::string(fills_delay ? " && bounded < 1" : "") + ") || (status & LQG_STATE_RESET))\n        return {name}_reset(self, status);\n"
          "    return status;\n";
   return fill(out, words);
 }

@@ -61,6 +61,26 @@ std::string plant_fields(const Controller& controller, const design::SampledPlan
          "},  /* nx, nu, ny, A, B, C, D */\n";
 }
 
+// Numbers that are in no matrix of the design.
+std::string numbers(const std::string& suffix, const std::vector<double>& values, Tables& tables) {
+  RealMatrix row(1, static_cast<Eigen::Index>(values.size()));
+  for (Eigen::Index i = 0; i < row.size(); ++i) row(0, i) = values[static_cast<std::size_t>(i)];
+  return tables.add(suffix, row);
+}
+
+// 1/b of bounds b = 2^exponents.
+std::vector<double> inverse_powers(std::vector<int> exponents) {
+  for (int& exponent : exponents) exponent = -exponent;
+  return powers_of_two(exponents);
+}
+
+std::string bound_fields(const Controller& controller, Tables& tables) {
+  const Eigen::VectorXd& limits = controller.bounds.innovation;
+  return "    " + fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
+                            numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables)}) +
+         "  /* x_scale, innovation_limit */\n";
+}
+
 std::string initial_state(const Controller& controller, Tables& tables) {
   const Eigen::VectorXd x0 = controller.x0();
   RealMatrix row(1, x0.size());
@@ -82,7 +102,7 @@ std::string steady_fields(const Controller& controller, const design::SampledPla
   if (controller.gates()) tables.add("S", stacked(controller.filters, 2));
   return out + "    " + fields({tables.add("L", stacked(controller.filters, 0)),
                                 controller.keeps_innovation() ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
-                                initial_state(controller, tables)}) + "  /* L, M, x0 */\n";
+                                initial_state(controller, tables)}) + ",  /* L, M, x0 */\n" + bound_fields(controller, tables);
 }
 
 std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
@@ -100,13 +120,14 @@ std::string online_fields(const Controller& controller, const design::SampledPla
     out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
     add_rest();
     return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(first.P0))}) +
-           "  /* x0, P0 */\n";
+           ",  /* x0, P0 */\n" + bound_fields(controller, tables);
   }
   out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
          ",  /* nq, G, w */\n";
   add_rest();
   return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
-                                tables.add("D0", as_row(first.D0))}) + "  /* x0, U0, d0 */\n";
+                                tables.add("D0", as_row(first.D0))}) + ",  /* x0, U0, d0 */\n" +
+         bound_fields(controller, tables);
 }
 
 // The limits of the file; nothing is defined for those that no input has.
@@ -201,14 +222,17 @@ std::string servo_constants(const Controller& controller) {
   const std::string output = index_array(SERVO + "_OUTPUT", model.integral, tables.text);
   const std::string wanted = index_array(SERVO + "_REFERENCE", model.wanted, tables.text);
   const auto [u_min, u_max] = limits_fields(controller, tables);
+  const Eigen::VectorXd& error = controller.bounds.error;
+  const std::string xi_scale = numbers("XI_SCALE", inverse_powers(controller.bounds.xi), tables);
+  const std::string error_limit = numbers("ERROR_LIMIT", {error.data(), error.data() + error.size()}, tables);
   const std::string u_step =
       controller.has_rate_limit() ? tables.add("U_STEP", limits_row(rate_steps(controller), -1, is_double)) : "NULL";
   return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
          fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.nr()), std::to_string(controller.nxi()),
                  controller.gives_change() ? "1" : "0", NAME + "_SAMPLE_TIME"}) +
          ",  /* nx, nu, nr, nxi, gives_change, T */\n    " + fields({K, Nbar, H, output, wanted}) +
-         ",  /* K, Nbar, H, output, reference */\n    " + fields({u_min, u_max, u_step}) +
-         "  /* u_min, u_max, u_step */\n};\n";
+         ",  /* K, Nbar, H, output, reference */\n    " + fields({u_min, u_max, u_step, xi_scale, error_limit}) +
+         "  /* u_min, u_max, u_step, xi_scale, error_limit */\n};\n";
 }
 
 }  // namespace lqg::emit

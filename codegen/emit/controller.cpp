@@ -1,12 +1,14 @@
 #include "emit/controller.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "design/reference.hpp"
 #include "emit/figures.hpp"
 #include "emit/gains.hpp"
 #include "emit/model_of.hpp"
 #include "emit/realisation.hpp"
+#include "emit/text.hpp"
 
 namespace lqg::emit {
 
@@ -111,6 +113,23 @@ void check_emittable(const Controller& controller, design::Findings& findings) {
     refuse("kalman.gate", "expected 0: there is no variance of the innovations to compare with");
 }
 
+// A start that the bounds, which cannot be wider than the target's squares, would not let be.
+void check_start(const Controller& controller, design::Findings& findings) {
+  constexpr int bits_to_bound = 4;
+  const auto check = [&](const char* key, const char* what, int i, double size) {
+    const double most = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound);
+    if (size >= most)
+      findings.push_back({design::Severity::error, key,
+                          std::string("expected ") + what + " below " + rounded(most) + ", found " + rounded(size) + " for " +
+                              controller.problem.plant.states[static_cast<std::size_t>(i)].name +
+                              ": its square has to be a number of the target; choose a larger unit, or double"});
+  };
+  for (int i = 0; i < controller.problem.estimator->P0.rows(); ++i) {
+    check("kalman.initial_state", "values", i, std::abs(controller.x0()(i)));
+    check("kalman.initial_covariance", "standard deviations", i, std::sqrt(controller.problem.estimator->P0(i, i)));
+  }
+}
+
 design::Style style_of(const Controller& controller, const Figures& unrolled, const Figures& compact) {
   const design::Code& code = controller.problem.code;
   if (code.style != design::Style::automatic) return code.style;
@@ -134,13 +153,17 @@ void choose_style(Controller& controller) {
 
 std::optional<Controller> make_controller(design::Problem problem, design::Solution solution, Source source,
                                           design::Findings& findings) {
-  Controller controller{std::move(problem), std::move(solution), std::move(source), {}, {}, {}, {}, {}, {}};
+  Controller controller{std::move(problem), std::move(solution), std::move(source), {}, {}, {}, {}, {}, {}, {}};
   check_emittable(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
+  controller.bounds = bounds_of(controller);
+  if (controller.has_filter()) check_start(controller, findings);
+  if (design::has_error(findings)) return std::nullopt;
   const design::Code& code = controller.problem.code;
   if (!choose_realisation(controller, findings)) return std::nullopt;
+  if (controller.linear) controller.bounds = {};  // they are of x̂; z has to be finite
   choose_style(controller);
   if (controller.figures.flash > code.flash) {
     findings.push_back({code.style == design::Style::automatic ? design::Severity::error : design::Severity::note,

@@ -7,6 +7,7 @@
 
 #include "design/linear_form.hpp"
 #include "design/solution.hpp"
+#include "emit/bounds.hpp"
 #include "step/model.hpp"
 
 namespace lqg::emit {
@@ -47,6 +48,7 @@ struct Controller {
   Figures figures;
   std::vector<Gains> laws;     // of sample 0, 1, …; the last one is held. One only: it is constant. Empty: no regulator
   std::vector<Gains> filters;  // likewise; empty without a filter of given gains
+  Bounds bounds;
   std::optional<design::LinearForm> linear;   // the controller keeps z of this form; else it keeps x̂
   std::optional<Realisations> realisations;   // among which it was chosen
 

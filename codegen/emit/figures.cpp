@@ -21,8 +21,8 @@ struct Rates {
   long steady_code, plain_code, ud_code;                  // bytes of this library's loops, the control law among them
   long steady_frame, plain_frame, ud_frame;               // bytes of their stack without work[]
 };
-constexpr Rates rates_of_float = {-24, 4, 10, 5, 11, 0, 0, 1370, 2400, 2740, 144, 198, 214};
-constexpr Rates rates_of_double = {-60, 13, 20, 15, 12, 1780, 480, 3930, 5250, 5680, 200, 272, 308};
+constexpr Rates rates_of_float = {-24, 4, 10, 5, 11, 0, 0, 1650, 2690, 2970, 164, 214, 224};
+constexpr Rates rates_of_double = {-60, 13, 20, 15, 12, 1780, 480, 4210, 5550, 5980, 220, 288, 318};
 
 // Of the FPU: half of them are free to use, what a function uses of the others it saves on the stack.
 constexpr long registers = 32;
@@ -116,6 +116,7 @@ long filter_constants(const Controller& controller) {
   const long nx = controller.nx(), nu = controller.nu(), ny = controller.ny();
   const long stages = static_cast<long>(controller.stage_starts().size());
   long numbers = stages * (nx * nx + nx * nu + ny * nx + (controller.has_feedthrough() ? ny * nu : 0));
+  numbers += nx + ny;  // the bounds
   if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
   if (controller.filter() == step::Filter::steady) return numbers + numbers_of(controller.filters);
   const design::OnlineSolution& online = *controller.solution.online;
@@ -142,19 +143,19 @@ long online_cost(const Controller& controller) {
 long filter_cost(const Controller& controller) {
   const long nx = controller.nx(), ny = controller.ny();
   const long state = nx * (nx + controller.nu() + (controller.keeps_innovation() ? ny : 0));
-  const long checks = 2 * (nx + 1);  // of the state, after update and after predict
+  const long checks = 2 * (2 * nx + 2);  // of the state, after update and after predict
   const long innovations = ny * innovation_cost(controller);
   const long common = state + checks + innovations;
   switch (controller.filter()) {
     case step::Filter::steady: return common + nx * ny;
     case step::Filter::plain:
       return common + online_cost(controller) + ny * (nx * nx + 3 * nx + triangle(nx) + 1) + nx * nx * nx +
-             nx * triangle(nx) + nx;
+             nx * triangle(nx) + 4 * nx;
     case step::Filter::ud: {
       const long columns = nx + controller.solution.online->G.cols(), strict = triangle(nx - 1);
       const long factors = 3 * strict + 8 * nx + 1;
       return common + online_cost(controller) + ny * factors + nx * strict + 2 * nx * (columns + 1) +
-             strict * (2 * columns + 1) + triangle(nx);
+             strict * (2 * columns + 1) + strict + 4 * nx;
     }
     default: return 0;
   }

@@ -28,7 +28,7 @@ Words update_words(const Controller& controller) {
   Words words = common_words(controller);
   const std::string gate = controller.gates() ? ", or is further than " + rounded(controller.problem.estimator->gate) +
                                                     " σ from what is expected," : "";
-  words["unusable"] = "that is not finite" + gate;
+  words["unusable"] = "that is not believable (not finite, or absurd)" + gate;
   words["gated"] = controller.gates() ? " LQG_OUTPUT_GATED," : "";
   words["not_positive"] = controller.filter() == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : "";
   words["gain"] = controller.filter() == step::Filter::steady ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P";
@@ -218,6 +218,10 @@ std::string reset_function(const Controller& controller) {
     keep += "    const unsigned sample = self->sample;\n";
     restore += "    self->sample = sample;\n";
   }
+  if (controller.has_filter()) {
+    keep += "    const unsigned long resets = self->resets + 1;\n";
+    restore += "    self->resets = resets;\n";
+  }
   if (controller.gates()) {
     keep += "    unsigned long gated[{NAME}_NY];\n";
     restore += "    for (int i = 0; i < {NAME}_NY; i++)\n        self->gated[i] = gated[i];\n";
@@ -230,11 +234,13 @@ std::string reset_function(const Controller& controller) {
   words["restore"] = fill(restore, words);
   std::string kept;
   for (const auto& [is_kept, what] : {std::pair(controller.nr() > 0, "r"), std::pair(controller.keeps_sample(), "the time"),
-                                      std::pair(controller.gates(), "what was counted")})
+                                      std::pair(controller.has_filter(), "what was counted")})
     if (is_kept) kept += std::string(kept.empty() ? ", but for " : " and ") + what;
   words["but"] = kept;
+  words["counts"] = controller.has_filter() ? ", and counts it" : "";
+  words["within"] = controller.bounds.x.empty() ? "finite" : "within its bounds";
   return fill(R"(
-/* Begins anew{but}: the state was not finite. */
+/* Begins anew{but}{counts}: the state was not {within}. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
@@ -246,31 +252,33 @@ static lqg_status {name}_reset({name}_t *self, lqg_status status)
 )", words);
 }
 
-std::string set_state_function(const Controller& controller, const Bodies& bodies) {
+std::string set_state_function(const Controller& controller) {
   Words words = common_words(controller);
   words["covariance"] = controller.filter() == step::Filter::steady ? "" : "; its covariance stays";
   words["then"] = fill(controller.can_set_input() ? " {name}_set_input may follow." : "", words);
   words["forget"] = fill(controller.keeps_innovation() ? "    for (int i = 0; i < {NAME}_NY; i++)\n        self->innovation[i] = 0;\n" : "", words);
-  words["reset"] = fill(bodies.resets ? "    return {name}_reset(self, LQG_OK);\n"
-                                      : "    {name}_init(self);\n    return LQG_STATE_RESET;\n", words);
   return fill(R"(
 /* x̂ ← x, by hand{covariance}.{then}
  *
  * x  in: the state, in its units
  *
- * Status: LQG_STATE_RESET, when x is not finite. */
+ * Status: LQG_STATE_RESET, when x is not within {NAME}_X_BOUNDS. */
 static inline lqg_status {name}_set_state({name}_t *self, const {real} x[{NAME}_NX])
 {
     LQG_STRICT_BODY
-    {real} sum = 0;
+    static const {real} bound[{NAME}_NX] = {NAME}_X_BOUNDS;
+    {real} sum = 0;  /* Σ (x/bound)² */
 
     for (int i = 0; i < {NAME}_NX; i++) {
-        sum += x[i];
+        const {real} part = x[i] / bound[i];
+        const {real} square = part * part;
+        sum += square;
         self->x[i] = x[i];
     }
-{forget}    if (sum - sum == 0)
+{forget}    if (sum < 1)
         return LQG_OK;
-{reset}}
+    return {name}_reset(self, LQG_OK);
+}
 )", words);
 }
 
@@ -309,7 +317,7 @@ std::string functions(const Controller& controller, const Bodies& bodies) {
   if (controller.has_filter())
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
            update_alone_functions(controller, bodies) + (controller.has_stages() ? "" : innovation_function(controller)) +
-           set_state_function(controller, bodies);
+           set_state_function(controller);
   if (controller.can_set_input()) out += set_input_function(controller, bodies);
   return out;
 }

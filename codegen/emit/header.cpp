@@ -28,6 +28,17 @@ std::string width_of_double(const Controller& controller) {
 )", {{"name", controller.problem.name}});
 }
 
+// A macro, because it is a list that any array may begin with.
+std::string bounds(const Controller& controller) {
+  std::string values;
+  for (const double bound : powers_of_two(controller.bounds.x))
+    values += (values.empty() ? "" : ", ") + trace::literal(bound, controller.is_double());
+  std::string out;
+  for (const char c : trace::wrap(fill("#define {NAME}_X_BOUNDS {", common_words(controller)) + values + "}", 4, 98))
+    out += c == '\n' ? std::string(" \\\n") : std::string(1, c);
+  return out + "  /* x̂ stays below them in size, or begins anew */\n";
+}
+
 std::string dimensions(const Controller& controller) {
   const Words words = common_words(controller);
   std::string out = fill("\n#define {NAME}_NX {nx}  /* states */\n", words);
@@ -35,6 +46,7 @@ std::string dimensions(const Controller& controller) {
   if (controller.has_filter()) out += fill("#define {NAME}_NY {ny}  /* outputs */\n", words);
   if (controller.linear) out += fill("#define {NAME}_NZ {nz}  /* numbers that stand for them */\n", words);
   if (controller.nr()) out += fill("#define {NAME}_NR {nr}  /* references */\n", words);
+  if (!controller.bounds.x.empty()) out += bounds(controller);
   return out + fill("#define {NAME}_SAMPLE_TIME ", words) +
          trace::literal(controller.problem.plant.sample_time, controller.is_double()) + "  /* s between two samples */\n";
 }

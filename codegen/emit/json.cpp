@@ -25,6 +25,8 @@ Json rows(const design::RealMatrix& matrix) {
   return out;
 }
 
+std::vector<double> numbers(const Eigen::VectorXd& vector) { return {vector.begin(), vector.end()}; }
+
 Json poles(const design::Poles& poles) {
   Json out = Json::array();
   for (const std::complex<double>& pole : poles) out.push_back({pole.real(), pole.imag()});
@@ -191,6 +193,12 @@ Json compensator(const design::LinearForm& form) {
   return out;
 }
 
+Json bounds(const Bounds& bounds) {
+  Json out = {{"x", powers_of_two(bounds.x)}, {"innovation", numbers(bounds.innovation)}};
+  if (!bounds.xi.empty()) out["xi"] = powers_of_two(bounds.xi), out["error"] = numbers(bounds.error);
+  return out;
+}
+
 Json code(const Controller& controller) {
   Json out = {{"real", controller.is_double() ? "double" : "float"},
               {"arithmetic", controller.is_fused() ? "fused" : "plain"},
@@ -226,6 +234,7 @@ std::string json(const Controller& controller) {
   if (controller.linear) out["compensator"] = compensator(*controller.linear);
   out["loop"] = loop(solution.loop);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
+  if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller.bounds);
   out["code"] = code(controller);
   return out.dump(2) + "\n";
 }

@@ -77,7 +77,7 @@ static inline lqg_status {name}_advance({name}_t *self)
 std::string all_outputs_are_finite(const Controller& controller) {
   std::string out, last = "y[0]";
   for (int i = 1; i < controller.ny(); ++i) {
-    const std::string sum = "sum_" + std::to_string(i);
+    const std::string sum = "others_" + std::to_string(i);
     out += fill("    const {real} " + sum + " = " + last + " + y[" + std::to_string(i) + "];\n", common_words(controller));
     last = sum;
   }

@@ -101,6 +101,8 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
   for (const int output : model.integral)
     model.wanted.push_back(static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));
   model.T = round(design::Real(controller.problem.plant.sample_time));
+  model.xi_bound = controller.bounds.xi;
+  model.error_limit = controller.bounds.error.template cast<S>();
   if (controller.has_filter() || model.integral.empty()) return;
   model.C = convert<S>(controller.solution.plant.C, round);
   if (!is_zero(controller.solution.plant.D)) model.D = convert<S>(controller.solution.plant.D, round);
@@ -125,6 +127,8 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
     const Eigen::VectorXd x0 = controller.x0();
     model.x0.resize(model.nx);
     for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
+    model.x_bound = controller.bounds.x;
+    model.nu_limit = controller.bounds.innovation.template cast<S>();
     if (controller.gates()) model.gate = round(design::Real(controller.problem.estimator->gate));
     if (solution.online) convert_online(controller, round, sample, model);
     else convert_steady(controller, round, sample, model);

@@ -124,6 +124,19 @@ std::string gain_in_words(const Controller& controller) {
   return "with its constant gain; of samples:\n";
 }
 
+template <class Values>
+std::string bounds_line(const std::string& what, const Values& values) {
+  std::string list;
+  for (const double value : values) list += (list.empty() ? "" : ", ") + rounded(value);
+  return " *   " + as_comment(trace::wrap(what + list, 0, 96)) + "\n";
+}
+
+std::string bounds(const Controller& controller) {
+  if (controller.bounds.x.empty()) return "";
+  return bounds_line("x̂ begins anew when it reaches, in size: ", powers_of_two(controller.bounds.x)) +
+         bounds_line("an innovation is not believed from, in size: ", controller.bounds.innovation);
+}
+
 std::string estimator(const Controller& controller) {
   if (!controller.has_filter()) return "";
   const bool is_double = controller.is_double(), is_observer = controller.problem.estimator->poles.has_value();
@@ -131,13 +144,13 @@ std::string estimator(const Controller& controller) {
   out += controller.is_predictor() ? "predictor form (u[k] is made of the outputs up to y[k−1])"
                                    : "filter form (u[k] is made of the outputs up to y[k])";
   out += ",\n * " + gain_in_words(controller) + " *\n";
-  if (!controller.solution.estimator || is_observer) return out + gains(controller);
+  if (!controller.solution.estimator || is_observer) return out + gains(controller) + bounds(controller);
   const design::SampledNoise& noise = controller.solution.estimator->noise;
   out += matrix_comment("G", controller.solution.plant.G, is_double);
   out += matrix_comment("W = E[w wᵀ]", noise.W, is_double);
   out += matrix_comment("V = E[v vᵀ]", noise.V, is_double);
   if (!is_zero(noise.Swv)) out += matrix_comment("E[w vᵀ]", noise.Swv, is_double);
-  return out + gains(controller);
+  return out + gains(controller) + bounds(controller);
 }
 
 std::string loop(const Controller& controller) {

@@ -48,8 +48,10 @@ void add_linear_state(const Controller& controller, Fields& fields) {
 
 std::vector<Field> state_fields(const Controller& controller) {
   Fields fields;
+  const Field resets = {"resets", Kind::total, 1, "", "how often it began anew, since init; after ULONG_MAX comes 0", {}};
   if (controller.linear) {
     add_linear_state(controller, fields);
+    fields.push_back(resets);
     return fields;
   }
   if (controller.has_filter()) add_estimate(controller, fields);
@@ -62,6 +64,7 @@ std::vector<Field> state_fields(const Controller& controller) {
     fields.push_back({"sample", Kind::counter, 1, "", "how many samples are over; stops with the last that has gains of its own", {}});
   if (controller.keeps_gain_row())
     fields.push_back({"gain_row", Kind::counter, 1, "", "the same for the filter's gains; 0 after a reset", {}});
+  if (controller.has_filter()) fields.push_back(resets);
   if (controller.gates())
     fields.push_back({"gated", Kind::counters, controller.ny(), "{NAME}_NY", "how often the gate left an output out", {}});
   return fields;
@@ -70,6 +73,7 @@ std::vector<Field> state_fields(const Controller& controller) {
 std::string declaration(const Field& field) {
   switch (field.kind) {
     case Kind::counter: return "unsigned " + field.name;
+    case Kind::total: return "unsigned long " + field.name;
     case Kind::counters: return "unsigned long " + field.name + "[" + field.dimension + "]";
     default: return "{real} " + field.name + "[" + field.dimension + "]";
   }

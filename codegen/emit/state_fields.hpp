@@ -8,7 +8,8 @@
 
 namespace lqg::emit {
 
-enum class Kind { reals, counter, counters };  // counters: an array of unsigned long
+// counter: unsigned; total: unsigned long; counters: an array of them
+enum class Kind { reals, counter, total, counters };
 
 struct Field {
   std::string name;

@@ -87,7 +87,8 @@ std::string initial_state(const Controller& controller) {
   std::string values;
   for (const Field& field : fields) {
     const std::vector<double> zeros(static_cast<std::size_t>(field.count), 0);
-    const std::string value = field.kind == Kind::counter    ? "0"
+    const bool is_number = field.kind == Kind::counter || field.kind == Kind::total;
+    const std::string value = is_number                      ? "0"
                               : field.kind == Kind::counters ? "{0}"
                                                              : initializer(field.initial.empty() ? zeros : field.initial,
                                                                            controller.is_double());
@@ -102,7 +103,7 @@ std::string initial_state(const Controller& controller) {
 
 Bodies straight_line_bodies(const Controller& controller) {
   Bodies bodies;
-  bodies.includes = std::string(controller.is_fused() ? "#include <math.h>\n\n" : "") +
+  bodies.includes = std::string(controller.is_fused() || controller.has_filter() ? "#include <math.h>\n\n" : "") +
                     "#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
   bodies.options = R"(#if defined __GNUC__ && !defined __clang__
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter")  /* as written: few values wait in registers */

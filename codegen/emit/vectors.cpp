@@ -18,7 +18,7 @@ using design::Real;
 using step::Fused;
 using step::Vector;
 
-constexpr double far_away = 1e18;  // a plant that nobody stabilises has left by then: the vectors end
+constexpr int bits_to_bound = 8;  // a plant that nobody stabilises leaves: the vectors end 2⁸ before a bound
 
 // P, lower triangle, of either covariance form; empty with a steady gain.
 template <class S>
@@ -94,6 +94,12 @@ void add_outlier(std::size_t sample, std::vector<double>& y) {
   if (sample % every == 0) y[sample / every % y.size()] = 1024;
 }
 
+bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (!(std::abs(x(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound))) return false;
+  return true;
+}
+
 // The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
 template <class S>
 std::vector<Sample> simulate(const Controller& controller, const Timeline<S>& models) {
@@ -102,7 +108,7 @@ std::vector<Sample> simulate(const Controller& controller, const Timeline<S>& mo
   step::State<S> state = step::initial_state(models.at(0));
   Vector<double> applied = Vector<double>::Zero(controller.nu());
   std::vector<Sample> samples;
-  while (samples.size() < sample_count && plant.state().cwiseAbs().maxCoeff() < far_away) {
+  while (samples.size() < sample_count && is_near(controller, plant.state())) {
     const step::Model<S>& model = models.at(samples.size());
     step::Listener listener;
     Sample& sample = samples.emplace_back();

@@ -13,10 +13,11 @@ auto update_online_output(const Model<S>& model, State<S>& state, const S& y, in
 }
 
 template <class S, class Listener>
-auto has_finite_estimate(const Model<S>& model, const State<S>& state, Listener& listener) {
+auto has_bounded_estimate(const Model<S>& model, const State<S>& state, Listener& listener) {
+  listener.section("Σ x̂² in units of a bound");
   Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(state.x(j), listener);
-  return is_finite(total.sum);
+  for (int j = 0; j < model.nx; ++j) total.add(S(state.x(j)), model.x_bound, j, listener);
+  return total.is_within();
 }
 
 // One output after the other.
@@ -26,7 +27,7 @@ auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& meas
   std::vector<decltype(is_finite(y(0)))> usable;
   for (int i = 0; i < model.ny; ++i) usable.push_back(update_online_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
-  return has_finite_estimate(model, state, listener);
+  return has_bounded_estimate(model, state, listener);
 }
 
 // The same of output i alone: as if the others were not there.
@@ -34,7 +35,7 @@ template <class S, class Listener>
 auto update_online_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   auto usable = update_online_output(model, state, y, i, listener);
   keep_residual_alone(model, state, y, usable, i, listener);
-  return has_finite_estimate(model, state, listener);
+  return has_bounded_estimate(model, state, listener);
 }
 
 }  // namespace lqg::step

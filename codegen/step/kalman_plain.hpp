@@ -25,7 +25,9 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
                                   : "innovation = y − C x̂; a gain of 0 leaves the output out", i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
-  auto usable = listener.accept(is_usable(nu, variance), is_finite(nu), Event::innovation_not_positive,
+  auto believable = is_believable(model.nu_limit, i, nu);
+  listener.name(believable, "believable");
+  auto usable = listener.accept(both(believable, is_less(S(0), variance)), believable, Event::innovation_not_positive,
                                 Event::output_not_finite);
   if (!is_zero(model.gate)) {
     const S likely = select(usable, nu, S(0));
@@ -71,7 +73,7 @@ void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& 
       for (int k = 0; k < nx; ++k) sum = multiply_add(S(AP(k)), S(model.A_free(j, k)), sum);
       listener.name(sum, "prior", i, j);
       next[triangle(i, j)] = sum;
-      if (i == j) total.add(sum, listener);  // what is not finite elsewhere is on the diagonal one sample later
+      if (i == j) total.add_variance(sum, model.x_bound, i, listener);  // |P_ij| ≤ √(P_ii P_jj)
     }
   }
   state.P = next;
@@ -82,7 +84,7 @@ auto predict_plain(const Model<S>& model, State<S>& state, const Vector<S>& u, L
   Total<S> total;
   predict_state(model, state, u, total, listener);
   predict_plain_covariance(model, state, total, listener);
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 }  // namespace lqg::step

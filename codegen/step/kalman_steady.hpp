@@ -5,14 +5,14 @@
 
 namespace lqg::step {
 
-// The innovation of output i, 0 where it is not finite or beyond the gate: it counts as one that came as expected.
+// The innovation of output i, 0 where it is beyond its limit or the gate: it counts as one that came as expected.
 template <class S, class Listener>
 S innovate(const Model<S>& model, const State<S>& state, const S& y, int i, Listener& listener) {
-  const std::string otherwise = is_zero(model.gate) ? ", 0 if it is not finite" : ", 0 if it is not finite or beyond the gate";
+  const std::string otherwise = is_zero(model.gate) ? ", 0 if it is not believable" : ", 0 if it is not believable or beyond the gate";
   listener.section((model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + otherwise, i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
-  auto usable = listener.accept(is_finite(nu), Event::output_not_finite);
+  auto usable = listener.accept(is_believable(model.nu_limit, i, nu), Event::output_not_finite);
   nu = select(usable, nu, S(0));
   listener.name(nu, "innovation");
   if (is_zero(model.gate)) return nu;
@@ -32,9 +32,9 @@ auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& inn
     for (int i = 0; i < innovation.size(); ++i) sum = multiply_add(S(model.L(j, first + i)), S(innovation(i)), sum);
     listener.name(sum, "posterior", j);
     state.x(j) = sum;
-    total.add(sum, listener);
+    total.add(sum, model.x_bound, j, listener);
   }
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 // x̂ ← x̂ + L(y − C x̂ − D u)
@@ -42,25 +42,25 @@ template <class S, class Listener>
 auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
   Vector<S> innovation(model.ny);
   for (int i = 0; i < model.ny; ++i) innovation(i) = innovate(model, state, S(y(i)), i, listener);
-  auto finite = correct_steady(model, state, innovation, 0, listener);
+  auto within = correct_steady(model, state, innovation, 0, listener);
   if (model.M.cols()) state.innovation = innovation;
-  return finite;
+  return within;
 }
 
 // The same of output i alone: an approximation, since its gain is the best in the company of the others only.
 template <class S, class Listener>
 auto update_steady_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const S nu = innovate(model, state, y, i, listener);
-  auto finite = correct_steady(model, state, Vector<S>(Vector<S>::Constant(1, nu)), i, listener);
+  auto within = correct_steady(model, state, Vector<S>(Vector<S>::Constant(1, nu)), i, listener);
   if (model.M.cols()) state.innovation(i) = nu;
-  return finite;
+  return within;
 }
 
 template <class S, class Listener>
 auto predict_steady(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   Total<S> total;
   predict_state(model, state, u, total, listener);
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 }  // namespace lqg::step

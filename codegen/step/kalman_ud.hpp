@@ -21,11 +21,11 @@ S variance_ud(const Model<S>& model, const State<S>& state, const Vector<S>& f, 
 template <class S, class Listener>
 auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const int nx = model.nx;
-  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not finite"
-                                  : "innovation = y − C x̂, 0 if it is not finite", i);
+  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not believable"
+                                  : "innovation = y − C x̂, 0 if it is not believable", i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
-  auto usable = listener.accept(is_finite(nu), Event::output_not_finite);
+  auto usable = listener.accept(is_believable(model.nu_limit, i, nu), Event::output_not_finite);
   nu = select(usable, nu, S(0));
   listener.name(nu, "innovation");
 
@@ -123,7 +123,7 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& tot
     for (int k = 1; k < nt; ++k) diagonal = multiply_add(S(T(i, k)), S(v(k)), diagonal);
     listener.name(diagonal, "prior_D", i);
     state.D[i] = diagonal;
-    total.add(diagonal, listener);
+    total.add_variance(diagonal, model.x_bound, i, listener);
     S reciprocal = S(1) / diagonal;  // not finite when the variance of a state has died out: nothing depends on it then
     listener.name(reciprocal, "inverse", i);
     reciprocal = select(is_finite(reciprocal), reciprocal, S(0));
@@ -148,7 +148,7 @@ auto predict_ud(const Model<S>& model, State<S>& state, const Vector<S>& u, List
   Total<S> total;
   predict_state(model, state, u, total, listener);
   predict_ud_covariance(model, state, total, listener);
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 }  // namespace lqg::step

@@ -94,7 +94,7 @@ auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const 
     if (!shown) total.add(S(y(j)), listener);
   }
   if (!model.predictor_form) state.y = y;
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 // z ← A z + B y with outputs that are finite; the condition says that z is.
@@ -109,7 +109,7 @@ auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>
     total.add(S(next(i)), listener);
   }
   state.z = next;
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 // x̂, the one that u is made of; in filter form of the y that control has heard.
@@ -136,7 +136,7 @@ auto set_state(const LinearModel<S>& model, LinearState<S>& state, const Vector<
     total.add(S(next(i)), listener);
   }
   state.z = next;
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 // One sample as `NAME_step` takes it; numbers only. `look(state)` is called between control and advance.

@@ -6,7 +6,7 @@
 
 namespace lqg::step {
 
-// x̂ ← x̂ + L(y − C x̂ − D u); the condition says that the state is finite.
+// x̂ ← x̂ + L(y − C x̂ − D u); the condition says that the state is within its bounds.
 template <class S, class Listener>
 auto update(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
   observe(model, state, y, listener);
@@ -22,7 +22,7 @@ auto update_alone(const Model<S>& model, State<S>& state, const S& y, int i, Lis
                                         : update_online_alone(model, state, y, i, listener);
 }
 
-// x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is finite.
+// x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is within its bounds.
 template <class S, class Listener>
 auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   switch (model.filter) {
@@ -37,8 +37,8 @@ auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listene
 template <class S>
 unsigned run_sample(const Model<S>& model, State<S>& state, const Vector<S>& y, Vector<S>& u) {
   Listener listener;
-  const auto reset_unless = [&](bool finite) {
-    if (finite) return;
+  const auto reset_unless = [&](bool within) {
+    if (within) return;
     begin_anew(model, state);
     listener.raise(Event::state_reset, true);
   };

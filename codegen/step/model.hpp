@@ -33,6 +33,8 @@ struct Model {
   Matrix<S> A_free, W;         // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
   Matrix<S> G;                 // nx × nq, ud: W = G diag(w) Gᵀ
   Vector<S> w;                 // nq, ud
+  Vector<S> nu_limit;          // ny, of the outputs whose C this is: an innovation that is not below it is left out; or empty
+  std::vector<int> x_bound;    // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
   Vector<S> x0;                // nx
   std::vector<S> P0;           // plain: lower triangle, row by row
   std::vector<S> U0, D0;       // ud: strict upper triangle, column by column; diagonal
@@ -46,9 +48,17 @@ struct Model {
   Vector<S> u_step;            // nu: largest |u[k] − u[k−1]|, or empty
   std::vector<int> integral;   // the output that each ξ integrates,
   std::vector<int> wanted;     // and which r it has to follow
+  Vector<S> error_limit;       // nxi: an r − y that is not below it does not count; or empty
+  std::vector<int> xi_bound;   // nxi: as x_bound
   Matrix<S> H;                 // nxi × nu: ξ + H (u − v) makes the law give u, or nearly, where it gave v
   S T = S(0);                  // s, the sample time, of ξ⁺ = ξ + T (r − y)
 };
+
+// |value| < limit; where there are no limits, value is finite.
+template <class S>
+auto is_believable(const Vector<S>& limits, int i, const S& value) {
+  return limits.size() ? is_less(absolute(value), S(limits(i))) : is_finite(value);
+}
 
 // D u needs the last input in every update.
 template <class S>
@@ -125,9 +135,9 @@ struct Listener {
     raise(reason, !usable);
     return usable;
   }
-  // Likewise, with one reason if the innovation is finite and another if it is not.
-  bool accept(bool usable, bool finite, Event if_finite, Event if_not) {
-    return accept(usable, finite ? if_finite : if_not);
+  // Likewise, with one reason if the innovation is believable and another if it is not.
+  bool accept(bool usable, bool believable, Event if_believable, Event if_not) {
+    return accept(usable, believable ? if_believable : if_not);
   }
   // A gate left the output out, which is counted.
   void gate(bool gated, int) { raise(Event::output_gated, gated); }

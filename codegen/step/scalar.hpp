@@ -24,14 +24,18 @@ template <class S>
 bool is_finite(const S& a) {
   return a - a == 0;
 }
-// innovation finite and variance positive, in one comparison: x − x is 0, or NaN, which is not less than anything.
+// a finite and b positive, in one comparison: a − a is 0, or NaN, which is not less than anything.
 template <class S>
-bool is_usable(const S& innovation, const S& variance) {
-  return innovation - innovation < variance;
+bool is_usable(const S& a, const S& b) {
+  return a - a < b;
 }
 template <class S>
 bool is_zero(const S& a) {
   return a == 0;
+}
+template <class S>
+S absolute(const S& a) {
+  return a < 0 ? S(-a) : a;
 }
 template <class S>
 bool is_less(const S& a, const S& b) {
@@ -41,6 +45,11 @@ template <class S>
 S select(bool condition, const S& yes, const S& no) {
   return condition ? yes : no;
 }
+// 2^exponent
+template <class S>
+struct PowerOfTwo {
+  static S of(int exponent) { return S(std::ldexp(1.0, exponent)); }
+};
 inline bool either(bool a, bool b) { return a || b; }
 inline bool both(bool a, bool b) { return a && b; }
 inline bool negation(bool a) { return !a; }
@@ -72,7 +81,13 @@ bool is_finite(const Fused<T>& a) { return is_finite(a.value); }
 template <class T>
 bool is_usable(const Fused<T>& a, const Fused<T>& b) { return is_usable(a.value, b.value); }
 template <class T>
+struct PowerOfTwo<Fused<T>> {
+  static Fused<T> of(int exponent) { return std::ldexp(T(1), exponent); }
+};
+template <class T>
 bool is_zero(const Fused<T>& a) { return a.value == 0; }
+template <class T>
+Fused<T> absolute(const Fused<T>& a) { return std::abs(a.value); }
 template <class T>
 bool is_less(const Fused<T>& a, const Fused<T>& b) { return a.value < b.value; }
 

@@ -6,15 +6,15 @@
 
 namespace lqg::step {
 
-// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where it is not finite.
+// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where it is not believable.
 template <class S, class Listener>
 void observe_alone(const Model<S>& model, State<S>& state, const S& y, int output, Listener& listener) {
   for (std::size_t i = 0; i < model.integral.size(); ++i) {
     if (model.integral[i] != output) continue;
-    listener.section("r − y, which predict adds to ξ; 0 if it is not finite", output);
+    listener.section("r − y, which predict adds to ξ; 0 if it is not believable", output);
     S error = state.r(model.wanted[i]) - y;
     listener.name(error, "error");
-    error = select(is_finite(error), error, S(0));
+    error = select(is_believable(model.error_limit, static_cast<int>(i), error), error, S(0));
     listener.name(error, "kept_error");
     state.error(static_cast<Eigen::Index>(i)) = error;
   }
@@ -41,7 +41,7 @@ void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<
   for (int i = 0; i < nxi; ++i) {
     state.xi(i) = multiply_add(model.T, S(state.error(i)), conditioned(model, state, u, state.demand, i));
     listener.name(state.xi(i), "xi", i);
-    total.add(state.xi(i), listener);
+    total.add(S(state.xi(i)), model.xi_bound, i, listener);
     state.error(i) = S(0);
   }
   if (nxi) state.demand = u;
@@ -50,7 +50,7 @@ void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<
 }
 
 // A regulator alone: u of the state x that is given, and what it has to remember, for an actuator that applies u.
-// The condition says that the memory is finite.
+// The condition says that the memory is within its bounds.
 template <class S, class Listener>
 auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listener) {
   u = control(model, state, listener);
@@ -66,17 +66,21 @@ auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listene
   observe(model, state, y, listener);
   Total<S> total;
   remember(model, state, u, total, listener);
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 // The input was set to u by hand: it is the last one and those on their way, and ξ becomes such that the law continues
-// there. The condition says that all of this is finite.
+// there. The condition says that all of this is within its bounds.
 template <class S, class Listener>
 auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   const int nxi = static_cast<int>(model.integral.size());
   Total<S> total;
   for (int i = 0; i < model.nu; ++i) total.add(S(u(i)), listener);
-  for (int i = 0; i < model.delayed; ++i) state.x(model.nx - model.delayed + i) = u(i % model.nu);
+  for (int i = 0; i < model.delayed; ++i) {
+    const int at = model.nx - model.delayed + i;
+    state.x(at) = u(i % model.nu);
+    if (!model.x_bound.empty()) total.add(S(state.x(at)), model.x_bound, at, listener);
+  }
   if (state.u.size()) state.u = u;
   if (nxi) {
     const Vector<S> r = reference(model, state, listener);
@@ -89,12 +93,12 @@ auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Liste
     for (int i = 0; i < nxi; ++i) {
       xi(i) = conditioned(model, state, u, v, i);
       listener.name(xi(i), "xi", i);
-      total.add(S(xi(i)), listener);
+      total.add(S(xi(i)), model.xi_bound, i, listener);
     }
     state.xi = xi;
     state.demand = u;
   }
-  return is_finite(total.sum);
+  return total.is_within();
 }
 
 }  // namespace lqg::step

@@ -43,7 +43,7 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, T
     for (int j = 0; j < model.M.cols(); ++j) sum = multiply_add(S(model.M(i, j)), S(state.innovation(j)), sum);
     listener.name(sum, "next", i);
     next(i) = sum;
-    total.add(sum, listener);
+    total.add(sum, model.x_bound, i, listener);
   }
   state.x = next;
   for (int j = 0; j < model.M.cols(); ++j) state.innovation(j) = S(0);

@@ -16,7 +16,16 @@
  *   u_applied[nu]   the input applied last, for D u; MAY be NULL when D is NULL
  *   innovation[ny]  what `predict` has yet to hear of the last update, for M; MAY be NULL when M is NULL
  *
- * A reset (LQG_STATE_RESET) is an init: it restores all of them.
+ * A reset (LQG_STATE_RESET) is an init: it restores all of them. It happens when, after an update or a prediction,
+ *
+ *     Σ (x̂_i/b_i)² + Σ |P_ii|/b_i² < 1        (P_ii after a prediction only; of U diag(d) Uᵀ d_i in its place)
+ *
+ * does not hold, or any of these numbers, or of U, is not finite. The bounds b are those of the description, and SHOULD be
+ * powers of two. Without them it happens when a number is not finite, or their sum is not. So x̂ is within its bounds,
+ * and finite, after every call.
+ *
+ * Outputs that are not believable, because the innovation y − C x̂ − D u is NaN, infinite or not below its limit, are
+ * left out (LQG_OUTPUT_NOT_FINITE): no state can explain them, so they say nothing, and x̂ is not lost over them.
  *
  * Sensors of several rates: `predict` is called once a period, an update whenever there is something to
  * update with: any number of predictions may lie between two updates. Plants that vary: the description is
@@ -57,7 +66,7 @@ typedef struct {
     const unsigned char *used; /* ny, 0: the output is left out, and not reported; NULL: all are used */
     lqg_real gate;             /* σ, > 0: an output with |ν| > gate √s is left out; 0: no gate */
     unsigned long *gated;      /* ny, in and out: how often the gate left the output out */
-    lqg_real *nu; /* ny, out: the innovation of each output that is used, 0 when it is not finite */
+    lqg_real *nu; /* ny, out: the innovation of each output that is used, 0 when it is not believable */
     lqg_real *s;  /* ny, out: its variance */
 } lqg_watch_t;
 
@@ -74,6 +83,8 @@ typedef struct {
     const lqg_real *L;   /* nx × ny, filter gain P Cᵀ S⁻¹, P prior, S = C P Cᵀ + V */
     const lqg_real *M;   /* nx × ny, E[w vᵀ] S⁻¹; NULL: w and v are uncorrelated */
     const lqg_real *x0; /* nx, first estimate; NULL: 0 */
+    const lqg_real *x_scale; /* nx, 1/b_i of the bounds |x̂_i| < b_i; NULL: finite is enough */
+    const lqg_real *innovation_limit; /* ny, a larger innovation is not believed; NULL: a finite one is */
 } lqg_kalman_steady_t;
 
 /* Length of work[]. */
@@ -85,7 +96,7 @@ void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg
 
 /* x̂ ← x̂ + L (y − C x̂ − D u)
  *
- * y[ny]  in: what the sensors say; an output that is not finite is left out
+ * y[ny]  in: what the sensors say; an output that is not believable is left out
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET.
  * Cost: 2·nx·ny multiply-adds, with D ny·nu more. */
@@ -143,6 +154,8 @@ typedef struct {
     const lqg_real *A_free;  /* nx × nx, A − M C; NULL when M is NULL */
     const lqg_real *x0;     /* nx, first estimate; NULL: 0 */
     const lqg_real *P0;      /* lower triangle nx × nx, its covariance */
+    const lqg_real *x_scale; /* nx, 1/b_i of the bounds |x̂_i| < b_i; NULL: finite is enough */
+    const lqg_real *innovation_limit; /* ny, a larger innovation is not believed; NULL: a finite one is */
 } lqg_kalman_plain_t;
 
 /* Lengths of P[] and of work[]. */
@@ -157,7 +170,7 @@ void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_r
  *
  *     s = c P cᵀ + v,   gain = P cᵀ / s,   x̂ ← x̂ + gain (y'_i − c x̂ − D_i u),   P ← P − gain (P cᵀ)ᵀ
  *
- * y[ny]  in: what the sensors say; an output that is not finite, or whose s is not positive, is left out
+ * y[ny]  in: what the sensors say; an output that is not believable, or whose s is not positive, is left out
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET.
  * Cost: ny·(3·nx² + 9·nx)/2 multiply-adds, ny divisions;
@@ -193,7 +206,7 @@ lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_
  *
  * u[nu]  in: what was applied; MAY be u_applied itself, or NULL when nu is 0
  *
- * Status: LQG_STATE_RESET, also when P is not finite.
+ * Status: LQG_STATE_RESET, also when P is beyond its bounds.
  * Cost: (3·nx³ + nx²)/2 + nx·(nx + nu) multiply-adds, with M nx·ny more. */
 lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
                                     lqg_real u_applied[], lqg_real innovation[], const lqg_real u[],
@@ -219,6 +232,8 @@ typedef struct {
     const lqg_real *x0;     /* nx, first estimate; NULL: 0 */
     const lqg_real *U0;      /* strict upper triangle nx × nx; its covariance is U0 diag(d0) U0ᵀ */
     const lqg_real *d0;      /* nx, ≥ 0 */
+    const lqg_real *x_scale; /* nx, 1/b_i of the bounds |x̂_i| < b_i; NULL: finite is enough */
+    const lqg_real *innovation_limit; /* ny, a larger innovation is not believed; NULL: a finite one is */
 } lqg_kalman_ud_t;
 
 /* Lengths of U[] (NULL when 0) and of work[]; d[] has nx numbers. */
@@ -232,7 +247,7 @@ void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[
 /* The update of lqg_kalman_plain_update, in the factors of P (Bierman 1977). Whatever the rounding, d stays ≥
  * 0.
  *
- * y[ny]  in: what the sensors say; an output that is not finite is left out
+ * y[ny]  in: what the sensors say; an output that is not believable is left out
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET.
  * Cost: ny·(3·nx² + 13·nx)/2 multiply-adds, ny·(nx + 1) divisions;
@@ -268,7 +283,7 @@ lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x
  *
  * u[nu]  in: what was applied; MAY be u_applied itself, or NULL when nu is 0
  *
- * Status: LQG_STATE_RESET, also when U or d is not finite.
+ * Status: LQG_STATE_RESET, also when d is beyond its bounds or U is not finite.
  * Cost: (nx − 1)·nx·(nx + 1)/2 + nx·(nx + 1)·(nx + nq) + nx·(nx + nu) multiply-adds, nx divisions;
  * with M nx·ny more. */
 lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],

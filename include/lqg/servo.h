@@ -48,13 +48,15 @@ typedef struct {
     const lqg_real *u_min;      /* nu, finite or −∞; NULL: no lower limits */
     const lqg_real *u_max;      /* nu, finite or +∞, ≥ u_min; NULL: no upper limits */
     const lqg_real *u_step;     /* nu, ≥ 0, largest |u[k] − u[k−1]|; NULL: any */
+    const lqg_real *xi_scale;   /* nxi, 1/b_i of the bounds |ξ_i| < b_i; NULL: finite is enough */
+    const lqg_real *error_limit;  /* nxi, a larger r − y does not count; NULL: a finite one does */
 } lqg_servo_t;
 
 /* ξ = 0, nothing applied and nothing asked for yet. r is left to the caller. */
 void lqg_servo_init(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[], lqg_real demand[],
                     lqg_real u_applied[]);
 
-/* error ← r − y of the integrated outputs; 0, which leaves ξ as it is, where that is not finite.
+/* error ← r − y of the integrated outputs; 0, which leaves ξ as it is, where that is not finite or not below its limit.
  *
  * y[ny]  in: what the sensors say
  *
@@ -78,7 +80,7 @@ lqg_status lqg_servo_control(const lqg_servo_t *servo, const lqg_real x[], const
  *
  * u[nu]  in: what was applied; MAY be u_applied itself
  *
- * Status: LQG_STATE_RESET when that was not finite, and the law begins anew.
+ * Status: LQG_STATE_RESET when Σ (ξ_i/b_i)² < 1 did not hold or u was not finite, and the law begins anew.
  * Cost: nxi·(nu + 1) multiply-adds. */
 lqg_status lqg_servo_advance(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[], lqg_real demand[],
                              lqg_real u_applied[], const lqg_real u[]);
@@ -89,7 +91,7 @@ lqg_status lqg_servo_advance(const lqg_servo_t *servo, lqg_real xi[], lqg_real e
  * x[nx]  in: the state or its estimate
  * u[nu]  in: what was applied by hand
  *
- * Status: LQG_REFERENCE_NOT_FINITE; LQG_STATE_RESET when that was not finite, and the law begins anew.
+ * Status: LQG_REFERENCE_NOT_FINITE; LQG_STATE_RESET when ξ was not within its bounds or u not finite, and the law begins anew.
  * Cost: nu·(nz + nr + nxi) multiply-adds. */
 lqg_status lqg_servo_set_input(const lqg_servo_t *servo, const lqg_real x[], const lqg_real r[], lqg_real xi[],
                                lqg_real error[], lqg_real demand[], lqg_real u_applied[], const lqg_real u[]);

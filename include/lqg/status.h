@@ -11,11 +11,11 @@ extern "C" {
 typedef unsigned lqg_status;
 
 #define LQG_OK 0u                       /* nothing to report */
-#define LQG_OUTPUT_NOT_FINITE 1u        /* an output was NaN or infinite, or far too large: it was left out */
+#define LQG_OUTPUT_NOT_FINITE 1u        /* an output was NaN, infinite or absurd: it was left out */
 #define LQG_OUTPUT_GATED 2u             /* an output was too unlikely: it was left out */
 #define LQG_INNOVATION_NOT_POSITIVE 4u  /* C P Cᵀ + V of an output was not positive: it was left out */
 #define LQG_INPUT_LIMITED 8u            /* an input was at its limit, or not finite and set to 0 */
-#define LQG_STATE_RESET 16u             /* the state was not finite: it begins anew, as after init */
+#define LQG_STATE_RESET 16u             /* the state left its bounds: it begins anew, as after init */
 #define LQG_REFERENCE_NOT_FINITE 32u    /* a reference was NaN or infinite: it counted as 0 */
 
 /* The gravest of the bits as a sentence in English, without full stop or line end; a constant string. */

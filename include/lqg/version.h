@@ -7,6 +7,6 @@
 #define LQG_VERSION_PATCH 0
 
 /* Changes whenever a header made by an older lqgen can no longer be used with this library. */
-#define LQG_HEADER_FORMAT 1
+#define LQG_HEADER_FORMAT 2
 
 #endif

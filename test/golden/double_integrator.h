@@ -33,6 +33,8 @@
  *   L = [ 0.36 ]
  *       [  8.0 ]
  *   poles of A − L_predictor C: 0.78 ± 0.1778i
+ *   x̂ begins anew when it reaches, in size: 4.295e+09, 4.295e+09
+ *   an innovation is not believed from, in size: 8.59e+09
  *
  * Closed loop, opened at the plant's input:
  *
@@ -41,23 +43,26 @@
  *   disk margin         0.7929
  *   cost per sample     0.09448
  *
- * One sample takes 30 multiply-adds and 20 bytes of RAM; on a Cortex-M4F at -O2 about 590 bytes of
+ * One sample takes 32 multiply-adds and 24 bytes of RAM; on a Cortex-M4F at -O2 about 688 bytes of
  * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef DOUBLE_INTEGRATOR_H
 #define DOUBLE_INTEGRATOR_H
 
+#include <math.h>
+
 #include "lqg/arithmetic.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 1
+#if LQG_HEADER_FORMAT != 2
 #error "double_integrator.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on double_integrator.toml again."
 #endif
 
 #define DOUBLE_INTEGRATOR_NX 2  /* states */
 #define DOUBLE_INTEGRATOR_NU 1  /* inputs */
 #define DOUBLE_INTEGRATOR_NY 1  /* outputs */
+#define DOUBLE_INTEGRATOR_X_BOUNDS {4294967296.0f, 4294967296.0f}  /* x̂ stays below them in size, or begins anew */
 #define DOUBLE_INTEGRATOR_SAMPLE_TIME 0.01f  /* s between two samples */
 
 enum {
@@ -77,6 +82,7 @@ enum {
 typedef struct {
     float x[DOUBLE_INTEGRATOR_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
     float P[3];  /* covariance of its error: lower triangle, row by row, P_ij at [i*(i+1)/2 + j] */
+    unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
 } double_integrator_t;
 
 LQG_STRICT_BEGIN
@@ -89,25 +95,29 @@ static inline void double_integrator_init(double_integrator_t *self)
 {
     static const double_integrator_t initial = {
         {0.0f, 0.0f},
-        {0.01f, 0.0f, 0.01f}
+        {0.01f, 0.0f, 0.01f},
+        0
     };
 
     *self = initial;
 }
 
-/* Begins anew: the state was not finite. */
+/* Begins anew, but for what was counted, and counts it: the state was not within its bounds. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
 static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status status)
 {
+    const unsigned long resets = self->resets + 1;
+
     double_integrator_init(self);
+    self->resets = resets;
     return status | LQG_STATE_RESET;
 }
 
 /* x̂ ← x̂ + L (y − C x̂),  L = P Cᵀ S⁻¹,  P ← P − L C P
  *
- * y  in: the outputs, in their units. An output that is not finite is left out of this sample.
+ * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd) is left out of this sample.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
@@ -125,9 +135,9 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
 
     /* output 0, position [m]: innovation = y − C x̂; a gain of 0 leaves the output out */
     const float measured_position = y_0 - x_0;
-    const lqg_status fault_position = measured_position - measured_position < S_position ? LQG_OK
-        : measured_position - measured_position == 0.0f ? LQG_INNOVATION_NOT_POSITIVE
-        : LQG_OUTPUT_NOT_FINITE;
+    const int believable_position = fabsf(measured_position) < 8589934592.0f;
+    const lqg_status fault_position = believable_position && 0.0f < S_position ? LQG_OK
+        : believable_position ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
     const int usable_position = fault_position == LQG_OK;
     const float reciprocal_position = usable_position ? 1.0f / S_position : 0.0f;
     const float innovation_position = usable_position ? measured_position : 0.0f;
@@ -145,10 +155,13 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
     self->x[0] = x_0_position;
     const float P_00_position = P_00 - gain_0_position * P_00;
     self->P[0] = P_00_position;
-    const float sum_position = x_0_position + x_1_position;
+
+    /* Σ x̂² in units of a bound */
+    const float sum = x_0_position * x_0_position;
+    const float sum_a = sum + x_1_position * x_1_position;
 
     const lqg_status status = fault_position;
-    if (!(sum_position - sum_position == 0.0f))
+    if (!(sum_a < 1.8446744e+19f))
         return double_integrator_reset(self, status);
     return status;
 }
@@ -168,12 +181,12 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
     const float law_0 = -(589.38544f * x_0) - 68.209404f * x_1;
     const int finite_0 = law_0 - law_0 == 0.0f;
     const float demand_0 = finite_0 ? law_0 : 0.0f;
-    const int shared_25 = demand_0 < -10.0f;
-    const int shared_26 = 10.0f < demand_0;
-    const float limited_0 = shared_25 ? -10.0f : shared_26 ? 10.0f : demand_0;
+    const int shared_26 = demand_0 < -10.0f;
+    const int shared_27 = 10.0f < demand_0;
+    const float limited_0 = shared_26 ? -10.0f : shared_27 ? 10.0f : demand_0;
     u[0] = limited_0;
 
-    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK) | (shared_25 || shared_26 ? LQG_INPUT_LIMITED : LQG_OK);
+    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK) | (shared_26 || shared_27 ? LQG_INPUT_LIMITED : LQG_OK);
 }
 
 /* x̂ ← A x̂ + B u,  P ← A P Aᵀ + G W Gᵀ: from this sample to the next.
@@ -194,24 +207,25 @@ static inline lqg_status double_integrator_predict(double_integrator_t *self, co
     /* x̂ ← A x̂ + B u */
     const float next_0 = x_0 + 0.01f * x_1 + 5e-05f * u_0;
     self->x[0] = next_0;
+    const float sum = next_0 * next_0;
     const float next_1 = x_1 + 0.01f * u_0;
     self->x[1] = next_1;
-    const float sum = next_0 + next_1;
+    const float sum_a = sum + next_1 * next_1;
 
     /* P ← A P Aᵀ + G W Gᵀ, lower triangle */
     const float AP_00 = P_00 + 0.01f * P_10;
     const float AP_01 = P_10 + 0.01f * P_11;
     const float prior_00 = 2.5e-09f + AP_00 + 0.01f * AP_01;
     self->P[0] = prior_00;
-    const float sum_a = sum + prior_00;
+    const float sum_b = sum_a + fabsf(prior_00);
     const float prior_10 = 5e-07f + P_10 + 0.01f * P_11;
     self->P[1] = prior_10;
     const float prior_11 = 1e-04f + P_11;
     self->P[2] = prior_11;
-    const float sum_b = sum_a + prior_11;
+    const float sum_c = sum_b + fabsf(prior_11);
 
     const lqg_status status = LQG_OK;
-    if (!(sum_b - sum_b == 0.0f))
+    if (!(sum_c < 1.8446744e+19f))
         return double_integrator_reset(self, status);
     return status;
 }
@@ -229,7 +243,7 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
 /* The update by position alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * There is no other: it is the update.
  *
- * y_position  in: the output, in m. One that is not finite is left out.
+ * y_position  in: the output, in m. One that is not believable (not finite, or absurd) is left out.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_update_position(double_integrator_t *self, const float y_position)
@@ -265,17 +279,20 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
  *
  * x  in: the state, in its units
  *
- * Status: LQG_STATE_RESET, when x is not finite. */
+ * Status: LQG_STATE_RESET, when x is not within DOUBLE_INTEGRATOR_X_BOUNDS. */
 static inline lqg_status double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
 {
     LQG_STRICT_BODY
-    float sum = 0;
+    static const float bound[DOUBLE_INTEGRATOR_NX] = DOUBLE_INTEGRATOR_X_BOUNDS;
+    float sum = 0;  /* Σ (x/bound)² */
 
     for (int i = 0; i < DOUBLE_INTEGRATOR_NX; i++) {
-        sum += x[i];
+        const float part = x[i] / bound[i];
+        const float square = part * part;
+        sum += square;
         self->x[i] = x[i];
     }
-    if (sum - sum == 0)
+    if (sum < 1)
         return LQG_OK;
     return double_integrator_reset(self, LQG_OK);
 }

@@ -43,6 +43,8 @@
  *       [ 0.03500962    0.26355246 ]
  *       [ 0.17161791   0.078661025 ]
  *   poles of A − L_predictor C: 0.7867 ± 0.3256i, 0.4374 ± 0.3276i
+ *   x̂ begins anew when it reaches, in size: 1.1e+12, 1.1e+12, 1.1e+12, 1.1e+12
+ *   an innovation is not believed from, in size: 2.199e+12, 2.199e+12
  *
  * Closed loop, opened at the plant's input:
  *
@@ -52,23 +54,26 @@
  *   cost per sample     0.00816
  *   cost per second     0.01635
  *
- * One sample takes 45 multiply-adds and 16 bytes of RAM; on a Cortex-M4F at -O2 about 787 bytes of
+ * One sample takes 45 multiply-adds and 20 bytes of RAM; on a Cortex-M4F at -O2 about 893 bytes of
  * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef TWO_MASS_H
 #define TWO_MASS_H
 
+#include <math.h>
+
 #include "lqg/arithmetic.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 1
+#if LQG_HEADER_FORMAT != 2
 #error "two_mass.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on two_mass.toml again."
 #endif
 
 #define TWO_MASS_NX 4  /* states */
 #define TWO_MASS_NU 1  /* inputs */
 #define TWO_MASS_NY 2  /* outputs */
+#define TWO_MASS_X_BOUNDS {1099511627776.0f, 1099511627776.0f, 1099511627776.0f, 1099511627776.0f}  /* x̂ stays below them in size, or begins anew */
 #define TWO_MASS_SAMPLE_TIME 0.5f  /* s between two samples */
 
 enum {
@@ -90,6 +95,7 @@ enum {
 /* The whole state of the controller: no pointers inside, may be copied. Begin it with two_mass_init. */
 typedef struct {
     float x[TWO_MASS_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
+    unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
 } two_mass_t;
 
 LQG_STRICT_BEGIN
@@ -101,25 +107,29 @@ LQG_STRICT_BEGIN
 static inline void two_mass_init(two_mass_t *self)
 {
     static const two_mass_t initial = {
-        {0.0f, 0.0f, 0.0f, 0.0f}
+        {0.0f, 0.0f, 0.0f, 0.0f},
+        0
     };
 
     *self = initial;
 }
 
-/* Begins anew: the state was not finite. */
+/* Begins anew, but for what was counted, and counts it: the state was not within its bounds. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
 static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
 {
+    const unsigned long resets = self->resets + 1;
+
     two_mass_init(self);
+    self->resets = resets;
     return status | LQG_STATE_RESET;
 }
 
 /* x̂ ← x̂ + L (y − C x̂)
  *
- * y  in: the outputs, in their units. An output that is not finite is taken as having come as expected.
+ * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd) is taken as having come as expected.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
@@ -132,16 +142,16 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
     const float y_0 = y[0];
     const float y_1 = y[1];
 
-    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not finite */
+    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not believable */
     const float measured_dy1 = y_0 - x_0;
-    const lqg_status fault_dy1 = measured_dy1 - measured_dy1 == 0.0f ? LQG_OK
+    const lqg_status fault_dy1 = fabsf(measured_dy1) < 2199023255552.0f ? LQG_OK
         : LQG_OUTPUT_NOT_FINITE;
     const int usable_dy1 = fault_dy1 == LQG_OK;
     const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
 
-    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not finite */
+    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not believable */
     const float measured_dy2 = y_1 - x_2;
-    const lqg_status fault_dy2 = measured_dy2 - measured_dy2 == 0.0f ? LQG_OK
+    const lqg_status fault_dy2 = fabsf(measured_dy2) < 2199023255552.0f ? LQG_OK
         : LQG_OUTPUT_NOT_FINITE;
     const int usable_dy2 = fault_dy2 == LQG_OK;
     const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
@@ -149,18 +159,19 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
     /* x̂ ← x̂ + L innovation */
     const float posterior_0 = x_0 + 0.7008788f * innovation_dy1 + 0.03500962f * innovation_dy2;
     self->x[0] = posterior_0;
+    const float sum = posterior_0 * posterior_0;
     const float posterior_1 = x_1 + 0.8304034f * innovation_dy1 - 0.105838105f * innovation_dy2;
     self->x[1] = posterior_1;
-    const float sum = posterior_0 + posterior_1;
+    const float sum_a = sum + posterior_1 * posterior_1;
     const float posterior_2 = x_2 + 0.03500962f * innovation_dy1 + 0.26355246f * innovation_dy2;
     self->x[2] = posterior_2;
-    const float sum_a = sum + posterior_2;
+    const float sum_b = sum_a + posterior_2 * posterior_2;
     const float posterior_3 = x_3 + 0.17161791f * innovation_dy1 + 0.078661025f * innovation_dy2;
     self->x[3] = posterior_3;
-    const float sum_b = sum_a + posterior_3;
+    const float sum_c = sum_b + posterior_3 * posterior_3;
 
     const lqg_status status = fault_dy1 | fault_dy2;
-    if (!(sum_b - sum_b == 0.0f))
+    if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -206,21 +217,22 @@ static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MA
     const float next_0 = 0.9877046f * x_0 + 0.4974466f * x_1 + 0.012295422f * x_2
         + 0.002553408f * x_3 + 0.12465904f * u_0;
     self->x[0] = next_0;
+    const float sum = next_0 * next_0;
     const float next_1 = -(0.048467956f * x_0) + 0.9857659f * x_1 + 0.048467956f * x_2
         + 0.0142341405f * x_3 + 0.4974466f * u_0;
     self->x[1] = next_1;
-    const float sum = next_0 + next_1;
+    const float sum_a = sum + next_1 * next_1;
     const float next_2 = 0.061477114f * x_0 + 0.01276704f * x_1 + 0.9385229f * x_2
         + 0.48723295f * x_3 + 0.0017048119f * u_0;
     self->x[2] = next_2;
-    const float sum_a = sum + next_2;
+    const float sum_b = sum_a + next_2 * next_2;
     const float next_3 = 0.24233977f * x_0 + 0.0711707f * x_1 - 0.24233977f * x_2
         + 0.9288293f * x_3 + 0.01276704f * u_0;
     self->x[3] = next_3;
-    const float sum_b = sum_a + next_3;
+    const float sum_c = sum_b + next_3 * next_3;
 
     const lqg_status status = LQG_OK;
-    if (!(sum_b - sum_b == 0.0f))
+    if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -238,7 +250,7 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
 /* The update by dy1 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * An approximation: its gain is the best in the company of the other outputs only.
  *
- * y_dy1  in: the output, in m. One that is not finite is left out.
+ * y_dy1  in: the output, in m. One that is not believable (not finite, or absurd) is left out.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1)
@@ -250,9 +262,9 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
     const float x_3 = self->x[3];
     const float y = y_dy1;
 
-    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not finite */
+    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not believable */
     const float measured_dy1 = y - x_0;
-    const lqg_status fault_dy1 = measured_dy1 - measured_dy1 == 0.0f ? LQG_OK
+    const lqg_status fault_dy1 = fabsf(measured_dy1) < 2199023255552.0f ? LQG_OK
         : LQG_OUTPUT_NOT_FINITE;
     const int usable_dy1 = fault_dy1 == LQG_OK;
     const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
@@ -260,18 +272,19 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
     /* x̂ ← x̂ + L innovation */
     const float posterior_0 = x_0 + 0.7008788f * innovation_dy1;
     self->x[0] = posterior_0;
+    const float sum = posterior_0 * posterior_0;
     const float posterior_1 = x_1 + 0.8304034f * innovation_dy1;
     self->x[1] = posterior_1;
-    const float sum = posterior_0 + posterior_1;
+    const float sum_a = sum + posterior_1 * posterior_1;
     const float posterior_2 = x_2 + 0.03500962f * innovation_dy1;
     self->x[2] = posterior_2;
-    const float sum_a = sum + posterior_2;
+    const float sum_b = sum_a + posterior_2 * posterior_2;
     const float posterior_3 = x_3 + 0.17161791f * innovation_dy1;
     self->x[3] = posterior_3;
-    const float sum_b = sum_a + posterior_3;
+    const float sum_c = sum_b + posterior_3 * posterior_3;
 
     const lqg_status status = fault_dy1;
-    if (!(sum_b - sum_b == 0.0f))
+    if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -279,7 +292,7 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
 /* The update by dy2 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * An approximation: its gain is the best in the company of the other outputs only.
  *
- * y_dy2  in: the output, in m. One that is not finite is left out.
+ * y_dy2  in: the output, in m. One that is not believable (not finite, or absurd) is left out.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2)
@@ -291,9 +304,9 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
     const float x_3 = self->x[3];
     const float y = y_dy2;
 
-    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not finite */
+    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not believable */
     const float measured_dy2 = y - x_2;
-    const lqg_status fault_dy2 = measured_dy2 - measured_dy2 == 0.0f ? LQG_OK
+    const lqg_status fault_dy2 = fabsf(measured_dy2) < 2199023255552.0f ? LQG_OK
         : LQG_OUTPUT_NOT_FINITE;
     const int usable_dy2 = fault_dy2 == LQG_OK;
     const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
@@ -301,18 +314,19 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
     /* x̂ ← x̂ + L innovation */
     const float posterior_0 = x_0 + 0.03500962f * innovation_dy2;
     self->x[0] = posterior_0;
+    const float sum = posterior_0 * posterior_0;
     const float posterior_1 = x_1 - 0.105838105f * innovation_dy2;
     self->x[1] = posterior_1;
-    const float sum = posterior_0 + posterior_1;
+    const float sum_a = sum + posterior_1 * posterior_1;
     const float posterior_2 = x_2 + 0.26355246f * innovation_dy2;
     self->x[2] = posterior_2;
-    const float sum_a = sum + posterior_2;
+    const float sum_b = sum_a + posterior_2 * posterior_2;
     const float posterior_3 = x_3 + 0.078661025f * innovation_dy2;
     self->x[3] = posterior_3;
-    const float sum_b = sum_a + posterior_3;
+    const float sum_c = sum_b + posterior_3 * posterior_3;
 
     const lqg_status status = fault_dy2;
-    if (!(sum_b - sum_b == 0.0f))
+    if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -349,17 +363,20 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
  *
  * x  in: the state, in its units
  *
- * Status: LQG_STATE_RESET, when x is not finite. */
+ * Status: LQG_STATE_RESET, when x is not within TWO_MASS_X_BOUNDS. */
 static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
 {
     LQG_STRICT_BODY
-    float sum = 0;
+    static const float bound[TWO_MASS_NX] = TWO_MASS_X_BOUNDS;
+    float sum = 0;  /* Σ (x/bound)² */
 
     for (int i = 0; i < TWO_MASS_NX; i++) {
-        sum += x[i];
+        const float part = x[i] / bound[i];
+        const float square = part * part;
+        sum += square;
         self->x[i] = x[i];
     }
-    if (sum - sum == 0)
+    if (sum < 1)
         return LQG_OK;
     return two_mass_reset(self, LQG_OK);
 }

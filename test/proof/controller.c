@@ -16,6 +16,7 @@ enum { NU = SIZE(NU) };
 #endif
 
 volatile int any_int;
+volatile unsigned long any_count;
 volatile lqg_real any_real;
 
 /* Whatever a fused multiply-add may be. */
@@ -31,17 +32,64 @@ double fma(double a, double b, double c)
     return (double)any_real;
 }
 
+/* So that the prover does without the specification of its own. */
+float fabsf(float a)
+{
+    return a < 0 ? -a : a;
+}
+
+double fabs(double a)
+{
+    return a < 0 ? -a : a;
+}
+
 static void say_anything(lqg_real v[], int length)
 {
     for (int i = 0; i < length; i++)
         v[i] = any_real;
 }
 
+static const lqg_real bound[NX] = SIZE(X_BOUNDS);
+
+/* More than what init leaves: any estimate within its bounds, any number of resets. So the prover need not find out step
+ * by step how far they get. */
+static void begin_anywhere(OF(t) * loop)
+{
+    for (int i = 0; i < NX; i++) {
+        const lqg_real anywhere = any_real;
+        if (!BELOW(anywhere, bound[i]))
+            stop();
+        loop->x[i] = anywhere;
+    }
+    loop->resets = any_count;
+}
+
 static void look_at_state(const OF(t) * loop)
 {
     for (int i = 0; i < NX; i++) {
-        /*@ check state_finite: \is_finite(loop->x[i]); */
+        /*@ check state_bounded: -bound[i] < loop->x[i] < bound[i]; */
     }
+}
+
+/* After a prediction: an update's own result is looked at then. */
+static void look_at_covariance(const OF(t) * loop)
+{
+#ifdef HAS_P
+    for (int i = 0; i < NX; i++) {
+        /*@ check covariance_bounded: \abs(loop->P[i * (i + 1) / 2 + i]) < bound[i] * bound[i]; */
+    }
+#endif
+#ifdef HAS_d
+    for (int i = 0; i < NX; i++) {
+        /*@ check covariance_bounded: \abs(loop->d[i]) < bound[i] * bound[i]; */
+    }
+#endif
+#ifdef HAS_U
+    for (int i = 0; i < NX * (NX - 1) / 2; i++) {
+        /*@ check factors_finite: \is_finite(loop->U[i]); */
+    }
+#endif
+    (void)loop;
 }
 
 #ifdef HAS_control
@@ -72,13 +120,14 @@ static void call_any(OF(t) * loop)
 
     if (call == 0)
         OF(update)(loop, y);
+    if (call == 1) {
 #ifdef HAS_NU
-    if (call == 1)
         OF(predict)(loop, u);
 #else
-    if (call == 1)
         OF(predict)(loop);
 #endif
+        look_at_covariance(loop);
+    }
 #ifdef HAS_control
     if (call == 2) {
         OF(control)(loop, u);
@@ -102,6 +151,8 @@ int main(void)
     OF(t) loop;
 
     OF(init)(&loop);
+    look_at_state(&loop);
+    begin_anywhere(&loop);
 #ifdef LAST_ROWS
     /*@ loop widen_hints "all", LAST_ROWS; */
 #endif

@@ -14,7 +14,8 @@ static const lqg_real A[9] = {1, 0.1f, 0, 0, 1, 0.1f, 0, 0, 0.9f}, C[6] = {1, 0,
                       V[2] = {0.1f, 0.2f};
 static const lqg_real E[4] = {1, 0, 0.5f, 1}, G[3] = {0, 0, 1}, w[1] = {0.01f},
                       M[6] = {0, 0, 0.1f, 0, 0, 0.1f};
-static const lqg_real x0[3] = {1, 2, 3}, d0[3] = {1, 1, 1}, U0[3] = {0}, limits[3] = {10, 10, 10};
+static const lqg_real x0[3] = {1, 2, 3}, d0[3] = {1, 1, 1}, U0[3] = {0}, limits[3] = {10, 10, 10},
+                      scale[3] = {1 / 16.0f, 1 / 64.0f, 0.25f};
 
 static void say_anything(lqg_real v[], unsigned length)
 {
@@ -43,9 +44,17 @@ static void any_h(void *context, lqg_real y[], lqg_real jacobian[], const lqg_re
     say_anything(jacobian, NY * NX);
 }
 
-static const lqg_kalman_ud_t kalman = {{NX, 0, NY, A, NULL, C, NULL}, E, V, NQ, G, w, M, A, x0, U0, d0};
+static const lqg_kalman_ud_t kalman = {{NX, 0, NY, A, NULL, C, NULL}, E, V, NQ, G, w, M, A, x0, U0, d0, scale, limits};
 static const lqg_ekf_t ekf = {NX, NY, NQ, any_f, any_h, NULL, NULL, V, G, w, x0, U0, d0};
 static const lqg_rls_t rls = {NX, 0.9f, 1, x0, d0, limits};
+
+/* The filter has bounds: 16, 64 and 4. */
+static void look_at_bounded(const lqg_real x[])
+{
+    for (unsigned i = 0; i < NX; i++) {
+        /*@ check estimate_bounded: -1 < x[i] * scale[i] < 1; */
+    }
+}
 
 static void call_kalman(lqg_real x[], lqg_real U[], lqg_real d[], lqg_real innovation[],
                         const lqg_watch_t *watch)
@@ -59,6 +68,7 @@ static void call_kalman(lqg_real x[], lqg_real U[], lqg_real d[], lqg_real innov
         lqg_kalman_ud_update_output(&kalman, x, U, d, NULL, innovation, i, y[i], watch, work);
     else
         lqg_kalman_ud_predict(&kalman, x, U, d, NULL, innovation, NULL, work);
+    look_at_bounded(x);
 }
 
 static void call_ekf(lqg_real x[], lqg_real U[], lqg_real d[], const lqg_watch_t *watch)

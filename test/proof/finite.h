@@ -13,4 +13,7 @@
 
 #define FINITE(v) ((v) == (v) && (v) >= -LARGEST && (v) <= LARGEST)
 
+/* |v| < limit, likewise. */
+#define BELOW(v, limit) ((v) == (v) && (v) > -(limit) && (v) < (limit))
+
 #endif

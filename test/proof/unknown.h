@@ -7,13 +7,83 @@
 
 extern volatile int any_int; /* each reading may give anything */
 
+/* Here ends a path that another one stands for. */
+/*@ assigns \nothing; ensures \false; */
+void stop(void);
+
 /* Every v_i is finite. May say no when they are, but never yes when one is not. */
-static inline int perhaps_all_finite(const lqg_real v[], unsigned length)
+static inline int perhaps_all_finite(const lqg_real v[], unsigned long length)
 {
-    for (unsigned i = 0; i < length; i++)
+    if (any_int)
+        return 0;
+    for (unsigned long i = 0; i < length; i++)
         if (!FINITE(v[i]))
-            return 0;
-    return any_int != 0;
+            stop();
+    return 1;
+}
+
+/* Likewise: every |v_i| < bound_i. */
+static inline int perhaps_all_below(const lqg_real v[], const lqg_real bound[], unsigned long length)
+{
+    if (any_int)
+        return 0;
+    for (unsigned long i = 0; i < length; i++)
+        if (!BELOW(v[i], bound[i]))
+            stop();
+    return 1;
+}
+
+/* Likewise, bound_i = 1/scale_i; finite without a scale. */
+static inline int perhaps_all_scaled_below(const lqg_real v[], const lqg_real scale[], unsigned long length)
+{
+    if (!scale)
+        return perhaps_all_finite(v, length);
+    if (any_int)
+        return 0;
+    for (unsigned long i = 0; i < length; i++) {
+        const lqg_real bound = 1 / scale[i];
+        if (!BELOW(v[i], bound))
+            stop();
+    }
+    return 1;
+}
+
+/* Likewise: every |P_ii| < 1/scale_i² of a lower triangle. */
+static inline int perhaps_diagonal_below(const lqg_real P[], const lqg_real scale[], unsigned nx)
+{
+    if (any_int)
+        return 0;
+    for (unsigned i = 0; i < nx; i++) {
+        const unsigned at = i * (i + 1) / 2 + i;
+        if (scale) {
+            const lqg_real bound = 1 / scale[i] / scale[i];
+            if (!BELOW(P[at], bound))
+                stop();
+        } else if (!FINITE(P[at])) {
+            stop();
+        }
+    }
+    return 1;
+}
+
+/* Likewise: every |d_i| < 1/scale_i², and U is finite. */
+static inline int perhaps_factors_below(const lqg_real U[], const lqg_real d[], const lqg_real scale[], unsigned nx)
+{
+    if (any_int)
+        return 0;
+    for (unsigned i = 0; i < nx; i++) {
+        if (scale) {
+            const lqg_real bound = 1 / scale[i] / scale[i];
+            if (!BELOW(d[i], bound))
+                stop();
+        } else if (!FINITE(d[i])) {
+            stop();
+        }
+    }
+    for (unsigned i = 0; i < nx * (nx - 1) / 2; i++)
+        if (!FINITE(U[i]))
+            stop();
+    return 1;
 }
 
 #endif

@@ -22,11 +22,13 @@ static const lqg_real x0[3] = {0.1f, -0.2f, 0.3f}, P0[6] = {1.1f, 0.2f, 0.9f, 0.
 static const lqg_real U0[3] = {0.2f, 0.1f, 0}, d0[3] = {1, 0.9f, 0.7f};
 static const lqg_real K[3] = {0.31f, 0.17f, -0.23f}, u_min[1] = {-0.9f}, u_max[1] = {0.9f};
 
+static const lqg_real scale[3] = {1 / 1024.0f, 1 / 4096.0f, 1 / 1024.0f}, limit[2] = {1024, 1024};
+
 #define PLANT {NX, NU, NY, A, B, C, D}
 #define REGULATOR {NX, NU, K, u_min, u_max}
-static const lqg_lqg_steady_t steady = {{PLANT, L, M, x0}, REGULATOR, LQG_FILTER_FORM};
-static const lqg_lqg_plain_t plain = {{PLANT, E, V, W, M, A_free, x0, P0}, REGULATOR, LQG_FILTER_FORM};
-static const lqg_lqg_ud_t ud = {{PLANT, E, V, 2, G, w, M, A_free, x0, U0, d0}, REGULATOR, LQG_PREDICTOR_FORM};
+static const lqg_lqg_steady_t steady = {{PLANT, L, M, x0, scale, limit}, REGULATOR, LQG_FILTER_FORM};
+static const lqg_lqg_plain_t plain = {{PLANT, E, V, W, M, A_free, x0, P0, scale, limit}, REGULATOR, LQG_FILTER_FORM};
+static const lqg_lqg_ud_t ud = {{PLANT, E, V, 2, G, w, M, A_free, x0, U0, d0, scale, limit}, REGULATOR, LQG_PREDICTOR_FORM};
 
 static const lqg_real P_limits[3] = {2, 3, 4};
 static const lqg_rls_t rls = {NX, 0.93f, 0.7f, x0, d0, P_limits};

@@ -170,7 +170,7 @@ typedef struct {
 static int loses_P(const design_t *design, int joseph)
 {
     const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL};
-    const lqg_kalman_plain_t kalman = {plant, NULL, design->V, design->W, NULL, NULL, NULL, design->P0};
+    const lqg_kalman_plain_t kalman = {plant, NULL, design->V, design->W, NULL, NULL, NULL, design->P0, NULL, NULL};
     const lqg_real y[MAX_NY] = {0};
     carried_t s;
 
@@ -194,7 +194,7 @@ static int loses_factors(const design_t *design)
 {
     const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL};
     const lqg_kalman_ud_t kalman = {plant, NULL, design->V, design->nq, design->G, design->w,
-                                    NULL,  NULL, NULL,      design->U0, design->d0};
+                                    NULL,  NULL, NULL,      design->U0, design->d0, NULL, NULL};
     const lqg_real y[MAX_NY] = {0};
     carried_t s;
 

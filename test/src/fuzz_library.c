@@ -50,7 +50,8 @@ typedef struct {
     lqg_kalman_steady_t steady;
     lqg_ekf_t ekf;
     lqg_rls_t rls;
-    lqg_real gains[MAX_NX * MAX_NY], limits[MAX_NX];
+    lqg_real gains[MAX_NX * MAX_NY], limits[MAX_NX], scale[MAX_NX], believable[MAX_NY];
+    int bounded; /* the filter's state has bounds of 1/scale */
     lqg_real *x, *P, *U, *d, *u_applied, *innovation, *work;
     lqg_real *y, *u, *nu, *s;
     unsigned char *used;
@@ -119,12 +120,27 @@ static void free_arrays(machine_t *machine)
         free(arrays[i]);
 }
 
+/* Models of an even number of states have bounds; the others only have to stay finite. */
+static void bind(machine_t *machine)
+{
+    machine->bounded = machine->model->nx % 2 == 0 && machine->kind <= UD;
+    for (unsigned i = 0; i < MAX_NX; i++)
+        machine->scale[i] = i % 2 ? 1 / 64.0f : 1 / 1024.0f;
+    for (unsigned i = 0; i < MAX_NY; i++)
+        machine->believable[i] = 512;
+    if (!machine->bounded)
+        return;
+    machine->steady.x_scale = machine->online.plain.x_scale = machine->online.ud.x_scale = machine->scale;
+    machine->steady.innovation_limit = machine->online.plain.innovation_limit = machine->believable;
+    machine->online.ud.innovation_limit = machine->believable;
+}
+
 static void describe(machine_t *machine)
 {
     const unsigned nx = machine->model->nx, ny = machine->model->ny;
     prepare_online(machine->model, &machine->online);
     const lqg_kalman_ud_t *ud = &machine->online.ud;
-    const lqg_kalman_steady_t steady = {ud->plant, machine->gains, ud->M, ud->x0};
+    const lqg_kalman_steady_t steady = {ud->plant, machine->gains, ud->M, ud->x0, NULL, NULL};
     const lqg_ekf_t ekf = {nx,    ny,    ud->nq, any_f,  any_h,  NULL,  machine,
                            ud->V, ud->G, ud->w,  ud->x0, ud->U0, ud->d0};
     const lqg_rls_t rls = {nx, 0.9f, 1, ud->x0, ud->d0, machine->limits};
@@ -135,6 +151,7 @@ static void describe(machine_t *machine)
     machine->steady = steady;
     machine->ekf = ekf;
     machine->rls = rls;
+    bind(machine);
 }
 
 static void begin(machine_t *m)
@@ -227,6 +244,7 @@ static void check(machine_t *m, lqg_status status)
 {
     for (unsigned i = 0; i < m->model->nx; i++) {
         demand(m->x[i] - m->x[i] == 0);
+        demand(!m->bounded || (m->x[i] * m->scale[i] > -1 && m->x[i] * m->scale[i] < 1));
         demand(!m->honest || m->kind < UD || m->d[i] >= 0);
     }
     if (status & LQG_STATE_RESET)

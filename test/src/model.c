@@ -181,9 +181,9 @@ void prepare_online(const model_t *model, online_t *to)
     const lqg_real *M_or_none = crossed ? to->M : NULL, *A_free_or_none = crossed ? to->A_free : NULL;
 
     const lqg_kalman_plain_t plain = {plant, E_or_none, to->V, to->W, M_or_none, A_free_or_none, to->x0,
-                                      to->P0};
+                                      to->P0, NULL, NULL};
     const lqg_kalman_ud_t ud = {plant, E_or_none, to->V, nx, to->G, to->w,
-                                M_or_none, A_free_or_none, to->x0, to->U0, to->d0};
+                                M_or_none, A_free_or_none, to->x0, to->U0, to->d0, NULL, NULL};
     to->plain = plain;
     to->ud = ud;
 }

@@ -168,8 +168,8 @@ static void test_ud_keeps_P_positive_where_plain_loses_it(void)
     const lqg_real V = EPSILON * EPSILON, V2[2] = {V, V}, C[4] = {1, 1, 1, 1 + epsilon}, A[4] = {1, 0, 0, 1};
     const lqg_real zero[4] = {0}, one[2] = {1, 1}, P0[3] = {1, 0, 1}, y[2] = {0};
     const lqg_plant_t plant = {2, 0, 2, A, NULL, C, NULL};
-    const lqg_kalman_plain_t plain = {plant, NULL, V2, zero, NULL, NULL, NULL, P0};
-    const lqg_kalman_ud_t ud = {plant, NULL, V2, 0, NULL, NULL, NULL, NULL, NULL, zero, one};
+    const lqg_kalman_plain_t plain = {plant, NULL, V2, zero, NULL, NULL, NULL, P0, NULL, NULL};
+    const lqg_kalman_ud_t ud = {plant, NULL, V2, 0, NULL, NULL, NULL, NULL, NULL, zero, one, NULL, NULL};
     lqg_real x[2], P[3], U[1], d[2], work[LQG_KALMAN_UD_WORK(2, 2, 0)];
 
     lqg_kalman_plain_init(&plain, x, P, NULL, NULL);
@@ -192,7 +192,7 @@ static void test_ud_goes_on_when_the_variance_of_a_state_dies_out(void)
 {
     const lqg_real A[4] = {1, 0, 0, 0.5f}, C[2] = {1, 1}, V[1] = {1}, G[2] = {1, 0}, w[1] = {0.5f};
     const lqg_real U0[1] = {0}, d0[2] = {1, 1}, y[1] = {1};
-    const lqg_kalman_ud_t kalman = {{2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, w, NULL, NULL, NULL, U0, d0};
+    const lqg_kalman_ud_t kalman = {{2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, w, NULL, NULL, NULL, U0, d0, NULL, NULL};
     lqg_real x[2], U[1], d[2], work[LQG_KALMAN_UD_WORK(2, 1, 1)];
 
     lqg_kalman_ud_init(&kalman, x, U, d, NULL, NULL);

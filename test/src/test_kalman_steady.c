@@ -38,7 +38,7 @@ static void settle(const model_t *model, lqg_plant_t plant, steady_t *steady, te
             steady->M[i * ny + j] = (lqg_real)M_ij;
             crossed |= M_ij != 0;
         }
-    const lqg_kalman_steady_t kalman = {plant, steady->L, crossed ? steady->M : NULL, NULL};
+    const lqg_kalman_steady_t kalman = {plant, steady->L, crossed ? steady->M : NULL, NULL, NULL, NULL};
     steady->kalman = kalman;
 }
 
@@ -121,7 +121,7 @@ static void test_steady_filter_is_the_settled_one_with_one_state_and_no_input(vo
 /* Small integers: every operation is exact. */
 static const lqg_real A[4] = {1, 2, 0, 1}, B[2] = {1, 3}, C[4] = {1, 0, 1, 1}, D[2] = {2, 1};
 static const lqg_real L[4] = {0.5f, 0.25f, -1, 2}, M[4] = {1, 0, 0, 2}, x0[2] = {1, -1};
-static const lqg_kalman_steady_t exact = {{2, 1, 2, A, B, C, D}, L, M, x0};
+static const lqg_kalman_steady_t exact = {{2, 1, 2, A, B, C, D}, L, M, x0, NULL, NULL};
 
 static void test_update_and_predict_compute_their_equations(void)
 {
@@ -156,7 +156,7 @@ static void test_predict_takes_the_kept_input_itself(void)
 
 static void test_init_without_x0_begins_at_zero(void)
 {
-    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL}, L, NULL, NULL};
+    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL}, L, NULL, NULL, NULL, NULL};
     lqg_real x[2] = {7, 7};
     lqg_kalman_steady_init(&kalman, x, NULL, NULL);
     TEST_ASSERT_TRUE(x[0] == 0 && x[1] == 0);

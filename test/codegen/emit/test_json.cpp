@@ -1,4 +1,5 @@
 // NAME.json: every number of the design, so that it reads back exactly.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <unity.h>
@@ -88,6 +89,10 @@ void expect_all(const json& found, const Controller& controller) {
   expect_number(found["loop"], "cost_per_second", solution.loop.cost_per_second);
   expect_number(found["numerics"], "condition", solution.numerics.condition);
   TEST_ASSERT_EQUAL_UINT(solution.numerics.digits, found["numerics"]["digits"].get<unsigned>());
+  for (std::size_t i = 0; i < controller.bounds.x.size(); ++i)
+    TEST_ASSERT_TRUE(found["numerics"]["bounds"]["x"][i].get<double>() == std::ldexp(1.0, controller.bounds.x[i]));
+  for (Eigen::Index i = 0; i < controller.bounds.innovation.size(); ++i)
+    TEST_ASSERT_TRUE(found["numerics"]["bounds"]["innovation"][static_cast<std::size_t>(i)].get<double>() == controller.bounds.innovation(i));
   TEST_ASSERT_EQUAL_INT(controller.figures.flash, found["code"]["flash"].get<long>());
   TEST_ASSERT_EQUAL_INT(controller.figures.ram, found["code"]["ram"].get<long>());
   TEST_ASSERT_EQUAL_INT(controller.figures.stack, found["code"]["stack"].get<long>());

@@ -34,7 +34,7 @@ bool is_identity(const Matrix<S>& matrix) {
 struct Description {
   explicit Description(const Model<S>& model);
 
-  Numbers A, B, C, D, L, M, E, V, A_free, W, G, w, x0, P0, U0, d0, K, u_min, u_max;
+  Numbers A, B, C, D, L, M, E, V, A_free, W, G, w, x0, P0, U0, d0, K, u_min, u_max, x_scale, limit;
   lqg_lqg_steady_t steady;
   lqg_lqg_plain_t plain;
   lqg_lqg_ud_t ud;
@@ -44,7 +44,8 @@ Description::Description(const Model<S>& model)
     : A(row_major(model.A)), B(row_major(model.B)), C(row_major(model.C)), D(row_major(model.D)), L(row_major(model.L)),
       M(row_major(model.M)), E(row_major(model.E)), V(row_major(model.V)), A_free(row_major(model.A_free)),
       G(row_major(model.G)), w(row_major(model.w)), x0(row_major(model.x0)), P0(in_order(model.P0)), U0(in_order(model.U0)),
-      d0(in_order(model.D0)), K(row_major(model.K)), u_min(row_major(model.u_min)), u_max(row_major(model.u_max)) {
+      d0(in_order(model.D0)), K(row_major(model.K)), u_min(row_major(model.u_min)), u_max(row_major(model.u_max)), limit(row_major(model.nu_limit)) {
+  for (const int bound : model.x_bound) x_scale.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
   for (int i = 0; i < model.W.rows(); ++i)
     for (int j = 0; j <= i; ++j) W.push_back(number(model.W(i, j)));
   if (is_identity(model.E)) E.clear();
@@ -53,10 +54,11 @@ Description::Description(const Model<S>& model)
   const lqg_plant_t plant = {nx, nu, ny, pointer(A), pointer(B), pointer(C), pointer(D)};
   const lqg_lqr_t lqr = {nx, nu, pointer(K), pointer(u_min), pointer(u_max)};
   const lqg_form_t form = model.predictor_form ? LQG_PREDICTOR_FORM : LQG_FILTER_FORM;
-  steady = {{plant, pointer(L), pointer(M), pointer(x0)}, lqr, form};
-  plain = {{plant, pointer(E), pointer(V), pointer(W), pointer(M), free, pointer(x0), pointer(P0)}, lqr, form};
+  steady = {{plant, pointer(L), pointer(M), pointer(x0), pointer(x_scale), pointer(limit)}, lqr, form};
+  plain = {{plant, pointer(E), pointer(V), pointer(W), pointer(M), free, pointer(x0), pointer(P0), pointer(x_scale),
+            pointer(limit)}, lqr, form};
   ud = {{plant, pointer(E), pointer(V), static_cast<unsigned>(model.G.cols()), pointer(G), pointer(w), pointer(M), free,
-         pointer(x0), pointer(U0), pointer(d0)}, lqr, form};
+         pointer(x0), pointer(U0), pointer(d0), pointer(x_scale), pointer(limit)}, lqr, form};
 }
 
 // The library's side: its state and its calls.
@@ -262,14 +264,21 @@ void spoil(Random& random, Model<S>& model) {
   if (!model.P0.empty() && random.one_in(3)) model.P0[0] = S(-1);
 }
 
+// Bounds that are reached now and then, for states of any scale.
+void bind(Random& random, Model<S>& model) {
+  for (int i = 0; i < model.nx; ++i) model.x_bound.push_back(random.between(-1, 2) * 4);
+  model.nu_limit.resize(model.ny);
+  for (int i = 0; i < model.ny; ++i) model.nu_limit(i) = S(std::ldexp(static_cast<lqg_real>(1), random.between(0, 12)));
+}
+
 template <class Output>
-lqg_status compare_on_random_models(Filter filter, bool is_spoilt, Output output) {
+lqg_status compare_on_random_models(Filter filter, void (*change)(Random&, Model<S>&), Output output) {
   lqg_status seen = LQG_OK;
   for (std::uint64_t seed = 0; seed < controllers; ++seed) {
     Random random(seed);
     const Shape shape = random_shape(random, filter);
     Model<S> model = convert<S>(random_model(random, shape));
-    if (is_spoilt) spoil(random, model);
+    if (change) change(random, model);
     Comparison comparison(model, seed);
     for (int k = 0; k < samples * 4 / (shape.nx + 3); ++k) {
       Numbers y, u;
@@ -283,7 +292,7 @@ lqg_status compare_on_random_models(Filter filter, bool is_spoilt, Output output
 }
 
 lqg_status compare_with_faults(Filter filter) {
-  return compare_on_random_models(filter, false, [](Random& random) { return random_output(random, 10); });
+  return compare_on_random_models(filter, nullptr, [](Random& random) { return random_output(random, 10); });
 }
 
 void test_steady_filter_agrees_while_sensors_fail() {
@@ -305,7 +314,7 @@ lqg_real large_output(Random& random) {
 
 void test_filters_agree_on_large_outputs() {
   for (const Filter filter : {Filter::steady, Filter::plain, Filter::ud})
-    compare_on_random_models(filter, false, large_output);
+    compare_on_random_models(filter, nullptr, large_output);
 }
 
 // Any bits: overflows, resets.
@@ -317,13 +326,21 @@ lqg_real any_output(Random& random) {
 
 void test_filters_agree_when_the_state_overflows_and_begins_anew() {
   for (const Filter filter : {Filter::steady, Filter::plain, Filter::ud})
-    TEST_ASSERT_TRUE(compare_on_random_models(filter, false, any_output) & LQG_STATE_RESET);
+    TEST_ASSERT_TRUE(compare_on_random_models(filter, nullptr, any_output) & LQG_STATE_RESET);
 }
 
 void test_filters_agree_on_a_covariance_that_is_none() {
   for (const Filter filter : {Filter::plain, Filter::ud}) {
-    const lqg_status seen = compare_on_random_models(filter, true, large_output);
+    const lqg_status seen = compare_on_random_models(filter, spoil, large_output);
     TEST_ASSERT_TRUE(filter == Filter::ud || seen & LQG_INNOVATION_NOT_POSITIVE);
+  }
+}
+
+void test_filters_agree_within_bounds_and_on_what_to_believe() {
+  for (const Filter filter : {Filter::steady, Filter::plain, Filter::ud}) {
+    const lqg_status seen = compare_on_random_models(filter, bind, large_output);
+    TEST_ASSERT_TRUE(seen & LQG_STATE_RESET);
+    TEST_ASSERT_TRUE(seen & LQG_OUTPUT_NOT_FINITE);
   }
 }
 
@@ -361,6 +378,7 @@ int main() {
   RUN_TEST(test_filters_agree_on_large_outputs);
   RUN_TEST(test_filters_agree_when_the_state_overflows_and_begins_anew);
   RUN_TEST(test_filters_agree_on_a_covariance_that_is_none);
+  RUN_TEST(test_filters_agree_within_bounds_and_on_what_to_believe);
   RUN_TEST(test_control_agrees_on_any_state);
   return UNITY_END();
 }

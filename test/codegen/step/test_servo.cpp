@@ -48,6 +48,12 @@ Model<S> random_law(Random& random) {
   return model;
 }
 
+// Bounds that are reached now and then.
+void bind(Random& random, Model<S>& model) {
+  for (std::size_t i = 0; i < model.integral.size(); ++i) model.xi_bound.push_back(random.between(-1, 2));
+  model.error_limit = Vector<S>::Constant(static_cast<Eigen::Index>(model.integral.size()), S(2));
+}
+
 // What a caller may hand over: as a rule something honest, now and then anything.
 Vector<S> any_vector(Random& random, int size, int one_hostile_in) {
   const lqg_real hostile[] = {Limits::quiet_NaN(), Limits::infinity(), -Limits::max(), random.pattern<lqg_real>()};
@@ -70,12 +76,14 @@ class Comparison {
   explicit Comparison(const Model<S>& model)
       : model_(model), state_(lqg::step::initial_state(model)), K_(row_major(model.K)), Nbar_(row_major(model.Nbar)),
         H_(row_major(model.H)), u_min_(row_major(model.u_min)), u_max_(row_major(model.u_max)),
-        u_step_(row_major(model.u_step)), output_(model.integral.begin(), model.integral.end()),
+        u_step_(row_major(model.u_step)), error_limit_(row_major(model.error_limit)), output_(model.integral.begin(), model.integral.end()),
         reference_(model.wanted.begin(), model.wanted.end()), xi_(output_.size()), error_(output_.size()),
         demand_(static_cast<std::size_t>(state_.demand.size())), u_applied_(static_cast<std::size_t>(state_.u.size())) {
+    for (const int bound : model.xi_bound) xi_scale_.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
     const auto size = [](auto count) { return static_cast<unsigned>(count); };
     servo_ = {size(model.nx), size(model.nu), size(model.nr), size(output_.size()), model.gives_change ? 1u : 0u, number(model.T),
-              pointer(K_), pointer(Nbar_), pointer(H_), output_.data(), reference_.data(), pointer(u_min_), pointer(u_max_), pointer(u_step_)};
+              pointer(K_), pointer(Nbar_), pointer(H_), output_.data(), reference_.data(), pointer(u_min_), pointer(u_max_), pointer(u_step_),
+              pointer(xi_scale_), pointer(error_limit_)};
     lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
   }
 
@@ -97,13 +105,13 @@ class Comparison {
   template <class Templates, class Library>
   lqg_status apply(const Vector<S>& u, Templates templates, Library library) {
     Listener listener;
-    const bool finite = templates(u, listener);
+    const bool within = templates(u, listener);
     const Numbers applied = row_major(u);
     const lqg_status status = library(applied);
     // A u that nothing remembers is the filter's to refuse.
-    if (!finite && !state_.u.size()) return forget();
-    listener.raise(Event::state_reset, !finite);
-    if (!finite) lqg::step::begin_anew(model_, state_);
+    if (!within && !state_.u.size() && model_.xi_bound.empty()) return forget();
+    listener.raise(Event::state_reset, !within);
+    if (!within) lqg::step::begin_anew(model_, state_);
     expect(status, listener.events);
     return status;
   }
@@ -111,7 +119,7 @@ class Comparison {
     return apply(u, [&](const Vector<S>& applied, Listener& listener) {
       lqg::step::Total<S> total;
       lqg::step::remember(model_, state_, applied, total, listener);
-      return lqg::step::is_finite(total.sum);
+      return total.is_within();
     }, [&](const Numbers& applied) {
       return lqg_servo_advance(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_), applied.data());
     });
@@ -142,18 +150,19 @@ class Comparison {
 
   const Model<S>& model_;
   State<S> state_;
-  Numbers K_, Nbar_, H_, u_min_, u_max_, u_step_;
+  Numbers K_, Nbar_, H_, u_min_, u_max_, u_step_, error_limit_, xi_scale_;
   std::vector<unsigned> output_, reference_;
   Numbers xi_, error_, demand_, u_applied_;
   lqg_servo_t servo_{};
 };
 
 // One hostile number in `one_hostile_in`.
-lqg_status compare(int one_hostile_in) {
+lqg_status compare(int one_hostile_in, bool is_bounded = false) {
   lqg_status seen = LQG_OK;
   for (std::uint64_t seed = 0; seed < laws; ++seed) {
     Random random(seed);
-    const Model<S> model = random_law(random);
+    Model<S> model = random_law(random);
+    if (is_bounded) bind(random, model);
     Comparison comparison(model);
     for (int k = 0; k < samples; ++k) {
       const auto any = [&](int size) { return any_vector(random, size, one_hostile_in); };
@@ -173,11 +182,16 @@ void test_library_and_templates_agree_on_anything() {
   TEST_ASSERT_EQUAL_HEX(LQG_INPUT_LIMITED | LQG_STATE_RESET | LQG_REFERENCE_NOT_FINITE, compare(20));
 }
 
+void test_library_and_templates_agree_within_bounds() {
+  TEST_ASSERT_EQUAL_HEX(LQG_INPUT_LIMITED | LQG_STATE_RESET, compare(std::numeric_limits<int>::max(), true));
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_library_and_templates_agree_in_every_bit);
   RUN_TEST(test_library_and_templates_agree_on_anything);
+  RUN_TEST(test_library_and_templates_agree_within_bounds);
   return UNITY_END();
 }

@@ -1,0 +1,249 @@
+/* The bounds of a state and of what is believed: hit exactly, just missed, and left far behind, in each entry. The plant
+ * is x⁺ = x + u, y = x, so that a prediction from x = 0 leaves x = u. */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+#include "lqg/lqg.h"
+#include "unity.h"
+
+enum { NX = 3, STEADY = 0, PLAIN = 1, UD = 2, FILTERS = 3 };
+
+static const lqg_real identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, L[9] = {0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f};
+static const lqg_real one[3] = {1, 1, 1}, none[6] = {0}, P0[6] = {1, 0, 1, 0, 0, 1}, x0[3] = {1, 2, 0.5f};
+static const lqg_real bound[3] = {16, 64, 4}, scale[3] = {1 / 16.0f, 1 / 64.0f, 0.25f}, limit[3] = {8, 2, 32};
+
+#define PLANT {NX, NX, NX, identity, identity, identity, NULL}
+static lqg_kalman_steady_t steady = {PLANT, L, NULL, x0, scale, limit};
+static lqg_kalman_plain_t plain = {PLANT, NULL, one, none, NULL, NULL, x0, P0, scale, limit};
+static lqg_kalman_ud_t ud = {PLANT, NULL, one, 0, NULL, NULL, NULL, NULL, x0, none, one, scale, limit};
+
+static lqg_real x[3], P[6], U[3], d[3], work[LQG_KALMAN_UD_WORK(3, 3, 0)];
+
+static void set_bounds(const lqg_real *scales, const lqg_real *limits)
+{
+    steady.x_scale = plain.x_scale = ud.x_scale = scales;
+    steady.innovation_limit = plain.innovation_limit = ud.innovation_limit = limits;
+}
+
+void setUp(void)
+{
+    set_bounds(scale, limit);
+}
+
+void tearDown(void)
+{
+}
+
+/* Begins with x̂ = 0. */
+static void begin(int filter)
+{
+    if (filter == STEADY)
+        lqg_kalman_steady_init(&steady, x, NULL, NULL);
+    if (filter == PLAIN)
+        lqg_kalman_plain_init(&plain, x, P, NULL, NULL);
+    if (filter == UD)
+        lqg_kalman_ud_init(&ud, x, U, d, NULL, NULL);
+    x[0] = x[1] = x[2] = 0;
+}
+
+static lqg_status predict(int filter, const lqg_real u[])
+{
+    if (filter == STEADY)
+        return lqg_kalman_steady_predict(&steady, x, NULL, NULL, u, work);
+    if (filter == PLAIN)
+        return lqg_kalman_plain_predict(&plain, x, P, NULL, NULL, u, work);
+    return lqg_kalman_ud_predict(&ud, x, U, d, NULL, NULL, u, work);
+}
+
+static lqg_status update(int filter, const lqg_real y[])
+{
+    if (filter == STEADY)
+        return lqg_kalman_steady_update(&steady, x, NULL, NULL, y, work);
+    if (filter == PLAIN)
+        return lqg_kalman_plain_update(&plain, x, P, NULL, NULL, y, work);
+    return lqg_kalman_ud_update(&ud, x, U, d, NULL, NULL, y, work);
+}
+
+static lqg_real just_below(lqg_real value)
+{
+#ifdef LQG_REAL_DOUBLE
+    return nextafter(value, 0);
+#else
+    return nextafterf(value, 0);
+#endif
+}
+
+static lqg_status predict_to(int filter, int i, lqg_real value)
+{
+    lqg_real u[3] = {0};
+    u[i] = value;
+    begin(filter);
+    return predict(filter, u);
+}
+
+static void expect_reset(lqg_status status)
+{
+    TEST_ASSERT_EQUAL_HEX(LQG_STATE_RESET, status);
+    for (int i = 0; i < NX; i++)
+        TEST_ASSERT_TRUE(x[i] == x0[i]);
+}
+
+static void test_each_state_stays_just_below_its_bound_and_begins_anew_at_it(void)
+{
+    for (int filter = 0; filter < FILTERS; filter++) {
+        plain.P0 = none; /* so that the estimate alone counts */
+        ud.d0 = none;
+        for (int i = 0; i < NX; i++) {
+            for (int sign = -1; sign <= 1; sign += 2) {
+                const lqg_real inside = (lqg_real)sign * just_below(bound[i]);
+                TEST_ASSERT_EQUAL_HEX(LQG_OK, predict_to(filter, i, inside));
+                TEST_ASSERT_TRUE(x[i] == inside);
+                expect_reset(predict_to(filter, i, (lqg_real)sign * bound[i]));
+            }
+        }
+        plain.P0 = P0;
+        ud.d0 = one;
+    }
+}
+
+static void test_anything_beyond_begins_anew_and_nothing_tiny_does(void)
+{
+    const lqg_real huge[] = {(lqg_real)NAN, (lqg_real)INFINITY, -(lqg_real)INFINITY, 1e30f, -1e30f, FLT_MAX};
+    const lqg_real tiny[] = {0, -(lqg_real)0, FLT_MIN / 2, -FLT_MIN};
+    for (int filter = 0; filter < FILTERS; filter++) {
+        for (int i = 0; i < NX; i++) {
+            for (unsigned k = 0; k < sizeof huge / sizeof *huge; k++)
+                expect_reset(predict_to(filter, i, huge[k]));
+            for (unsigned k = 0; k < sizeof tiny / sizeof *tiny; k++)
+                TEST_ASSERT_EQUAL_HEX(LQG_OK, predict_to(filter, i, tiny[k]));
+        }
+    }
+}
+
+static void test_states_near_their_bounds_together_are_beyond(void)
+{
+    const lqg_real u[3] = {12, 48, 0}; /* ¾ of each bound: 9/16 + 9/16 */
+    begin(STEADY);
+    expect_reset(predict(STEADY, u));
+}
+
+static void test_update_keeps_the_bounds(void)
+{
+    const lqg_real far_off[3] = {0, 0, 31}, y[3] = {0, 0, 10}; /* both believable */
+    for (int filter = 0; filter < FILTERS; filter++) {
+        begin(filter);
+        expect_reset(update(filter, far_off));
+        begin(filter);
+        x[2] = 2;
+        expect_reset(update(filter, y));
+    }
+}
+
+/* P_ii, or d_i, of one state alone. */
+static lqg_status predict_with_variance(int filter, int i, lqg_real variance)
+{
+    begin(filter);
+    for (int k = 0; k < 6; k++)
+        P[k] = 0;
+    d[0] = d[1] = d[2] = 0;
+    P[i * (i + 1) / 2 + i] = d[i] = variance;
+    return predict(filter, none);
+}
+
+static void test_each_variance_stays_just_below_the_square_of_its_bound(void)
+{
+    for (int filter = PLAIN; filter < FILTERS; filter++) {
+        for (int i = 0; i < NX; i++) {
+            const lqg_real square = bound[i] * bound[i];
+            TEST_ASSERT_EQUAL_HEX(LQG_OK, predict_with_variance(filter, i, just_below(square)));
+            expect_reset(predict_with_variance(filter, i, square));
+            expect_reset(predict_with_variance(filter, i, -square));
+            expect_reset(predict_with_variance(filter, i, (lqg_real)NAN));
+            expect_reset(predict_with_variance(filter, i, (lqg_real)INFINITY));
+        }
+    }
+}
+
+static void test_factors_have_to_be_finite_only(void)
+{
+    for (int k = 0; k < 3; k++) {
+        begin(UD);
+        U[k] = 1e6f; /* finite, whatever its size */
+        d[0] = d[1] = d[2] = 1e-20f;
+        TEST_ASSERT_EQUAL_HEX(LQG_OK, predict(UD, none));
+        begin(UD);
+        U[k] = (lqg_real)NAN;
+        expect_reset(predict(UD, none));
+    }
+}
+
+/* x̂ and all that an update could touch. */
+static int state_changes(int filter, int i, lqg_real y_i, lqg_status expected)
+{
+    lqg_real y[3] = {0, 0, 0};
+    begin(filter);
+    y[i] = y_i;
+    TEST_ASSERT_EQUAL_HEX(expected, update(filter, y));
+    return x[0] != 0 || x[1] != 0 || x[2] != 0;
+}
+
+static void test_an_innovation_at_its_limit_is_left_out_and_one_just_below_is_not(void)
+{
+    static const lqg_real wide[3] = {1 / 1024.0f, 1 / 1024.0f, 1 / 1024.0f};
+    set_bounds(wide, limit);
+    for (int filter = 0; filter < FILTERS; filter++) {
+        for (int i = 0; i < NX; i++) {
+            for (int sign = -1; sign <= 1; sign += 2) {
+                const lqg_real at = (lqg_real)sign * limit[i];
+                TEST_ASSERT_FALSE(state_changes(filter, i, at, LQG_OUTPUT_NOT_FINITE));
+                TEST_ASSERT_TRUE(state_changes(filter, i, just_below(at), LQG_OK));
+            }
+            TEST_ASSERT_FALSE(state_changes(filter, i, (lqg_real)NAN, LQG_OUTPUT_NOT_FINITE));
+            TEST_ASSERT_FALSE(state_changes(filter, i, 1e30f, LQG_OUTPUT_NOT_FINITE));
+            TEST_ASSERT_FALSE(state_changes(filter, i, -(lqg_real)INFINITY, LQG_OUTPUT_NOT_FINITE));
+        }
+    }
+}
+
+/* What is not believed is not gated, either: one reason is enough. */
+static void test_an_innovation_that_is_not_believed_is_not_counted_by_the_gate(void)
+{
+    unsigned long gated[3] = {0};
+    lqg_real nu[3];
+    const lqg_watch_t watch = {NULL, 3, gated, nu, NULL};
+    const lqg_real y[3] = {1e6f, 1.0f, 20};
+
+    begin(UD);
+    TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_OUTPUT_GATED,
+                          lqg_kalman_ud_update_watched(&ud, x, U, d, NULL, NULL, y, &watch, work));
+    TEST_ASSERT_TRUE(gated[0] == 0 && gated[1] == 0 && gated[2] == 1);
+    TEST_ASSERT_TRUE(nu[0] == 0 && nu[1] == 1 && nu[2] == 20);
+}
+
+static void test_without_bounds_finite_is_enough(void)
+{
+    set_bounds(NULL, NULL);
+    for (int filter = 0; filter < FILTERS; filter++) {
+        for (int i = 0; i < NX; i++) {
+            TEST_ASSERT_EQUAL_HEX(LQG_OK, predict_to(filter, i, 1e30f));
+            expect_reset(predict_to(filter, i, (lqg_real)NAN));
+            TEST_ASSERT_TRUE(state_changes(filter, i, 1e30f, LQG_OK));
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_each_state_stays_just_below_its_bound_and_begins_anew_at_it);
+    RUN_TEST(test_anything_beyond_begins_anew_and_nothing_tiny_does);
+    RUN_TEST(test_states_near_their_bounds_together_are_beyond);
+    RUN_TEST(test_update_keeps_the_bounds);
+    RUN_TEST(test_each_variance_stays_just_below_the_square_of_its_bound);
+    RUN_TEST(test_factors_have_to_be_finite_only);
+    RUN_TEST(test_an_innovation_at_its_limit_is_left_out_and_one_just_below_is_not);
+    RUN_TEST(test_an_innovation_that_is_not_believed_is_not_counted_by_the_gate);
+    RUN_TEST(test_without_bounds_finite_is_enough);
+    return UNITY_END();
+}
