@@ -71,7 +71,7 @@ GainTable gains_backward(const std::vector<SampledStage>& stages, int steps, con
   table.K.resize(static_cast<std::size_t>(steps));
   RealMatrix X = X_end;
   for (int k = steps - 1; k >= 0; --k) {
-    report_progress("gains from the end back", steps - k);
+    report_progress("gains from the end back", steps - k, steps);
     const std::ptrdiff_t stage = &stage_at(stages, k) - stages.data();
     const std::optional<Step> step = prepared[static_cast<std::size_t>(stage)].before(X);
     if (!step) {

@@ -26,13 +26,13 @@ ProgressScope::ProgressScope(const Progress& progress) {
 
 ProgressScope::~ProgressScope() { listener.progress = nullptr; }
 
-void report_progress(const char* work, long step) {
+void report_progress(const char* work, long step, long all) {
   if (!listener.progress) return;
   const Clock::time_point now = Clock::now();
   if (now - listener.last < std::chrono::seconds(1)) return;
   listener.last = now;
   (*listener.progress)(std::string(work) + " in " + std::to_string(Real::default_precision()) + " digits, step "
-                       + std::to_string(step));
+                       + std::to_string(step) + (all > 0 ? " of " + std::to_string(all) : ""));
 }
 
 }  // namespace lqg::design

@@ -6,7 +6,7 @@
 
 namespace lqg::design {
 
-// Takes a line like "Riccati equation in 200 digits, step 7".
+// Takes a line like "Riccati equation in 200 digits, step 7", or "…, step 7 of 1000".
 using Progress = std::function<void(const std::string&)>;
 
 // During its life report_progress calls `progress`, in this thread, when a second has gone by since the last line.
@@ -18,6 +18,7 @@ class ProgressScope {
   ProgressScope& operator=(const ProgressScope&) = delete;
 };
 
-void report_progress(const char* work, long step);
+// `all`: how many steps there are; 0 where nobody knows.
+void report_progress(const char* work, long step, long all = 0);
 
 }  // namespace lqg::design

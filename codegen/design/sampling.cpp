@@ -124,7 +124,7 @@ SampledPeriod sample(const HeldPlant& plant, const Real& sample_time) {
   const Real h = ldexp(sample_time, -doublings);
   Period period = short_period(plant, F, h);
   for (int i = 0; i < doublings; ++i) {
-    report_progress("sampling", i);
+    report_progress("sampling", i, doublings);
     double_period(period, nx);
   }
   return {period.transition.topLeftCorner(nx, nx), period.transition.topRightCorner(nx, held), period.cost,

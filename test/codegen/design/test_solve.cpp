@@ -1,9 +1,12 @@
 // Whole designs: numbers from an independent source to the last bit, digits as the problem wants them, the
 // same every time.
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include <unity.h>
 
+#include "design/progress.hpp"
 #include "design/rounding.hpp"
 #include "problems.hpp"
 
@@ -147,6 +150,22 @@ void test_regulator_of_a_continuous_plant_without_outputs() {
   TEST_ASSERT_EQUAL(0, solved(problem).plant.C.rows());
 }
 
+// A person who waits is told once a second what is going on, and how much of it there is.
+void test_progress_comes_once_a_second() {
+  std::vector<std::string> lines;
+  const Digits digits(50);
+  {
+    const ProgressScope scope([&](const std::string& line) { lines.push_back(line); });
+    report_progress("too early", 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    report_progress("gains", 3, 10);
+    report_progress("too early again", 4);
+  }
+  report_progress("too late", 5);
+  TEST_ASSERT_EQUAL(1, lines.size());
+  TEST_ASSERT_EQUAL_STRING("gains in 50 digits, step 3 of 10", lines.front().c_str());
+}
+
 }  // namespace
 
 int main() {
@@ -163,5 +182,6 @@ int main() {
   RUN_TEST(test_estimator_alone_and_regulator_alone);
   RUN_TEST(test_estimator_of_a_plant_without_inputs);
   RUN_TEST(test_regulator_of_a_continuous_plant_without_outputs);
+  RUN_TEST(test_progress_comes_once_a_second);
   return UNITY_END();
 }
