@@ -155,7 +155,8 @@ void test_progress_comes_once_a_second() {
   std::vector<std::string> lines;
   const Digits digits(50);
   {
-    const ProgressScope scope([&](const std::string& line) { lines.push_back(line); });
+    const Progress keep = [&](const std::string& line) { lines.push_back(line); };
+    const ProgressScope scope(keep);
     report_progress("too early", 1);
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
     report_progress("gains", 3, 10);
