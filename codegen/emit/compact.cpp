@@ -222,7 +222,7 @@ std::string options_check(const Controller& controller) {
 
 Bodies compact_bodies(const Controller& controller) {
   Bodies bodies;
-  bodies.includes = std::string(controller.is_fused() ? "#include <math.h>\n" : "") +
+  bodies.includes = std::string(controller.is_fused() || controller.ny() > 1 ? "#include <math.h>\n" : "") +
                     "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   const Words words = call_words(controller);
   bodies.resets = needs_reset(controller);

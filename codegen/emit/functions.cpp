@@ -1,6 +1,7 @@
 #include "emit/functions.hpp"
 
 #include "emit/linear_functions.hpp"
+#include "emit/partial_update.hpp"
 #include "emit/text.hpp"
 
 namespace lqg::emit {
@@ -317,7 +318,7 @@ std::string functions(const Controller& controller, const Bodies& bodies) {
   if (controller.has_filter())
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
            update_alone_functions(controller, bodies) + (controller.has_stages() ? "" : innovation_function(controller)) +
-           set_state_function(controller);
+           partial_update_function(controller) + set_state_function(controller);
   if (controller.can_set_input()) out += set_input_function(controller, bodies);
   return out;
 }

@@ -140,6 +140,10 @@ static void call_any(OF(t) * loop)
     if (call == 3)
         OF(set_state)(loop, x);
 #endif
+#ifdef HAS_partial_update
+    if (call == 5)
+        OF(partial_update)(loop, y, any_count);
+#endif
 #ifdef HAS_set_input
     if (call == 4)
         OF(set_input)(loop, u);

@@ -23,7 +23,7 @@ mkdir -p "$scratch"
   [ "$real" = float ] || echo "#define LQG_REAL_DOUBLE"
   [ "$(value arithmetic)" != fused ] || echo "#define LQG_FUSED"
   for part in NU NR; do ! grep -q "^#define ${name^^}_$part " "$emitted/$name.h" || echo "#define HAS_$part"; done
-  for call in control set_state set_input; do ! grep -q "^static inline .*${name}_$call(" "$emitted/$name.h" || echo "#define HAS_$call"; done
+  for call in control set_state set_input partial_update; do ! grep -q "^static inline .*${name}_$call(" "$emitted/$name.h" || echo "#define HAS_$call"; done
   for part in P U d; do ! grep -q "^    \(float\|double\) $part\[" "$emitted/$name.h" || echo "#define HAS_$part"; done
   rows=$(sed -n 's/^ *if (self->[a-z_]* < \([0-9]*\))$/, \1/p' "$emitted/$name.h" | tr -d '\n')
   [ -z "$rows" ] || echo "#define LAST_ROWS ${rows#, }"

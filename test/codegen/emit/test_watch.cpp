@@ -115,6 +115,44 @@ void test_updates_by_one_output_each_are_the_update_by_all() {
   }
 }
 
+// All of them: the update. One of them: the update by it alone, whatever stands in the others' places.
+void test_a_partial_update_is_the_update_by_those_that_are_used() {
+  for (const Kind& kind : kinds) {
+    const std::string printed = run_in_both_styles(changed(design_of(kind), [](Problem&, Solution&) {}), R"(
+    const float nothing = 1e38f * 10 - 1e38f * 10;
+    y[0] = 0.3f;
+    y[1] = -0.2f;
+    status |= loop_update(&self, y);
+    status |= loop_partial_update(&other, y, ~0ul);
+    printf("%u %d ", status, memcmp(&self, &other, sizeof self) == 0);
+    y[0] = nothing;
+    status |= loop_update_y1(&self, y[1]);
+    status |= loop_partial_update(&other, y, 1ul << LOOP_Y_Y1);
+    printf("%u %d ", status, memcmp(&self, &other, sizeof self) == 0);
+    status |= loop_partial_update(&other, y, 0);
+    printf("%u %d", status, memcmp(&self, &other, sizeof self) == 0);
+)");
+    TEST_ASSERT_EQUAL_STRING("0 1 0 1 0 1", printed.c_str());
+  }
+}
+
+void test_a_partial_update_reports_the_outputs_that_are_used_only() {
+  for (const Kind& kind : kinds) {
+    const std::string printed = run_in_both_styles(changed(design_of(kind), [](Problem&, Solution&) {}), R"(
+    const float absurd[] = {1e38f * 10 - 1e38f * 10, 1e38f * 10, 1e37f};
+    for (int k = 0; k < 3; k++) {
+        y[0] = absurd[k];
+        y[1] = 0.1f;
+        printf("%u", loop_partial_update(&self, y, 1ul << LOOP_Y_Y0));
+        printf("%u", loop_partial_update(&self, y, 1ul << LOOP_Y_Y1));
+        printf("%u ", loop_partial_update(&self, y, 3));
+    }
+    printf("%d", self.x[0] == 0);
+)");
+    TEST_ASSERT_EQUAL_STRING("101 101 101 1", printed.c_str());
+  }
+}
+
 // An output that is decorrelated by another one has no update of its own.
 void test_an_output_that_needs_another_has_no_update_of_its_own() {
   DesignText design = design_of(kinds[1]);
@@ -122,6 +160,22 @@ void test_an_output_that_needs_another_has_no_update_of_its_own() {
   const std::string header = lqg::emit::header(changed(design, [](Problem&, Solution&) {}));
   TEST_ASSERT_TRUE(header.find("loop_update_y0(") != std::string::npos);
   TEST_ASSERT_TRUE(header.find("loop_update_y1(") == std::string::npos);
+}
+
+// y1 is made independent by y0: without it nothing is heard of y1, which is said.
+void test_a_partial_update_says_when_an_output_lacks_its_company() {
+  DesignText design = design_of(kinds[1]);
+  design.V << 0.01, 0.004, 0.004, 0.02;
+  const std::string printed = run_in_both_styles(changed(design, [](Problem&, Solution&) {}), R"(
+    y[0] = 0.1f;
+    y[1] = 0.2f;
+    printf("%u ", loop_partial_update(&self, y, 2));
+    printf("%d ", memcmp(&self, &other, sizeof self) == 0);
+    printf("%u ", loop_partial_update(&self, y, 1));
+    status = loop_partial_update(&other, y, 3);
+    printf("%u", status);
+)");
+  TEST_ASSERT_EQUAL_STRING("1 1 0 0", printed.c_str());
 }
 
 // P0 = I: S of the position is 1 + V, whatever makes the outputs uncorrelated.
@@ -152,6 +206,9 @@ int main() {
   RUN_TEST(test_the_gate_is_where_the_variance_says);
   RUN_TEST(test_updates_by_one_output_each_are_the_update_by_all);
   RUN_TEST(test_an_output_that_needs_another_has_no_update_of_its_own);
+  RUN_TEST(test_a_partial_update_is_the_update_by_those_that_are_used);
+  RUN_TEST(test_a_partial_update_reports_the_outputs_that_are_used_only);
+  RUN_TEST(test_a_partial_update_says_when_an_output_lacks_its_company);
   RUN_TEST(test_innovation_and_variance_are_those_of_the_outputs_as_they_are);
   return UNITY_END();
 }
