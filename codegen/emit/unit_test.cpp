@@ -167,7 +167,9 @@ std::string main_function(const Controller& controller) {
   return std::string("\nint main(void)\n{\n    UNITY_BEGIN();\n"
                      "    RUN_TEST(test_{name}_follows_the_reference_of_the_host);\n"
                      "{bits}") +
-         (controller.has_filter() ? "    RUN_TEST(test_{name}_stays_within_its_bounds_whatever_a_sensor_says);\n" : "") +
+         (controller.linear       ? "    RUN_TEST(test_{name}_stays_finite_whatever_a_sensor_says);\n"
+          : controller.has_filter() ? "    RUN_TEST(test_{name}_stays_within_its_bounds_whatever_a_sensor_says);\n"
+                                    : "") +
          "    return UNITY_END();\n}\n";
 }
 

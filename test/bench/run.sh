@@ -66,7 +66,7 @@ make_controller() {
   grep -q '^B *=' "$3" || has_input=
   "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet
   sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$1/${name}_test.c" >"$1/vectors.h"
-  if grep -q "_advance(" "$1/$name.h"; then
+  if grep -q "^static inline .*${name}_advance(" "$1/$name.h"; then
     keeps_z=yes
     grep -q "_control(.* y\[" "$1/$name.h" || predicts=yes
   fi

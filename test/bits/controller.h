@@ -1,5 +1,5 @@
 /* Every bit of 1000 samples of one controller. To be included by what describe.cmake makes of the controller's header:
- * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS and REFERS the controller does, and MEMBERS, a
+ * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS, ADVANCES and REFERS the controller does, and MEMBERS, a
  * HASH_MEMBER(name) for each part of its state. HASHES_OF(NAME) becomes the function that runs it. Included once for
  * each controller, all of one REAL. */
 #include "samples.h"
@@ -27,17 +27,21 @@ static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) *self, source_t *source)
 #ifdef REFERS
     draw_all(source, self->r, SIZE(NR));
 #endif
-#ifdef UPDATES
+#if defined UPDATES || defined ADVANCES
     REAL y[SIZE(NY)];
     draw_all(source, y, SIZE(NY));
     fail_some(source, y, SIZE(NY));
-    status |= OF(update)(self, y);
-    hashes = OF(hash_state)(hashes, self);
 #else
     REAL x[SIZE(NX)];
     draw_all(source, x, SIZE(NX));
 #endif
-#if defined CONTROLS && defined UPDATES
+#ifdef UPDATES
+    status |= OF(update)(self, y);
+    hashes = OF(hash_state)(hashes, self);
+#endif
+#if defined ADVANCES
+    status |= OF(step)(self, y, u);
+#elif defined CONTROLS && defined UPDATES
     status |= OF(control)(self, u);
     status |= OF(predict)(self, u);
 #elif defined CONTROLS
@@ -75,4 +79,5 @@ hashes_t HASHES_OF(NAME)(void)
 #undef MEMBERS
 #undef UPDATES
 #undef CONTROLS
+#undef ADVANCES
 #undef REFERS

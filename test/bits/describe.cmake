@@ -22,7 +22,7 @@ foreach(member IN LISTS members)
 endforeach()
 
 set(does)
-foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "REFERS:#define ${upper_name}_NR ")
+foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "ADVANCES: ${NAME}_advance\\(" "REFERS:#define ${upper_name}_NR ")
   string(REGEX MATCH "^([A-Z]*):(.*)$" found "${pair}")
   set(macro ${CMAKE_MATCH_1})
   if(header MATCHES "${CMAKE_MATCH_2}")

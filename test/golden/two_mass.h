@@ -359,6 +359,33 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
     S[1] = 0.0013654674f;
 }
 
+/* The update by some of the outputs, for sensors with rates of their own; any number of predictions may lie between two.
+ * An approximation: the gains are the best in the company of all outputs.
+ *
+ * y     in: the outputs, in their units; those that are not used are not looked at
+ * used  in: which of them are there, a bit each: 1ul << TWO_MASS_Y_DY1
+ *
+ * Status: LQG_OUTPUT_NOT_FINITE, of those that are used, LQG_STATE_RESET. */
+static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
+{
+    LQG_STRICT_BODY
+    float there[TWO_MASS_NY], nu[TWO_MASS_NY], S[TWO_MASS_NY];
+    unsigned long lost = 0;
+
+    for (int i = 0; i < TWO_MASS_NY; i++)
+        there[i] = used >> i & 1ul ? y[i] : 0.0f;
+    two_mass_innovation(self, there, nu, S);
+    const float nu_0 = nu[0];
+    lost |= fabsf(nu_0) < 2199023255552.0f ? 0ul : 1ul << 0;
+    const float nu_1 = nu[1];
+    lost |= fabsf(nu_1) < 2199023255552.0f ? 0ul : 1ul << 1;
+    for (int i = 0; i < TWO_MASS_NY; i++)
+        there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
+
+    const lqg_status status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
+    return used & lost ? status | LQG_OUTPUT_NOT_FINITE : status;
+}
+
 /* x̂ ← x, by hand.
  *
  * x  in: the state, in its units
