@@ -1,4 +1,4 @@
-# What `cmake --install` brings: the headers, the library's four variants, lqgen with its manual and the design engine where
+# What `cmake --install` brings: the headers, the library's variants, lqgen with its manual and the design engine where
 # they were built, and the package that find_package(tinylqg) finds.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -10,7 +10,10 @@ set_target_properties(tinylqg_headers PROPERTIES EXPORT_NAME headers)
 target_include_directories(tinylqg_headers INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
-set(targets tinylqg_headers tinylqg tinylqg_double tinylqg_fused tinylqg_double_fused)
+set(targets tinylqg_headers tinylqg tinylqg_fused)
+if(TARGET tinylqg_double)
+  list(APPEND targets tinylqg_double tinylqg_double_fused)
+endif()
 if(LQG_BUILD_CODEGEN)
   list(APPEND targets lqgen)
 endif()

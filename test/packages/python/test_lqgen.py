@@ -29,7 +29,7 @@ class Lqgen(InFolder):
                 done = run(program, design, "-o", folder)
                 self.assertEqual(done.returncode, 0, done.stderr)
         names = sorted(os.listdir("build"))
-        self.assertEqual(len(names), 12)
+        self.assertEqual(len(names), 16)
         self.assertEqual(sorted(os.listdir("wheel")), names)
         for name in names:
             self.assertEqual(Path("wheel", name).read_bytes(), Path("build", name).read_bytes(), name)
