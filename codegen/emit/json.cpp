@@ -35,8 +35,7 @@ Json poles(const design::Poles& poles) {
 
 Json names(const std::vector<design::Signal>& signals) {
   Json out = Json::array();
-  for (const design::Signal& signal : signals)
-    out.push_back(signal.unit.empty() ? signal.name : signal.name + " [" + signal.unit + "]");
+  for (const design::Signal& signal : signals) out.push_back(name_with_unit(signal));
   return out;
 }
 

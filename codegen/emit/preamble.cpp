@@ -18,8 +18,7 @@ std::string signals(const char* what, const std::string& array, const std::vecto
   std::string line;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     if (i) line += ", ";
-    line += array + "[" + std::to_string(i) + "] " + signals[i].name;
-    if (!signals[i].unit.empty()) line += " [" + signals[i].unit + "]";
+    line += array + "[" + std::to_string(i) + "] " + name_with_unit(signals[i]);
   }
   return " *   " + trace::wrap(what + line, 0, 96) + "\n";
 }

@@ -26,7 +26,7 @@ std::string with_unit(const std::optional<double>& value, const char* unit) {
 std::string names(const std::vector<design::Signal>& signals) {
   std::string out;
   for (const design::Signal& signal : signals)
-    out += (out.empty() ? "" : ", ") + signal.name + (signal.unit.empty() ? "" : " [" + signal.unit + "]");
+    out += (out.empty() ? "" : ", ") + name_with_unit(signal);
   return out;
 }
 

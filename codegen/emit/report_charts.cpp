@@ -13,10 +13,6 @@ namespace lqg::emit {
 
 namespace {
 
-std::string title_of(const design::Signal& signal) {
-  return signal.unit.empty() ? signal.name : signal.name + " [" + signal.unit + "]";
-}
-
 Curve pole_curve(const char* label, int colour, const design::Poles& poles) {
   Curve curve = {label, Mark::crosses, colour, {}, {}};
   for (const std::complex<double>& pole : poles) {
@@ -73,7 +69,7 @@ class SignalCharts {
 
   Chart chart(const design::Signal& signal, std::vector<Curve> curves) const {
     Chart out;
-    out.title = title_of(signal);
+    out.title = name_with_unit(signal);
     out.x_label = "t [s]";
     out.curves = std::move(curves);
     return out;

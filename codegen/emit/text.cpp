@@ -49,6 +49,10 @@ std::vector<design::Signal> reference_signals(const Controller& controller) {
   return signals;
 }
 
+std::string name_with_unit(const design::Signal& signal) {
+  return signal.unit.empty() ? signal.name : signal.name + " [" + signal.unit + "]";
+}
+
 std::string equation_of_law(const Controller& controller) {
   const std::string x = controller.has_filter() ? "x̂" : "x", xi = controller.nxi() ? "; ξ" : "";
   const std::string last = controller.gives_change() ? "; u[k−1]" : "";

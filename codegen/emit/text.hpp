@@ -23,6 +23,9 @@ std::string upper(std::string text);
 // The states with their names: the plant's own, then the inputs on their way, "force_delayed_2", "force_delayed_1".
 std::vector<design::Signal> state_signals(const Controller& controller);
 
+// "speed [m/s]", or "speed" where it has no unit.
+std::string name_with_unit(const design::Signal& signal);
+
 // The outputs that r names.
 std::vector<design::Signal> reference_signals(const Controller& controller);
 

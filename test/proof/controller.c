@@ -1,53 +1,11 @@
 /* A controller, called in any order, for ever, with anything. HEADER, NAME and UPPER_NAME are its own; U_MIN
  * and U_MAX its limits, if it has some. */
-#include <math.h>
-
-#include "unknown.h"
-#include HEADER
-
-#define PASTE(a, b) a##_##b
-#define JOIN(a, b) PASTE(a, b)
-#define OF(part) JOIN(NAME, part)
-#define SIZE(part) JOIN(UPPER_NAME, part)
+#include "anything.h"
 
 enum { NX = SIZE(NX), NY = SIZE(NY) };
 #ifdef HAS_NU
 enum { NU = SIZE(NU) };
 #endif
-
-volatile int any_int;
-volatile unsigned long any_count;
-volatile lqg_real any_real;
-
-/* Whatever a fused multiply-add may be. */
-float fmaf(float a, float b, float c)
-{
-    (void)a, (void)b, (void)c;
-    return (float)any_real;
-}
-
-double fma(double a, double b, double c)
-{
-    (void)a, (void)b, (void)c;
-    return (double)any_real;
-}
-
-/* So that the prover does without the specification of its own. */
-float fabsf(float a)
-{
-    return a < 0 ? -a : a;
-}
-
-double fabs(double a)
-{
-    return a < 0 ? -a : a;
-}
-
-static void say_anything(lqg_real v[], int length)
-{
-    for (int i = 0; i < length; i++)
-        v[i] = any_real;
-}
 
 static const lqg_real bound[NX] = SIZE(X_BOUNDS);
 

@@ -1,38 +1,8 @@
 /* A controller that keeps z in place of x̂, called in any order, for ever, with anything. HEADER, NAME and UPPER_NAME
  * are its own; HEARS_FIRST: u is made of this sample's outputs. */
-#include <math.h>
-
-#include "unknown.h"
-#include HEADER
-
-#define PASTE(a, b) a##_##b
-#define JOIN(a, b) PASTE(a, b)
-#define OF(part) JOIN(NAME, part)
-#define SIZE(part) JOIN(UPPER_NAME, part)
+#include "anything.h"
 
 enum { NX = SIZE(NX), NY = SIZE(NY), NU = SIZE(NU), NZ = SIZE(NZ) };
-
-volatile int any_int;
-volatile lqg_real any_real;
-
-/* Whatever a fused multiply-add may be. */
-float fmaf(float a, float b, float c)
-{
-    (void)a, (void)b, (void)c;
-    return (float)any_real;
-}
-
-double fma(double a, double b, double c)
-{
-    (void)a, (void)b, (void)c;
-    return (double)any_real;
-}
-
-static void say_anything(lqg_real v[], int length)
-{
-    for (int i = 0; i < length; i++)
-        v[i] = any_real;
-}
 
 static void look_at_state(const OF(t) * loop)
 {
