@@ -5,15 +5,16 @@
 #include <filesystem>
 #include <iostream>
 
-#include "emit/controller.hpp"
-#include "emit/files.hpp"
-#include "emit/header.hpp"
-#include "emit/json.hpp"
-#include "emit/preamble.hpp"
-#include "emit/report.hpp"
-#include "emit/sha256.hpp"
-#include "emit/summary.hpp"
-#include "emit/unit_test.hpp"
+#include "emit/c/header.hpp"
+#include "emit/text/wording.hpp"
+#include "emit/report/json.hpp"
+#include "emit/plan/plan.hpp"
+#include "emit/report/report.hpp"
+#include "emit/report/summary.hpp"
+#include "emit/text/files.hpp"
+#include "emit/text/sha256.hpp"
+#include "emit/unit_test/unit_test.hpp"
+#include "design/solve.hpp"
 #include "input/design_file.hpp"
 
 namespace {

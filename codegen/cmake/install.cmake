@@ -23,10 +23,18 @@ install(DIRECTORY include/lqg DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATC
 install(TARGETS ${targets} EXPORT tinylqg)
 install(EXPORT tinylqg NAMESPACE tinylqg:: FILE tinylqgTargets.cmake DESTINATION ${package_dir})
 
-# The design engine with its headers, as <design/….hpp>, in a set of its own: it needs packages that firmware does not.
+# The design engine, what is emitted as data, and the simulation, in a set of their own: they need packages that firmware does
+# not. Of the engine the headers of the door only, as <design/….hpp>, and with it <controller/….hpp> and <simulate/….hpp>.
 if(LQG_BUILD_CODEGEN)
-  install(DIRECTORY codegen/design DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tinylqg FILES_MATCHING PATTERN "*.hpp")
-  install(TARGETS lqg_design EXPORT tinylqg_design)
+  set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/tinylqg)
+  file(GLOB door codegen/design/*.hpp)
+  list(FILTER door EXCLUDE REGEX "solution_matrices")
+  install(FILES ${door} DESTINATION ${include_dir}/design)
+  install(FILES codegen/controller/bounds.hpp codegen/controller/controller.hpp DESTINATION ${include_dir}/controller)
+  install(FILES codegen/simulate/simulation.hpp DESTINATION ${include_dir}/simulate)
+  install(FILES codegen/step/model.hpp codegen/step/scalar.hpp DESTINATION ${include_dir}/step)
+  target_include_directories(tinylqg_design INTERFACE $<INSTALL_INTERFACE:${include_dir}>)
+  install(TARGETS tinylqg_design lqg_design lqg_step lqg_controller lqg_simulate EXPORT tinylqg_design)
   install(EXPORT tinylqg_design NAMESPACE tinylqg:: FILE tinylqgDesignTargets.cmake DESTINATION ${package_dir})
   install(FILES codegen/cmake/LqgDesignDependencies.cmake DESTINATION ${package_dir})
   install(FILES codegen/lqgen.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

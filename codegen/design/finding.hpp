@@ -24,6 +24,9 @@ inline bool has_error(const Findings& findings) {
 
 void add_error(Findings& findings, const std::string& key, const std::string& message);
 
+// A number in four significant digits, for people.
+std::string decimal(double value);
+
 // Said before, it is not said again.
 void add_note(Findings& findings, const std::string& key, const std::string& message);
 

@@ -1,9 +1,9 @@
 #include "design/least_squares.hpp"
 
-#include "design/exact_reach.hpp"
-#include "design/factor.hpp"
-#include "design/modes.hpp"
-#include "design/settle.hpp"
+#include "design/numeric/exact_reach.hpp"
+#include "design/numeric/factor.hpp"
+#include "design/numeric/modes.hpp"
+#include "design/numeric/ziv_test.hpp"
 
 namespace lqg::design {
 
@@ -66,7 +66,7 @@ std::optional<LeastSquares> least_squares(const Eigen::MatrixXd& C, const Eigen:
       }
     }
     std::optional<LeastSquares> fine = solve_in_present_digits(C, V, y);
-    if (coarse && fine && settle(coarse->x, fine->x, coarse_digits) && settle(coarse->P, fine->P, coarse_digits))
+    if (coarse && fine && passes_ziv_test(coarse->x, fine->x, coarse_digits) && passes_ziv_test(coarse->P, fine->P, coarse_digits))
       return fine;
     coarse = std::move(fine);
     coarse_digits = digits;

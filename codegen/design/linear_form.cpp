@@ -5,16 +5,17 @@
 #include <cmath>
 #include <limits>
 
-#include "design/compensator.hpp"
-#include "design/modal_basis.hpp"
-#include "design/modes.hpp"
-#include "design/poles.hpp"
-#include "design/reference.hpp"
-#include "design/riccati.hpp"
-#include "design/rounded_loop.hpp"
+#include "design/equations/riccati.hpp"
+#include "design/loop/compensator.hpp"
+#include "design/loop/rounded_loop.hpp"
+#include "design/numeric/linear_algebra.hpp"
+#include "design/numeric/modal_basis.hpp"
+#include "design/numeric/modes.hpp"
+#include "design/numeric/poles.hpp"
+#include "design/numeric/ziv_test.hpp"
 #include "design/rounding.hpp"
-#include "design/settle.hpp"
-#include "design/stages.hpp"
+#include "design/sampled/reference.hpp"
+#include "design/sampled/stages.hpp"
 
 namespace lqg::design {
 
@@ -127,11 +128,11 @@ auto matrices_of(Form& form) {
                     &form.estimate, &form.heard, &form.of_state, &form.keep, &form.z0};
 }
 
-bool settle_form(const LinearForm& coarse, LinearForm& fine, unsigned coarse_digits) {
+bool form_passes_ziv_test(const LinearForm& coarse, LinearForm& fine, unsigned coarse_digits) {
   const auto before = matrices_of(coarse);
   const auto after = matrices_of(fine);
   bool settled = true;
-  for (std::size_t i = 0; i < after.size(); ++i) settled = settle(*before[i], *after[i], coarse_digits) && settled;
+  for (std::size_t i = 0; i < after.size(); ++i) settled = passes_ziv_test(*before[i], *after[i], coarse_digits) && settled;
   return settled;
 }
 
@@ -142,47 +143,6 @@ bool fits(const LinearForm& form, Scalar scalar) {
       if (!(scalar == Scalar::float32 ? std::isfinite(to_float(entry)) : std::isfinite(to_double(entry)))) return false;
     }
   return true;
-}
-
-// The physical form's answers u to an impulse of each output, sample by sample: update, control and predict as they are.
-std::vector<RealMatrix> answers_of_physical_form(const Problem& problem, const Solution& solution, Index count) {
-  const SampledPlant& plant = solution.plant;
-  const RealMatrix &K = solution.regulator->K, &L = solution.estimator->L, &M = solution.estimator->M;
-  const bool answers_at_once = problem.estimator->form == Form::filter;
-  const Index ny = plant.C.rows();
-  RealMatrix x = zeros(plant.A.rows(), ny), u = zeros(plant.B.cols(), ny), y = identity(ny);
-  std::vector<RealMatrix> answers;
-  while (static_cast<Index>(answers.size()) < count) {
-    if (!answers_at_once) u = -multiply(K, x);
-    const RealMatrix e = y - multiply(plant.C, x) - multiply(plant.D, u);
-    x += multiply(L, e);
-    if (answers_at_once) u = -multiply(K, x);
-    answers.push_back(u);
-    x = multiply(plant.A, x) + multiply(plant.B, u) + multiply(M, e);
-    y = zeros(ny, ny);
-  }
-  return answers;
-}
-
-// In how many digits `form` gives the same answers to an impulse: D, CB, CAB … CA²ⁿ⁻¹B. Systems of order n that agree in
-// these agree in all (Cayley–Hamilton).
-double agreement(const Problem& problem, const Solution& solution, const LinearForm& form) {
-  const Index count = 2 * form.A.rows() + 1;
-  const std::vector<RealMatrix> wanted = answers_of_physical_form(problem, solution, count);
-  RealMatrix found = form.D, states = form.B, difference = zeros(found.rows(), found.cols()), scale = difference;
-  for (const RealMatrix& answer : wanted) {
-    difference = difference.cwiseMax((found - answer).cwiseAbs());
-    scale = scale.cwiseMax(answer.cwiseAbs());
-    found = multiply(form.C, states);
-    states = multiply(form.A, states);
-  }
-  const Real whole = largest_entry(scale);
-  Real worst = negligible(1);
-  for (Index i = 0; i < scale.size(); ++i) {
-    const Real& own = scale.data()[i].is_zero() ? whole : scale.data()[i];
-    if (!own.is_zero()) worst = std::max<Real>(worst, difference.data()[i] / own);
-  }
-  return to_double(-log10(worst));
 }
 
 double largest_condition(Scalar scalar) {
@@ -211,11 +171,9 @@ LinearFormResult settled_form(const Problem& problem, const Solution& solution, 
     return refuse("poles of the controller are so near each other that their modes cancel by a factor of " +
                   short_number(result.form->condition) + ", in " + name_of(problem.code.real) + " at most " +
                   short_number(most) + " will do");
-  if (!settle_form(*coarse, *result.form, digits / 2))
+  if (!form_passes_ziv_test(*coarse, *result.form, digits / 2))
     return refuse(std::to_string(digits / 2) + " digits do not settle its numbers");
   if (!fits(*result.form, problem.code.real)) return refuse("a number of it is too large for " + name_of(problem.code.real));
-  result.form->agreement = agreement(problem, in_present_digits(solution), *result.form);
-  if (result.form->agreement < digits / 2.0) return refuse("it is not equal to the physical form in half of the digits");
   return result;
 }
 

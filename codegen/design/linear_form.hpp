@@ -4,7 +4,6 @@
 #include <string>
 
 #include "design/finding.hpp"
-#include "design/linear_algebra.hpp"
 #include "design/problem.hpp"
 #include "design/solution.hpp"
 
@@ -20,7 +19,6 @@ struct LinearForm {
   RealMatrix of_state, keep;   // z of a state x that is set by hand: `of_state` x + `keep` z; without u[k−1] no keep
   RealMatrix z0;               // of x0, nothing applied yet
   double condition = 1;        // by how much the answers of its modes cancel, see modal_form
-  double agreement = 0;        // digits in which it answers outputs as update, control and predict do
 };
 
 // Why the design has no such form; empty: it has. There is one system for ever with constant gains of a regulator and an

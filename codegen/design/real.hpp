@@ -1,4 +1,4 @@
-// The scalar of the design: as many decimal digits as asked for, at run time (MPFR).
+// The numbers of a solution: as many decimal digits as the design took (MPFR).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +11,5 @@ using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_bac
                                            boost::multiprecision::et_off>;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-
-// Every Real made during its life has `digits` decimal digits; the digits before come back at its end.
-class Digits {
- public:
-  explicit Digits(unsigned digits) : before_(Real::default_precision()) {
-    Real::default_precision(digits);
-  }
-  ~Digits() { Real::default_precision(before_); }
-  Digits(const Digits&) = delete;
-  Digits& operator=(const Digits&) = delete;
-
- private:
-  unsigned before_;
-};
 
 }  // namespace lqg::design

@@ -5,9 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "design/finding.hpp"
 #include "design/problem.hpp"
-#include "design/progress.hpp"
 #include "design/real.hpp"
 
 namespace lqg::design {
@@ -125,9 +123,5 @@ struct Solution {
   LoopSolution loop;
   Numerics numerics;
 };
-
-// Solves `problem`. Empty, with at least one error in `findings`, when the design is impossible; the culprit is named
-// (mode, states that take part, key). Notes may come with a solution. `progress` gets a line about every second.
-std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress = {});
 
 }  // namespace lqg::design

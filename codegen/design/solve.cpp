@@ -1,19 +1,21 @@
+#include "design/solve.hpp"
+
 #include <algorithm>
 #include <array>
 
-#include "design/checks.hpp"
-#include "design/draft.hpp"
-#include "design/margins.hpp"
-#include "design/numbers.hpp"
-#include "design/open_loop.hpp"
-#include "design/poles.hpp"
-#include "design/representable.hpp"
-#include "design/requirements.hpp"
-#include "design/rounded_loop.hpp"
+#include "design/checks/representable.hpp"
+#include "design/checks/requirements.hpp"
+#include "design/checks/well_posed.hpp"
+#include "design/loop/margins.hpp"
+#include "design/loop/open_loop.hpp"
+#include "design/loop/rounded_loop.hpp"
+#include "design/numeric/poles.hpp"
+#include "design/numeric/ziv_test.hpp"
 #include "design/rounding.hpp"
-#include "design/settle.hpp"
-#include "design/structured.hpp"
-#include "design/stages.hpp"
+#include "design/run/design_run.hpp"
+#include "design/run/sparse_gain_run.hpp"
+#include "design/sampled/stages.hpp"
+#include "design/solution_matrices.hpp"
 
 namespace lqg::design {
 
@@ -43,7 +45,7 @@ Numbers numbers_of(const Solution& solution) {
 }
 
 // False, too, when one has more matrices: a schedule became longer.
-bool settle_matrices(const Solution& coarse, Solution& fine, unsigned coarse_digits) {
+bool matrices_pass_ziv_test(const Solution& coarse, Solution& fine, unsigned coarse_digits) {
   const Numbers before = numbers_of(coarse), after = numbers_of(fine);
   if (before.matrices.size() != after.matrices.size() || before.vectors.size() != after.vectors.size())
     return false;
@@ -51,44 +53,44 @@ bool settle_matrices(const Solution& coarse, Solution& fine, unsigned coarse_dig
   bool settled = true;
   for_each_matrix(fine, [&](const char*, Place, auto& a) {
     if constexpr (std::is_same_v<decltype(a), RealMatrix&>)
-      settled = settle(*before.matrices[matrix++], a, coarse_digits) && settled;
+      settled = passes_ziv_test(*before.matrices[matrix++], a, coarse_digits) && settled;
     else
-      settled = settle(*before.vectors[vector++], a, coarse_digits) && settled;
+      settled = passes_ziv_test(*before.vectors[vector++], a, coarse_digits) && settled;
   });
   return settled;
 }
 
-bool settle_optional(const std::optional<Real>& coarse, std::optional<Real>& fine, unsigned coarse_digits) {
-  return !fine || (coarse && settle(*coarse, *fine, Real(0), coarse_digits));
+bool optional_passes_ziv_test(const std::optional<Real>& coarse, std::optional<Real>& fine, unsigned coarse_digits) {
+  return !fine || (coarse && passes_ziv_test(*coarse, *fine, Real(0), coarse_digits));
 }
 
-bool settle_draft(const Draft& coarse, Draft& fine, unsigned coarse_digits) {
-  bool settled = settle_matrices(coarse.solution, fine.solution, coarse_digits);
-  settled = settle(coarse.regulator_poles, fine.regulator_poles) && settled;
-  settled = settle(coarse.estimator_poles, fine.estimator_poles) && settled;
-  settled = settle(coarse.loop_poles, fine.loop_poles) && settled;
-  settled = settle_optional(coarse.cost_per_sample, fine.cost_per_sample, coarse_digits) && settled;
-  return settle_optional(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
+bool run_passes_ziv_test(const DesignRun& coarse, DesignRun& fine, unsigned coarse_digits) {
+  bool settled = matrices_pass_ziv_test(coarse.solution, fine.solution, coarse_digits);
+  settled = passes_ziv_test(coarse.regulator_poles, fine.regulator_poles) && settled;
+  settled = passes_ziv_test(coarse.estimator_poles, fine.estimator_poles) && settled;
+  settled = passes_ziv_test(coarse.loop_poles, fine.loop_poles) && settled;
+  settled = optional_passes_ziv_test(coarse.cost_per_sample, fine.cost_per_sample, coarse_digits) && settled;
+  return optional_passes_ziv_test(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
 }
 
-void finish(const Problem& problem, Draft& draft, unsigned digits, Findings& findings) {
-  Solution& solution = draft.solution;
-  findings.insert(findings.end(), draft.findings.begin(), draft.findings.end());
+void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& findings) {
+  Solution& solution = run.solution;
+  findings.insert(findings.end(), run.findings.begin(), run.findings.end());
   solution.numerics.digits = digits;
-  solution.loop.poles = sorted_poles(draft.loop_poles);
-  if (solution.regulator) solution.regulator->poles = sorted_poles(draft.regulator_poles);
-  if (solution.estimator) solution.estimator->poles = sorted_poles(draft.estimator_poles);
-  if (draft.cost_per_sample) solution.loop.cost_per_sample = to_double(*draft.cost_per_sample);
-  if (draft.cost_per_second) solution.loop.cost_per_second = to_double(*draft.cost_per_second);
-  if (draft.has_steady_loop) {
+  solution.loop.poles = sorted_poles(run.loop_poles);
+  if (solution.regulator) solution.regulator->poles = sorted_poles(run.regulator_poles);
+  if (solution.estimator) solution.estimator->poles = sorted_poles(run.estimator_poles);
+  if (run.cost_per_sample) solution.loop.cost_per_sample = to_double(*run.cost_per_sample);
+  if (run.cost_per_second) solution.loop.cost_per_second = to_double(*run.cost_per_second);
+  if (run.has_steady_loop) {
     const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
     const Compensator controller = compensator(problem, solution);
-    solution.loop.at_input = margins(open_at_inputs(plant, controller), draft.loop_poles);
-    if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), draft.loop_poles);
-    add_full_margins(problem, draft);
+    solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
+    if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), run.loop_poles);
+    add_full_margins(problem, run);
   }
   check_representable(solution, problem.code.real, findings);
-  check_rounded(problem, draft.stages.back(), solution, findings);
+  check_rounded(problem, run.stages.back(), solution, findings);
   check_requirements(problem, solution, findings);
 }
 
@@ -144,7 +146,7 @@ bool is_for_ever(const std::optional<Estimator>& estimator) {
   return has_noise(estimator) && !(estimator->gain == Gain::schedule && estimator->horizon > 0);
 }
 
-bool keeps_distance(const Problem& problem, const Draft& coarse, const Draft& fine) {
+bool keeps_distance(const Problem& problem, const DesignRun& coarse, const DesignRun& fine) {
   return (!is_for_ever(problem.regulator) || keeps_distance(coarse.regulator_poles, fine.regulator_poles))
          && (!is_for_ever(problem.estimator) || keeps_distance(coarse.estimator_poles, fine.estimator_poles));
 }
@@ -172,7 +174,7 @@ struct Tendencies {
 };
 
 // Refuses what no digits can settle: a solution that is not stabilising.
-void check_tendencies(const Problem& problem, const Draft& coarse, const Draft& fine, Tendencies& tendencies,
+void check_tendencies(const Problem& problem, const DesignRun& coarse, const DesignRun& fine, Tendencies& tendencies,
                       Findings& findings) {
   const std::string limit = " on the stability limit: that mode carries no ";
   if (is_for_ever(problem.regulator) && tendencies.regulator.continues(coarse.regulator_poles, fine.regulator_poles))
@@ -189,14 +191,14 @@ void check_tendencies(const Problem& problem, const Draft& coarse, const Draft& 
 
 std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress) {
   const ProgressScope reporting(progress);
-  std::optional<Draft> coarse;
+  std::optional<DesignRun> coarse;
   unsigned coarse_digits = 0;
   Tendencies tendencies;
   for (const unsigned digits : runs) {
     const Digits scope(digits);
     if (!coarse && !is_well_posed(problem, findings)) return std::nullopt;
     const bool has_start = coarse && !has_error(coarse->findings);
-    Draft fine = draft(problem, has_start ? &*coarse : nullptr);
+    DesignRun fine = run_design(problem, has_start ? &*coarse : nullptr);
     const bool failed = has_error(fine.findings);
     const bool refused = coarse && failed && !fine.may_want_digits && same(coarse->findings, fine.findings);
     if (refused || (failed && digits == runs.back())) {
@@ -207,7 +209,7 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
       }
       return std::nullopt;
     }
-    if (has_start && !failed && keeps_distance(problem, *coarse, fine) && settle_draft(*coarse, fine, coarse_digits)) {
+    if (has_start && !failed && keeps_distance(problem, *coarse, fine) && run_passes_ziv_test(*coarse, fine, coarse_digits)) {
       finish(problem, fine, digits, findings);
       if (has_error(findings)) return std::nullopt;
       return fine.solution;

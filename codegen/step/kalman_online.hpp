@@ -15,9 +15,9 @@ auto update_online_output(const Model<S>& model, State<S>& state, const S& y, in
 template <class S, class Listener>
 auto has_bounded_estimate(const Model<S>& model, const State<S>& state, Listener& listener) {
   listener.section("Σ x̂² in units of a bound");
-  Total<S> total;
-  for (int j = 0; j < model.nx; ++j) total.add(S(state.x(j)), model.x_bound, j, listener);
-  return total.is_within();
+  BoundsCheck<S> bounds;
+  for (int j = 0; j < model.nx; ++j) bounds.add(S(state.x(j)), model.x_bound, j, listener);
+  return bounds.is_within();
 }
 
 // One output after the other.

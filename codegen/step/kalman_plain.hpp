@@ -56,7 +56,7 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
 
 // P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.
 template <class S, class Listener>
-void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& total, Listener& listener) {
+void predict_plain_covariance(const Model<S>& model, State<S>& state, BoundsCheck<S>& bounds, Listener& listener) {
   const int nx = model.nx;
   listener.section("P ← A P Aᵀ + G W Gᵀ, lower triangle");
   std::vector<S> next(state.P.size());
@@ -73,7 +73,7 @@ void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& 
       for (int k = 0; k < nx; ++k) sum = multiply_add(S(AP(k)), S(model.A_free(j, k)), sum);
       listener.name(sum, "prior", i, j);
       next[triangle(i, j)] = sum;
-      if (i == j) total.add_variance(sum, model.x_bound, i, listener);  // |P_ij| ≤ √(P_ii P_jj)
+      if (i == j) bounds.add_variance(sum, model.x_bound, i, listener);  // |P_ij| ≤ √(P_ii P_jj)
     }
   }
   state.P = next;
@@ -81,10 +81,10 @@ void predict_plain_covariance(const Model<S>& model, State<S>& state, Total<S>& 
 
 template <class S, class Listener>
 auto predict_plain(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
-  Total<S> total;
-  predict_state(model, state, u, total, listener);
-  predict_plain_covariance(model, state, total, listener);
-  return total.is_within();
+  BoundsCheck<S> bounds;
+  predict_state(model, state, u, bounds, listener);
+  predict_plain_covariance(model, state, bounds, listener);
+  return bounds.is_within();
 }
 
 }  // namespace lqg::step

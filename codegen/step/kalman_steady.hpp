@@ -26,15 +26,15 @@ S innovate(const Model<S>& model, const State<S>& state, const S& y, int i, List
 template <class S, class Listener>
 auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& innovation, int first, Listener& listener) {
   listener.section("x̂ ← x̂ + L innovation");
-  Total<S> total;
+  BoundsCheck<S> bounds;
   for (int j = 0; j < model.nx; ++j) {
     S sum = state.x(j);
     for (int i = 0; i < innovation.size(); ++i) sum = multiply_add(S(model.L(j, first + i)), S(innovation(i)), sum);
     listener.name(sum, "posterior", j);
     state.x(j) = sum;
-    total.add(sum, model.x_bound, j, listener);
+    bounds.add(sum, model.x_bound, j, listener);
   }
-  return total.is_within();
+  return bounds.is_within();
 }
 
 // x̂ ← x̂ + L(y − C x̂ − D u)
@@ -58,9 +58,9 @@ auto update_steady_alone(const Model<S>& model, State<S>& state, const S& y, int
 
 template <class S, class Listener>
 auto predict_steady(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
-  Total<S> total;
-  predict_state(model, state, u, total, listener);
-  return total.is_within();
+  BoundsCheck<S> bounds;
+  predict_state(model, state, u, bounds, listener);
+  return bounds.is_within();
 }
 
 }  // namespace lqg::step

@@ -106,7 +106,7 @@ Matrix<S> rows_of_the_prior(const Model<S>& model, const State<S>& state, Listen
 
 // Thornton: modified weighted Gram–Schmidt from the last row up; P ← A P Aᵀ + G diag(w) Gᵀ.
 template <class S, class Listener>
-void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& total, Listener& listener) {
+void predict_ud_covariance(const Model<S>& model, State<S>& state, BoundsCheck<S>& bounds, Listener& listener) {
   const int nx = model.nx, nt = nx + static_cast<int>(model.G.cols());
   Matrix<S> T = rows_of_the_prior(model, state, listener);
   std::vector<S> weight = state.D;
@@ -123,7 +123,7 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& tot
     for (int k = 1; k < nt; ++k) diagonal = multiply_add(S(T(i, k)), S(v(k)), diagonal);
     listener.name(diagonal, "prior_D", i);
     state.D[i] = diagonal;
-    total.add_variance(diagonal, model.x_bound, i, listener);
+    bounds.add_variance(diagonal, model.x_bound, i, listener);
     S reciprocal = S(1) / diagonal;  // not finite when the variance of a state has died out: nothing depends on it then
     listener.name(reciprocal, "inverse", i);
     reciprocal = select(is_finite(reciprocal), reciprocal, S(0));
@@ -134,7 +134,7 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& tot
       S entry = sum * reciprocal;
       listener.name(entry, "prior_U", j, i);
       state.U[strict_triangle(j, i)] = entry;
-      total.add(entry, listener);
+      bounds.add(entry, listener);
       for (int k = 0; k < nt; ++k) {
         T(j, k) = multiply_subtract(entry, S(T(i, k)), S(T(j, k)));
         listener.name(T(j, k), "T", j, k);
@@ -145,10 +145,10 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, Total<S>& tot
 
 template <class S, class Listener>
 auto predict_ud(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
-  Total<S> total;
-  predict_state(model, state, u, total, listener);
-  predict_ud_covariance(model, state, total, listener);
-  return total.is_within();
+  BoundsCheck<S> bounds;
+  predict_state(model, state, u, bounds, listener);
+  predict_ud_covariance(model, state, bounds, listener);
+  return bounds.is_within();
 }
 
 }  // namespace lqg::step

@@ -4,8 +4,8 @@
 // all is finite; its condition says whether that was so, and where it was, both ways give the same bits.
 #pragma once
 
+#include "step/bounds_check.hpp"
 #include "step/model.hpp"
-#include "step/total.hpp"
 
 namespace lqg::step {
 
@@ -81,35 +81,35 @@ template <class S, class Listener>
 auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Vector<S>& u,
                       Listener& listener) {
   listener.section(model.D.cols() ? "u = C z + D y" : "u = C z");
-  Total<S> total;
+  BoundsCheck<S> bounds;
   u.resize(model.C.rows());
   for (int i = 0; i < u.size(); ++i) {
     u(i) = add_product(add_product(S(0), model.C, i, state.z), model.D, i, y);
     listener.name(u(i), "law", i);
-    total.add(S(u(i)), listener);
+    bounds.add(S(u(i)), listener);
   }
   for (int j = 0; j < model.D.cols(); ++j) {
     bool shown = false;
     for (int i = 0; i < u.size(); ++i) shown = shown || !is_zero(S(model.D(i, j)));
-    if (!shown) total.add(S(y(j)), listener);
+    if (!shown) bounds.add(S(y(j)), listener);
   }
   if (!model.predictor_form) state.y = y;
-  return total.is_within();
+  return bounds.is_within();
 }
 
 // z ← A z + B y with outputs that are finite; the condition says that z is.
 template <class S, class Listener>
 auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Listener& listener) {
   listener.section("z ← A z + B y");
-  Total<S> total;
+  BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {
     next(i) = add_product(add_product(S(0), model.A, i, state.z), model.B, i, y);
     listener.name(next(i), "next", i);
-    total.add(S(next(i)), listener);
+    bounds.add(S(next(i)), listener);
   }
   state.z = next;
-  return total.is_within();
+  return bounds.is_within();
 }
 
 // x̂, the one that u is made of; in filter form of the y that control has heard.
@@ -128,15 +128,15 @@ Vector<S> estimate(const LinearModel<S>& model, const LinearState<S>& state, Lis
 template <class S, class Listener>
 auto set_state(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& x, Listener& listener) {
   listener.section("z of x");
-  Total<S> total;
+  BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {
     next(i) = add_product(add_product(S(0), model.of_state, i, x), model.keep, i, state.z);
     listener.name(next(i), "next", i);
-    total.add(S(next(i)), listener);
+    bounds.add(S(next(i)), listener);
   }
   state.z = next;
-  return total.is_within();
+  return bounds.is_within();
 }
 
 // One sample as `NAME_step` takes it; numbers only. `look(state)` is called between control and advance.

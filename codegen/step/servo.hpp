@@ -1,8 +1,8 @@
 // The memory of a control law: integrals of r − y, kept true to the input that was applied.
 #pragma once
 
+#include "step/bounds_check.hpp"
 #include "step/lqr.hpp"
-#include "step/total.hpp"
 
 namespace lqg::step {
 
@@ -35,18 +35,18 @@ S conditioned(const Model<S>& model, const State<S>& state, const Vector<S>& u, 
 
 // ξ ← ξ + H (u − what the law asked for) + T (r − y) with the u that was applied; that u is kept where it is needed.
 template <class S, class Listener>
-void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<S>& total, Listener& listener) {
+void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, BoundsCheck<S>& bounds, Listener& listener) {
   if (!model.integral.empty()) listener.section("ξ ← ξ + H (u − what the law asked for) + T (r − y)");
   const int nxi = static_cast<int>(model.integral.size());
   for (int i = 0; i < nxi; ++i) {
     state.xi(i) = multiply_add(model.T, S(state.error(i)), conditioned(model, state, u, state.demand, i));
     listener.name(state.xi(i), "xi", i);
-    total.add(S(state.xi(i)), model.xi_bound, i, listener);
+    bounds.add(S(state.xi(i)), model.xi_bound, i, listener);
     state.error(i) = S(0);
   }
   if (nxi) state.demand = u;
   if (state.u.size()) state.u = u;
-  for (int i = 0; i < model.nu && continues(model); ++i) total.add(S(u(i)), listener);
+  for (int i = 0; i < model.nu && continues(model); ++i) bounds.add(S(u(i)), listener);
 }
 
 // A regulator alone: u of the state x that is given, and what it has to remember, for an actuator that applies u.
@@ -64,9 +64,9 @@ auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listene
     listener.name(y(i), "y", i);
   }
   observe(model, state, y, listener);
-  Total<S> total;
-  remember(model, state, u, total, listener);
-  return total.is_within();
+  BoundsCheck<S> bounds;
+  remember(model, state, u, bounds, listener);
+  return bounds.is_within();
 }
 
 // The input was set to u by hand: it is the last one and those on their way, and ξ becomes such that the law continues
@@ -74,12 +74,12 @@ auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listene
 template <class S, class Listener>
 auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   const int nxi = static_cast<int>(model.integral.size());
-  Total<S> total;
-  for (int i = 0; i < model.nu; ++i) total.add(S(u(i)), listener);
+  BoundsCheck<S> bounds;
+  for (int i = 0; i < model.nu; ++i) bounds.add(S(u(i)), listener);
   for (int i = 0; i < model.delayed; ++i) {
     const int at = model.nx - model.delayed + i;
     state.x(at) = u(i % model.nu);
-    if (!model.x_bound.empty()) total.add(S(state.x(at)), model.x_bound, at, listener);
+    if (!model.x_bound.empty()) bounds.add(S(state.x(at)), model.x_bound, at, listener);
   }
   if (state.u.size()) state.u = u;
   if (nxi) {
@@ -93,12 +93,12 @@ auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Liste
     for (int i = 0; i < nxi; ++i) {
       xi(i) = conditioned(model, state, u, v, i);
       listener.name(xi(i), "xi", i);
-      total.add(S(xi(i)), model.xi_bound, i, listener);
+      bounds.add(S(xi(i)), model.xi_bound, i, listener);
     }
     state.xi = xi;
     state.demand = u;
   }
-  return total.is_within();
+  return bounds.is_within();
 }
 
 }  // namespace lqg::step

@@ -31,7 +31,7 @@ Condition pass_gate(const Model<S>& model, const S& nu, const S& variance, const
 
 // x ← A x + B u + M innovation;  innovation ← 0; what the regulator has to remember of u and of this sample
 template <class S, class Listener>
-void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, Total<S>& total, Listener& listener) {
+void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, BoundsCheck<S>& bounds, Listener& listener) {
   listener.section(model.M.cols() ? "x̂ ← A x̂ + B u + M (what the outputs told of w)"
                    : model.nu     ? "x̂ ← A x̂ + B u"
                                   : "x̂ ← A x̂");
@@ -43,11 +43,11 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, T
     for (int j = 0; j < model.M.cols(); ++j) sum = multiply_add(S(model.M(i, j)), S(state.innovation(j)), sum);
     listener.name(sum, "next", i);
     next(i) = sum;
-    total.add(sum, model.x_bound, i, listener);
+    bounds.add(sum, model.x_bound, i, listener);
   }
   state.x = next;
   for (int j = 0; j < model.M.cols(); ++j) state.innovation(j) = S(0);
-  remember(model, state, u, total, listener);
+  remember(model, state, u, bounds, listener);
 }
 
 }  // namespace lqg::step

@@ -10,7 +10,8 @@
 
 #include <design/defaults.hpp>
 #include <design/rounding.hpp>
-#include <design/simulation.hpp>
+#include <design/solve.hpp>
+#include <simulate/simulation.hpp>
 
 namespace {
 

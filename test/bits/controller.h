@@ -1,6 +1,6 @@
 /* Every bit of 1000 samples of one controller. To be included by what describe.cmake makes of the controller's header:
  * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS, ADVANCES and REFERS the controller does, and MEMBERS, a
- * HASH_MEMBER(name) for each part of its state. HASHES_OF(NAME) becomes the function that runs it. Included once for
+ * HASH_MEMBER(name) for each part of its state. FUNCTION_OF(NAME) becomes the function that runs it. Included once for
  * each controller, all of one REAL. */
 #include "samples.h"
 
@@ -55,8 +55,8 @@ static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) *self, source_t *source)
     return OF(hash_state)(hash_status(hashes, status), self);
 }
 
-hashes_t HASHES_OF(NAME)(void);
-hashes_t HASHES_OF(NAME)(void)
+hashes_t FUNCTION_OF(NAME)(void);
+hashes_t FUNCTION_OF(NAME)(void)
 {
     OF(t) self;
     source_t source = {1, 0};
@@ -81,3 +81,6 @@ hashes_t HASHES_OF(NAME)(void)
 #undef CONTROLS
 #undef ADVANCES
 #undef REFERS
+#undef HAS_INPUT
+#undef PREDICTS
+#undef COUNTS_RESETS

@@ -1,5 +1,5 @@
-# Makes OUTPUT, what controller.h wants to hear of the controller in HEADER, which lqgen has made of the design NAME in
-# REAL.
+# Makes OUTPUT, what a controller.h (of this test or of another that runs every controller) wants to hear of the controller
+# in HEADER, which lqgen has made of the design NAME in REAL.
 file(READ ${HEADER} header)
 string(TOUPPER ${NAME} upper_name)
 
@@ -22,8 +22,10 @@ foreach(member IN LISTS members)
 endforeach()
 
 set(does)
-foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "ADVANCES: ${NAME}_advance\\(" "REFERS:#define ${upper_name}_NR ")
-  string(REGEX MATCH "^([A-Z]*):(.*)$" found "${pair}")
+foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "ADVANCES: ${NAME}_advance\\("
+                      "REFERS:#define ${upper_name}_NR " "HAS_INPUT:#define ${upper_name}_NU " "PREDICTS:, predictor form "
+                      "COUNTS_RESETS: resets;")
+  string(REGEX MATCH "^([A-Z_]*):(.*)$" found "${pair}")
   set(macro ${CMAKE_MATCH_1})
   if(header MATCHES "${CMAKE_MATCH_2}")
     string(APPEND does "#define ${macro}\n")

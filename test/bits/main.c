@@ -6,7 +6,7 @@
 #include "hashes.h"
 
 #define CONTROLLER(name, arithmetic, style, real) \
-    hashes_t name##_##arithmetic##_##style##_##real##_hashes(void);
+    hashes_t name##_##arithmetic##_##style##_##real(void);
 #include "controllers.h"
 #undef CONTROLLER
 
@@ -35,7 +35,7 @@ static void print_line(const char *controller, hashes_t hashes)
 int main(void)
 {
 #define CONTROLLER(name, arithmetic, style, real) \
-    print_line(#name " " #arithmetic " " #style " " #real " ", name##_##arithmetic##_##style##_##real##_hashes());
+    print_line(#name " " #arithmetic " " #style " " #real " ", name##_##arithmetic##_##style##_##real());
 #include "controllers.h"
 #undef CONTROLLER
     print(is_contracted() ? "contracted\n" : "not contracted\n");

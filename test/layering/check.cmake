@@ -1,9 +1,12 @@
-# cmake -DROOT=<source folder> -P check.cmake: fails where a file includes what its room may not know.
+# cmake -DROOT=<source folder> -P check.cmake: fails where a file includes what its room or floor may not know.
+
+cmake_minimum_required(VERSION 3.22)
 
 set(standard_c "^(assert|errno|fenv|float|limits|math|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\\.h$")
 set(standard_cpp "^[a-z_]+$")
 set(posix "^(fcntl|unistd|sys/[a-z]+)\\.h$")
 set(problems)
+set(checked)
 
 # check(<folder> <regex of what is allowed>…): every #include in the folder's own files has to match one of
 # them.
@@ -26,6 +29,19 @@ function(check folder)
     endforeach()
   endforeach()
   set(problems "${problems}" PARENT_SCOPE)
+  set(checked ${checked} ${folder} PARENT_SCOPE)
+endfunction()
+
+# check_floors(<room> <words> <floors> <regex of what all may include>…): of a room's folders each knows itself and those before
+# it. <words>: regex of the room's own headers that each floor may know.
+function(check_floors room words floors)
+  set(below)
+  foreach(floor IN LISTS floors)
+    list(APPEND below "^${room}/${floor}/")
+    check(${room_folder}/${floor} ${ARGN} "${words}" ${below})
+  endforeach()
+  set(problems "${problems}" PARENT_SCOPE)
+  set(checked ${checked} PARENT_SCOPE)
 endfunction()
 
 check(include/lqg "${standard_c}" "^lqg/[a-z_]+\\.h$")
@@ -35,16 +51,38 @@ check(src "${standard_c}" "^lqg/[a-z_]+\\.h$" ${private})
 
 set(any_room "${standard_cpp}" "${posix}" "^Eigen/" "^lqg/version\\.h$")
 set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
+
+# The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who solves.
+set(room_folder codegen/design)
+set(design_words "^design/(problem|solution|solution_matrices|finding|real|rounding|progress)\\.hpp$")
+check_floors(design "${design_words}" "numeric;equations;sampled;checks;loop;gains;run" ${any_room} ${digits})
 check(codegen/design ${any_room} ${digits} "^design/")
-check(codegen/step   ${any_room} "^step/")
-check(codegen/trace  ${any_room} "^trace/")
-check(codegen/input  ${any_room} "^input/" "^design/" "^toml\\+\\+/")
-check(codegen/emit   ${any_room} ${digits} "^emit/" "^design/" "^step/" "^trace/" "^nlohmann/")
-check(codegen        ${any_room} "^input/" "^emit/" "^CLI/")
+
+check(codegen/step  ${any_room} "^step/")
+check(codegen/trace ${any_room} "^trace/")
+check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/")
+check(codegen/controller ${any_room} "^controller/" "^design/" "^step/")
+check(codegen/simulate   ${any_room} "^simulate/" "^controller/" "^design/" "^step/")
+
+set(room_folder codegen/emit)
+set(below_emit "^controller/" "^simulate/" "^design/" "^step/" "^trace/")
+check_floors(emit "^emit/controller\\.hpp$" "text;recorded;vectors;plan;c;unit_test;report" ${any_room} ${digits} ${below_emit}
+             "^nlohmann/" "^mbedtls/")
+check(codegen/emit ${any_room} "^controller/" "^design/")
+check(codegen ${any_room} "^input/" "^emit/" "^design/solve\\.hpp$" "^CLI/")
+
+# A folder that nobody has given a place has to be given one.
+file(GLOB_RECURSE all RELATIVE "${ROOT}" "${ROOT}/codegen/*.[ch]pp" "${ROOT}/src/*.[ch]" "${ROOT}/include/*.h")
+foreach(file IN LISTS all)
+  get_filename_component(folder ${file} DIRECTORY)
+  if(NOT folder IN_LIST checked)
+    list(APPEND problems "${file} lies on no floor: say in test/layering/check.cmake what ${folder} may include")
+  endif()
+endforeach()
 
 foreach(problem IN LISTS problems)
   message("${problem}")
 endforeach()
 if(problems)
-  message(FATAL_ERROR "an arrow between rooms is broken")
+  message(FATAL_ERROR "an arrow between rooms or floors is broken")
 endif()

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 
-#include "design/linear_algebra.hpp"
+#include "design/numeric/linear_algebra.hpp"
 #include "design/solution.hpp"
+#include "design/solve.hpp"
 
 namespace design_test {
 

@@ -1,13 +1,13 @@
 // Delays, integrals, weights on Δu, decay, and noise from all of its keys: each against another way to the same number.
 #include <unity.h>
 
-#include "design/augmentation.hpp"
-#include "design/compensator.hpp"
-#include "design/cost.hpp"
-#include "design/noise.hpp"
-#include "design/regulator.hpp"
+#include "design/gains/regulator.hpp"
+#include "design/loop/compensator.hpp"
+#include "design/loop/cost.hpp"
 #include "design/rounding.hpp"
-#include "design/weights.hpp"
+#include "design/sampled/augmentation.hpp"
+#include "design/sampled/noise.hpp"
+#include "design/sampled/weights.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

@@ -8,7 +8,7 @@
 
 #include <unity.h>
 
-#include "design/riccati.hpp"
+#include "design/equations/riccati.hpp"
 #include "problems.hpp"
 
 namespace {

@@ -1,9 +1,9 @@
 // The long-run cost of the closed loop against the covariance of plant and controller together.
 #include <unity.h>
 
-#include "design/riccati.hpp"
+#include "design/equations/riccati.hpp"
 #include "design/rounding.hpp"
-#include "design/samples.hpp"
+#include "design/sampled/samples.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

@@ -1,8 +1,8 @@
 // The Kalman filter: closed forms, duality, its own relations, and its form for the target.
 #include <unity.h>
 
-#include "design/estimator.hpp"
-#include "design/factor.hpp"
+#include "design/gains/estimator.hpp"
+#include "design/numeric/factor.hpp"
 #include "design/rounding.hpp"
 #include "problems.hpp"
 

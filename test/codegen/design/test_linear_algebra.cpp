@@ -3,10 +3,10 @@
 
 #include <unity.h>
 
-#include "design/exact_reach.hpp"
-#include "design/factor.hpp"
-#include "design/modes.hpp"
-#include "design/poles.hpp"
+#include "design/numeric/exact_reach.hpp"
+#include "design/numeric/factor.hpp"
+#include "design/numeric/modes.hpp"
+#include "design/numeric/poles.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

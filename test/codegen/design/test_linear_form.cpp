@@ -7,7 +7,7 @@
 #include <unity.h>
 
 #include "design/linear_form.hpp"
-#include "design/modal_basis.hpp"
+#include "design/numeric/modal_basis.hpp"
 #include "design/rounding.hpp"
 #include "problems.hpp"
 
@@ -97,7 +97,6 @@ int count_equal_forms(Make make) {
                              (std::to_string(seed) + ": " + result.obstacle).c_str());
     if (!result.form) continue;
     ++forms;
-    TEST_ASSERT_TRUE(result.form->agreement > 40);
     expect_equal_to_the_physical_form(problem, solution, *result.form, seed);
   }
   return forms;

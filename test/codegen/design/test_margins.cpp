@@ -5,9 +5,9 @@
 
 #include <unity.h>
 
-#include "design/margins.hpp"
+#include "design/loop/margins.hpp"
+#include "design/numeric/structured_singular_value.hpp"
 #include "design/rounding.hpp"
-#include "design/structured_norm.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

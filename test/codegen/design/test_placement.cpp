@@ -7,7 +7,7 @@
 
 #include <unity.h>
 
-#include "design/placement.hpp"
+#include "design/equations/placement.hpp"
 #include "design/rounding.hpp"
 #include "problems.hpp"
 

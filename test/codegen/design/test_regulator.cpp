@@ -1,7 +1,7 @@
 // The regulator of whole problems: gains with a closed form, all three kinds of cost, cross terms.
 #include <unity.h>
 
-#include "design/riccati.hpp"
+#include "design/equations/riccati.hpp"
 #include "design/rounding.hpp"
 #include "problems.hpp"
 

@@ -2,8 +2,8 @@
 // solvers.
 #include <unity.h>
 
-#include "design/factor.hpp"
-#include "design/riccati.hpp"
+#include "design/equations/riccati.hpp"
+#include "design/numeric/factor.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

@@ -1,8 +1,8 @@
 // Sampled plants, costs and noises against closed forms, to the last bit, and against numerical integration.
 #include <unity.h>
 
+#include "design/equations/sampling.hpp"
 #include "design/rounding.hpp"
-#include "design/sampling.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

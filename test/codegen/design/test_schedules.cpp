@@ -3,12 +3,12 @@
 
 #include <unity.h>
 
-#include "design/augmentation.hpp"
-#include "design/compensator.hpp"
-#include "design/horizon.hpp"
-#include "design/riccati_flow.hpp"
-#include "design/reference.hpp"
+#include "design/equations/riccati_flow.hpp"
+#include "design/gains/horizon.hpp"
+#include "design/loop/compensator.hpp"
 #include "design/rounding.hpp"
+#include "design/sampled/augmentation.hpp"
+#include "design/sampled/reference.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;

@@ -1,3 +1,5 @@
+#include "design/solve.hpp"
+#include "emit/plan/plan.hpp"
 #include "design_text.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -5,7 +7,7 @@
 
 #include <unity.h>
 
-#include "emit/sha256.hpp"
+#include "emit/text/sha256.hpp"
 #include "input/design_file.hpp"
 
 namespace lqg_test {

@@ -2,8 +2,8 @@
 
 #include <unity.h>
 
-#include "emit/header.hpp"
-#include "emit/unit_test.hpp"
+#include "emit/c/header.hpp"
+#include "emit/unit_test/unit_test.hpp"
 
 namespace lqg_test {
 
@@ -31,12 +31,12 @@ std::string options(const lqg::emit::Controller& controller, const fs::path& fol
   std::string out = " -I" + folder.string() + " -I" LQG_INCLUDE_FOLDER " -isystem " LQG_UNITY_FOLDER
                     " -DUNITY_INCLUDE_DOUBLE";
   if (controller.style == lqg::design::Style::unrolled) return out;
-  return out + (controller.is_double() ? " -DLQG_REAL_DOUBLE" : "") + (controller.is_fused() ? " -DLQG_FUSED" : "");
+  return out + (controller.target.is_double ? " -DLQG_REAL_DOUBLE" : "") + (controller.target.is_fused ? " -DLQG_FUSED" : "");
 }
 
 std::string library(const lqg::emit::Controller& controller) {
-  if (controller.is_double()) return controller.is_fused() ? LQG_LIBRARY_DOUBLE_FUSED : LQG_LIBRARY_DOUBLE;
-  return controller.is_fused() ? LQG_LIBRARY_FUSED : LQG_LIBRARY;
+  if (controller.target.is_double) return controller.target.is_fused ? LQG_LIBRARY_DOUBLE_FUSED : LQG_LIBRARY_DOUBLE;
+  return controller.target.is_fused ? LQG_LIBRARY_FUSED : LQG_LIBRARY;
 }
 
 void expect_emitted_to_pass(lqg::emit::Controller controller, const std::vector<Language>& languages) {

@@ -1,3 +1,4 @@
+#include "emit/plan/plan.hpp"
 #include "servo_design.hpp"
 
 #include <unity.h>

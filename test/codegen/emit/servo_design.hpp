@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "emit/controller.hpp"
 #include "design_text.hpp"
 
 namespace lqg_test {

@@ -4,6 +4,7 @@
 
 #include <unity.h>
 
+#include "emit/plan/plan.hpp"
 #include "design/rounding.hpp"
 #include "emitted.hpp"
 #include "servo_design.hpp"
@@ -11,7 +12,7 @@
 using namespace lqg_test;
 using lqg::design::Problem;
 using lqg::design::Solution;
-using lqg::emit::Bounds;
+using lqg::controller::Bounds;
 using lqg::emit::Controller;
 
 namespace {
@@ -38,9 +39,9 @@ void test_bounds_are_far_from_what_a_filter_does_not_know() {
   for (int seed = 0; seed < designs; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     const Controller controller = controller_of(random_design(random, 1 + seed % 6));
-    const double margin = controller.is_double() ? 0x1p61 : 0x1p32;
-    const Eigen::VectorXd x0 = controller.x0();
-    for (int i = 0; i < controller.nx(); ++i) {
+    const double margin = controller.target.is_double ? 0x1p61 : 0x1p32;
+    const Eigen::VectorXd x0 = controller.x0;
+    for (int i = 0; i < controller.size.nx; ++i) {
       const double bound = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)]);
       TEST_ASSERT_TRUE(bound >= margin * std::abs(x0(i)));
       TEST_ASSERT_TRUE(bound >= margin * std::sqrt(controller.problem.estimator->P0(i, i)));

@@ -4,7 +4,7 @@
 
 #include <unity.h>
 
-#include "emit/chart.hpp"
+#include "emit/text/chart.hpp"
 
 using namespace lqg::emit;
 

@@ -9,7 +9,7 @@
 #include <unity.h>
 
 #include "../compiler.hpp"
-#include "emit/files.hpp"
+#include "emit/text/files.hpp"
 
 using namespace lqg_test;
 using lqg::emit::File;

@@ -4,11 +4,12 @@
 
 #include <unity.h>
 
+#include "emit/text/wording.hpp"
 #include "design_text.hpp"
-#include "emit/header.hpp"
-#include "emit/json.hpp"
-#include "emit/preamble.hpp"
-#include "emit/unit_test.hpp"
+#include "emit/c/header.hpp"
+#include "emit/c/preamble.hpp"
+#include "emit/report/json.hpp"
+#include "emit/unit_test/unit_test.hpp"
 #include "emitted.hpp"
 #include "trace/print.hpp"
 
@@ -239,7 +240,7 @@ void test_ram_is_exactly_the_size_of_the_state() {
       const std::string size = run_with_header(controller, "#include <stddef.h>\n#include <stdio.h>\n#include \"loop.h\"\n"
           "int main(void)\n{\n    const int real = (int)sizeof(" + std::string(real) + "), bytes = (int)offsetof(loop_t, resets) + 4;\n"
           "    return printf(\"%d\", (bytes + real - 1) / real * real) < 0;\n}\n");
-      TEST_ASSERT_EQUAL_STRING(std::to_string(controller.figures.ram).c_str(), size.c_str());
+      TEST_ASSERT_EQUAL_STRING(std::to_string(controller.cost.ram).c_str(), size.c_str());
     }
 }
 

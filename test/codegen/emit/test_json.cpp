@@ -4,9 +4,10 @@
 
 #include <unity.h>
 
+#include "emit/text/wording.hpp"
 #include "design_text.hpp"
-#include "emit/json.hpp"
-#include "emit/preamble.hpp"
+#include "emit/c/preamble.hpp"
+#include "emit/report/json.hpp"
 
 using namespace lqg_test;
 using lqg::design::RealMatrix;
@@ -93,10 +94,10 @@ void expect_all(const json& found, const Controller& controller) {
     TEST_ASSERT_TRUE(found["numerics"]["bounds"]["x"][i].get<double>() == std::ldexp(1.0, controller.bounds.x[i]));
   for (Eigen::Index i = 0; i < controller.bounds.innovation.size(); ++i)
     TEST_ASSERT_TRUE(found["numerics"]["bounds"]["innovation"][static_cast<std::size_t>(i)].get<double>() == controller.bounds.innovation(i));
-  TEST_ASSERT_EQUAL_INT(controller.figures.flash, found["code"]["flash"].get<long>());
-  TEST_ASSERT_EQUAL_INT(controller.figures.ram, found["code"]["ram"].get<long>());
-  TEST_ASSERT_EQUAL_INT(controller.figures.stack, found["code"]["stack"].get<long>());
-  TEST_ASSERT_EQUAL_INT(controller.figures.multiply_adds, found["code"]["multiply_adds"].get<long>());
+  TEST_ASSERT_EQUAL_INT(controller.cost.flash, found["code"]["flash"].get<long>());
+  TEST_ASSERT_EQUAL_INT(controller.cost.ram, found["code"]["ram"].get<long>());
+  TEST_ASSERT_EQUAL_INT(controller.cost.stack, found["code"]["stack"].get<long>());
+  TEST_ASSERT_EQUAL_INT(controller.cost.multiply_adds, found["code"]["multiply_adds"].get<long>());
 }
 
 void test_every_number_of_random_designs_reads_back_to_the_same_double() {

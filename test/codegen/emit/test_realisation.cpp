@@ -7,9 +7,9 @@
 #include <unity.h>
 
 #include "design_text.hpp"
-#include "emit/header.hpp"
-#include "emit/json.hpp"
-#include "emit/realisation.hpp"
+#include "emit/c/header.hpp"
+#include "emit/plan/realisation.hpp"
+#include "emit/report/json.hpp"
 #include "emitted.hpp"
 
 using namespace lqg_test;
@@ -78,8 +78,8 @@ void test_random_designs_pass_in_every_form_that_they_have() {
     design.gain = "steady", design.covariance = "", design.style = "auto";
     design.u_min.resize(0), design.u_max.resize(0);
     const Controller controller = in_form(design, "cheapest");
-    if (!controller.realisations) continue;
-    const bool has[2] = {controller.realisations->folded.has_value(), controller.realisations->modal.has_value()};
+    if (!controller.forms) continue;
+    const bool has[2] = {controller.forms->folded.has_value(), controller.forms->modal.has_value()};
     for (int form = 0; form < 2; ++form) {
       if (!has[form]) continue;
       design.name = "random_" + std::to_string(seed);
@@ -237,16 +237,16 @@ int main(void)
 
 void test_cheapest_takes_the_fewest_multiply_adds_and_physical_when_they_are_even() {
   const Controller controller = in_form(two_springs("filter"), "cheapest");
-  const lqg::emit::Realisations& forms = *controller.realisations;
+  const lqg::emit::FormChoice& forms = *controller.forms;
   TEST_ASSERT_TRUE(forms.chosen == lqg::design::Realisation::modal);
   TEST_ASSERT_TRUE(forms.modal->multiply_adds < forms.folded->multiply_adds);
-  TEST_ASSERT_TRUE(forms.modal->multiply_adds == controller.figures.multiply_adds);
+  TEST_ASSERT_TRUE(forms.modal->multiply_adds == controller.cost.multiply_adds);
 
   DesignText one;  // x⁺ = x + u: z is x̂⁻, and update, control and predict are as few operations
   one.A = one.B = one.C = MatrixXd::Constant(1, 1, 1);
   one.Q = one.R = one.W = one.V = MatrixXd::Constant(1, 1, 1);
   one.gain = "steady", one.form = "predictor";
-  const lqg::emit::Realisations of_one = *in_form(one, "cheapest").realisations;
+  const lqg::emit::FormChoice of_one = *in_form(one, "cheapest").forms;
   const long least = std::min(of_one.folded->multiply_adds, of_one.modal->multiply_adds);
   TEST_ASSERT_TRUE((of_one.chosen == lqg::design::Realisation::physical) == (of_one.physical.multiply_adds <= least));
 }
@@ -267,7 +267,7 @@ poles = [0.3430283195082636, 0.8369716804917362]
 [code]
 realisation = "cheapest"
 )");
-  const lqg::emit::Realisations& forms = *controller.realisations;
+  const lqg::emit::FormChoice& forms = *controller.forms;
   TEST_ASSERT_TRUE(forms.modal && forms.modal->multiply_adds < forms.folded->multiply_adds);
   TEST_ASSERT_TRUE(forms.modal->rounding_error > lqg::emit::most_loss * forms.physical.rounding_error);
   TEST_ASSERT_TRUE(forms.chosen == lqg::design::Realisation::folded);

@@ -4,9 +4,9 @@
 #include <unity.h>
 
 #include "design_text.hpp"
-#include "emit/html.hpp"
-#include "emit/report.hpp"
-#include "emit/text.hpp"
+#include "emit/report/report.hpp"
+#include "emit/text/html.hpp"
+#include "emit/text/wording.hpp"
 
 using namespace lqg_test;
 using lqg::emit::Controller;
@@ -56,8 +56,8 @@ void test_poles_margins_and_gains_stand_in_it() {
   const Controller controller = controller_of(double_integrator());
   const std::string html = report(controller);
   for (const auto& pole : controller.solution.regulator->poles)
-    TEST_ASSERT_TRUE(has(html, "<td>" + lqg::emit::rounded(pole.real())));
-  TEST_ASSERT_TRUE(has(html, lqg::emit::rounded(*controller.solution.loop.at_input.disk)));
+    TEST_ASSERT_TRUE(has(html, "<td>" + lqg::emit::decimal(pole.real())));
+  TEST_ASSERT_TRUE(has(html, lqg::emit::decimal(*controller.solution.loop.at_input.disk)));
   const auto& K = controller.solution.regulator->K;
   for (int j = 0; j < K.cols(); ++j) TEST_ASSERT_TRUE(has(html, "<td>" + lqg::emit::number(K(0, j), false) + "</td>"));
   TEST_ASSERT_TRUE(has(html, controller.source.sha256));

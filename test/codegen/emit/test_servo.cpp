@@ -4,7 +4,7 @@
 
 #include <unity.h>
 
-#include "emit/header.hpp"
+#include "emit/c/header.hpp"
 #include "emitted.hpp"
 #include "servo_design.hpp"
 

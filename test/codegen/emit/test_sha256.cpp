@@ -1,7 +1,7 @@
 // SHA-256 against the examples of FIPS 180-4 and, around the ends of a block, against sha256sum of GNU coreutils.
 #include <unity.h>
 
-#include "emit/sha256.hpp"
+#include "emit/text/sha256.hpp"
 
 using lqg::emit::sha256;
 

@@ -3,9 +3,10 @@
 
 #include <unity.h>
 
-#include "emit/model_of.hpp"
-#include "emit/text.hpp"
-#include "emit/traced.hpp"
+#include "controller/model_of.hpp"
+#include "design/numeric/digits.hpp"
+#include "emit/recorded/traced.hpp"
+#include "emit/text/wording.hpp"
 
 using namespace lqg::emit;
 
@@ -46,8 +47,8 @@ void test_matrices_stand_in_aligned_columns() {
   const lqg::design::Digits digits(50);
   lqg::design::RealMatrix matrix(2, 2);
   matrix << 1, -0.25, 100, 0;
-  TEST_ASSERT_EQUAL_STRING(" *   A = [   1.0  -0.25 ]\n"
-                           " *       [ 100.0    0.0 ]\n", matrix_comment("A", matrix, true).c_str());
+  TEST_ASSERT_EQUAL_STRING("  A = [   1.0  -0.25 ]\n"
+                           "      [ 100.0    0.0 ]\n", matrix_lines("A", matrix, true).c_str());
 }
 
 void test_arrays_are_written_row_after_row() {
@@ -58,9 +59,9 @@ void test_arrays_are_written_row_after_row() {
 }
 
 void test_numbers_for_people_have_four_digits() {
-  TEST_ASSERT_EQUAL_STRING("0.1235", rounded(0.123456).c_str());
-  TEST_ASSERT_EQUAL_STRING("1.235e-07", rounded(1.23456e-7).c_str());
-  TEST_ASSERT_EQUAL_STRING("4", rounded(4).c_str());
+  TEST_ASSERT_EQUAL_STRING("0.1235", decimal(0.123456).c_str());
+  TEST_ASSERT_EQUAL_STRING("1.235e-07", decimal(1.23456e-7).c_str());
+  TEST_ASSERT_EQUAL_STRING("4", decimal(4).c_str());
 }
 
 void test_indices_of_more_than_ten_rows_cannot_be_misread() {
@@ -73,17 +74,17 @@ void test_indices_of_more_than_ten_rows_cannot_be_misread() {
 
 void test_a_limit_is_rounded_to_the_inside() {
   for (const double limit : {0.1, -0.1, 0.7, 1e-50, -1e-50, 1.0, 1e10 / 3}) {
-    TEST_ASSERT_TRUE(limit_of_target(limit, -1, false) <= limit);
-    TEST_ASSERT_TRUE(limit_of_target(limit, +1, false) >= limit);
+    TEST_ASSERT_TRUE(lqg::controller::limit_of_target(limit, -1, false) <= limit);
+    TEST_ASSERT_TRUE(lqg::controller::limit_of_target(limit, +1, false) >= limit);
     for (const int inward : {-1, +1}) {
-      const double found = limit_of_target(limit, inward, false);
+      const double found = lqg::controller::limit_of_target(limit, inward, false);
       TEST_ASSERT_TRUE(found == static_cast<double>(static_cast<float>(found)));
-      TEST_ASSERT_TRUE(limit_of_target(limit, inward, true) == limit);
+      TEST_ASSERT_TRUE(lqg::controller::limit_of_target(limit, inward, true) == limit);
       const float next = std::nextafter(static_cast<float>(found), inward < 0 ? INFINITY : -INFINITY);
       TEST_ASSERT_TRUE(inward < 0 ? static_cast<double>(next) > limit : static_cast<double>(next) < limit);
     }
   }
-  TEST_ASSERT_TRUE(std::isinf(limit_of_target(INFINITY, -1, false)));
+  TEST_ASSERT_TRUE(std::isinf(lqg::controller::limit_of_target(INFINITY, -1, false)));
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <unity.h>
 
 #include "design_text.hpp"
-#include "emit/header.hpp"
-#include "emit/model_of.hpp"
-#include "emit/rounding.hpp"
-#include "emit/traced.hpp"
+#include "controller/model_of.hpp"
+#include "controller/rounding.hpp"
+#include "emit/c/header.hpp"
+#include "emit/recorded/traced.hpp"
 #include "step/loop.hpp"
 
 using namespace lqg_test;
@@ -55,8 +55,8 @@ void test_factors_between_axes_that_know_nothing_of_each_other_are_never_touched
 // Two more additions join the sums of the three axes in update and predict each, and two checks of a sum are saved.
 void test_three_axes_cost_three_times_one() {
   for (const char* covariance : {"plain", "ud"}) {
-    const long one = controller_of(online(double_integrators(1), covariance)).figures.multiply_adds;
-    TEST_ASSERT_EQUAL_INT(3 * one, controller_of(online(double_integrators(3), covariance)).figures.multiply_adds);
+    const long one = controller_of(online(double_integrators(1), covariance)).cost.multiply_adds;
+    TEST_ASSERT_EQUAL_INT(3 * one, controller_of(online(double_integrators(3), covariance)).cost.multiply_adds);
   }
 }
 
@@ -111,7 +111,7 @@ bool is_less(const Counted& a, const Counted& b) { return a.value < b.value; }
 
 long operations_of_a_sample(const Controller& controller) {
   using namespace lqg::step;
-  const auto model = lqg::emit::model_of<Counted>(
+  const auto model = lqg::controller::model_of<Counted>(
       controller, [](const lqg::design::Real& value) { return Counted(lqg::design::to_double(value)); });
   State<Counted> state = initial_state(model);
   const Vector<Counted> y = Vector<Counted>::Constant(model.ny, Counted(0.5));
@@ -124,7 +124,7 @@ long operations_of_a_sample(const Controller& controller) {
 // The templates leave states of one bound as they are; the loops scale every x_i in both checks, and P_ii twice in one.
 long scaling_of_a_sample(const Controller& controller) {
   constexpr long comparisons = 2 * 2;
-  return (controller.solution.online ? 4 : 2) * controller.nx() + comparisons;
+  return (controller.solution.online ? 4 : 2) * controller.size.nx + comparisons;
 }
 
 void test_compact_counts_what_the_loops_do_zeros_included() {
@@ -139,7 +139,7 @@ void test_compact_counts_what_the_loops_do_zeros_included() {
           design.Swv = Eigen::MatrixXd::Constant(2, 2, 0.01);
         }
         const Controller controller = controller_of(design);
-        TEST_ASSERT_EQUAL_INT(operations_of_a_sample(controller) + scaling_of_a_sample(controller), controller.figures.multiply_adds);
+        TEST_ASSERT_EQUAL_INT(operations_of_a_sample(controller) + scaling_of_a_sample(controller), controller.cost.multiply_adds);
       }
 }
 
@@ -147,7 +147,7 @@ void test_compact_counts_what_the_loops_do_zeros_included() {
 void test_unrolled_does_less_than_the_loops() {
   for (const char* covariance : {"plain", "ud"}) {
     const Controller controller = controller_of(online(double_integrators(2), covariance));
-    TEST_ASSERT_LESS_THAN(operations_of_a_sample(controller) / 2, controller.figures.multiply_adds);
+    TEST_ASSERT_LESS_THAN(operations_of_a_sample(controller) / 2, controller.cost.multiply_adds);
   }
 }
 

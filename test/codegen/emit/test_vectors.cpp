@@ -4,10 +4,10 @@
 #include <unity.h>
 
 #include "design_text.hpp"
-#include "emit/model_of.hpp"
-#include "emit/plant_simulation.hpp"
-#include "emit/rounding.hpp"
-#include "emit/vectors.hpp"
+#include "controller/model_of.hpp"
+#include "controller/rounding.hpp"
+#include "emit/vectors/vectors.hpp"
+#include "simulate/plant.hpp"
 
 using namespace lqg_test;
 using lqg::emit::Controller;
@@ -34,7 +34,7 @@ DesignText design_of(const char* gain, const char* covariance, const char* real)
 void test_vectors_are_the_same_each_time() {
   for (const char* real : {"float", "double"}) {
     const Controller controller = controller_of(design_of("online", "ud", real));
-    TEST_ASSERT_TRUE(equal(make_vectors(controller), make_vectors(controller)));
+    TEST_ASSERT_TRUE(equal(lqg::emit::make_vectors(controller), lqg::emit::make_vectors(controller)));
   }
 }
 
@@ -55,18 +55,18 @@ void test_tolerances_are_positive_and_small_beside_the_signal() {
     for (const char* covariance : {"plain", "ud"})
       for (const char* real : {"float", "double"}) {
         const Controller controller = controller_of(design_of(gain, covariance, real));
-        const Vectors vectors = make_vectors(controller);
-        const double share = 400 * (controller.is_double() ? 0x1p-52 : 0x1p-23);
+        const Vectors vectors = lqg::emit::make_vectors(controller);
+        const double share = 400 * (controller.target.is_double ? 0x1p-52 : 0x1p-23);
         expect_small(vectors.tolerance.x, vectors.samples, &Sample::x, share);
         expect_small(vectors.tolerance.u, vectors.samples, &Sample::u, share);
         expect_small(vectors.tolerance.P, vectors.samples, &Sample::P, share);
-        TEST_ASSERT_EQUAL_size_t(controller.nx(), vectors.tolerance.x.size());
-        TEST_ASSERT_EQUAL_size_t(controller.nu(), vectors.tolerance.u.size());
+        TEST_ASSERT_EQUAL_size_t(controller.size.nx, vectors.tolerance.x.size());
+        TEST_ASSERT_EQUAL_size_t(controller.size.nu, vectors.tolerance.u.size());
       }
 }
 
 void test_inputs_and_outputs_are_numbers_of_the_target() {
-  const Vectors vectors = make_vectors(controller_of(design_of("steady", "ud", "float")));
+  const Vectors vectors = lqg::emit::make_vectors(controller_of(design_of("steady", "ud", "float")));
   TEST_ASSERT_GREATER_THAN_size_t(99, vectors.samples.size());
   for (const Sample& sample : vectors.samples) {
     for (const double y : sample.y) TEST_ASSERT_TRUE(y == static_cast<double>(static_cast<float>(y)));
@@ -81,7 +81,7 @@ void test_the_hash_tells_reals_and_arithmetics_apart() {
     for (const char* arithmetic : {"plain", "fused"}) {
       DesignText design = design_of("online", "ud", real);
       design.arithmetic = arithmetic;
-      hashes.push_back(make_vectors(controller_of(design)).hash);
+      hashes.push_back(lqg::emit::make_vectors(controller_of(design)).hash);
     }
   for (std::size_t i = 0; i < hashes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) TEST_ASSERT_TRUE(hashes[i] != hashes[j]);
@@ -91,9 +91,9 @@ void test_the_hash_tells_reals_and_arithmetics_apart() {
 void test_P_of_the_vectors_ends_at_the_posterior_of_the_design() {
   for (const char* covariance : {"plain", "ud"}) {
     const Controller controller = controller_of(design_of("online", covariance, "double"));
-    const Vectors vectors = make_vectors(controller);
+    const Vectors vectors = lqg::emit::make_vectors(controller);
     const lqg::design::RealMatrix& P = controller.solution.estimator->P_posterior;
-    for (int i = 0; i < controller.nx(); ++i)
+    for (int i = 0; i < controller.size.nx; ++i)
       for (int j = 0; j <= i; ++j) {
         const double expected = lqg::design::to_double(P(i, j));
         const double scale = std::sqrt(lqg::design::to_double(P(i, i) * P(j, j)));
@@ -108,14 +108,14 @@ constexpr double sigmas = 5;
 
 // splitmix64 from 1234567: 6457827717110365317, 3203168211198807973 (the sequence published with the generator).
 void test_noise_is_splitmix64() {
-  lqg::emit::Noise noise(1234567);
+  lqg::simulate::Noise noise(1234567);
   TEST_ASSERT_TRUE(noise.uniform() == (3153236189995295 + 0.5) / 9007199254740992.0 - 0.5);
   TEST_ASSERT_TRUE(noise.uniform() == (1564046978124417 + 0.5) / 9007199254740992.0 - 0.5);
 }
 
 void test_noise_has_mean_zero_and_variance_one() {
   constexpr int draws = 100000;
-  lqg::emit::Noise noise(1);
+  lqg::simulate::Noise noise(1);
   double sum = 0, squares = 0;
   for (int i = 0; i < draws; ++i) {
     const double value = noise.normal();
@@ -138,7 +138,7 @@ void test_the_simulated_plant_has_the_noise_of_the_design() {
   wanted << G * design.W * G.transpose(), G * design.Swv, design.Swv.transpose() * G.transpose(), design.V;
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(2);
   for (std::uint64_t seed = 0; seed < draws; ++seed) {
-    lqg::emit::PlantSimulation plant(controller, seed * 1000);
+    lqg::simulate::Plant plant(controller, controller.x0, lqg::simulate::PlantNoise::assumed, seed * 1000);
     const Eigen::VectorXd v = plant.measure(u);
     plant.advance(u);
     const Eigen::VectorXd& Gw = plant.state();

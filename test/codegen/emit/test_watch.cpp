@@ -4,7 +4,7 @@
 
 #include <unity.h>
 
-#include "emit/header.hpp"
+#include "emit/c/header.hpp"
 #include "emitted.hpp"
 #include "servo_design.hpp"
 
@@ -111,7 +111,7 @@ void test_updates_by_one_output_each_are_the_update_by_all() {
 )");
     TEST_ASSERT_EQUAL_STRING("0 1", printed.c_str());
     const bool says_so = lqg::emit::header(controller).find("An approximation: its gain") != std::string::npos;
-    TEST_ASSERT_EQUAL_INT(controller.filter() == lqg::step::Filter::steady, says_so);
+    TEST_ASSERT_EQUAL_INT(controller.filter == lqg::step::Filter::steady, says_so);
   }
 }
 

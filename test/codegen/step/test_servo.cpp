@@ -117,9 +117,9 @@ class Comparison {
   }
   lqg_status advance(const Vector<S>& u) {
     return apply(u, [&](const Vector<S>& applied, Listener& listener) {
-      lqg::step::Total<S> total;
-      lqg::step::remember(model_, state_, applied, total, listener);
-      return total.is_within();
+      lqg::step::BoundsCheck<S> bounds;
+      lqg::step::remember(model_, state_, applied, bounds, listener);
+      return bounds.is_within();
     }, [&](const Numbers& applied) {
       return lqg_servo_advance(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_), applied.data());
     });

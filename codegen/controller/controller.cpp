@@ -1,0 +1,197 @@
+#include "controller/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller/gains.hpp"
+#include "controller/stage_in_force.hpp"
+#include "design/finding.hpp"
+#include "design/numeric/linear_algebra.hpp"
+#include "design/sampled/reference.hpp"
+
+namespace lqg::controller {
+
+namespace {
+
+using design::is_zero;
+
+step::Filter filter_of(const design::Problem& problem) {
+  if (!problem.estimator) return step::Filter::none;
+  if (problem.estimator->gain != design::Gain::online) return step::Filter::steady;
+  return problem.estimator->covariance == design::Covariance::ud ? step::Filter::ud : step::Filter::plain;
+}
+
+Dimensions dimensions_of(const design::Problem& problem, const design::Solution& solution) {
+  Dimensions size;
+  size.nx = static_cast<int>(solution.plant.A.rows());
+  size.nu = static_cast<int>(problem.plant.B.cols());
+  size.ny = problem.estimator ? static_cast<int>(problem.plant.C.rows()) : 0;
+  size.nr = static_cast<int>(design::reference_outputs(problem).size());
+  size.nxi = static_cast<int>(design::integrated_outputs(problem).size());
+  size.delayed = size.nx - static_cast<int>(problem.plant.A.rows());
+  return size;
+}
+
+template <class Holds>
+bool in_any_stage(const Controller& controller, Holds holds) {
+  return std::any_of(controller.stage_starts.begin(), controller.stage_starts.end(), holds);
+}
+
+Terms terms_of(const Controller& controller) {
+  const design::Problem& problem = controller.problem;
+  const design::Solution& solution = controller.solution;
+  Terms has;
+  has.filter = problem.estimator.has_value();
+  has.regulator = problem.regulator.has_value();
+  has.stages = has.filter && !solution.stages.empty();
+  has.gate = has.filter && problem.estimator->gate > 0;
+  has.variance = solution.online || (solution.estimator && solution.estimator->S.size() > 0);
+  has.input_change = has.regulator && problem.regulator->input_rate.size() > 0;
+  has.rate_limit = has.regulator && problem.limits && problem.limits->u_rate.size() > 0;
+  has.last_input = has.input_change || has.rate_limit;
+  has.servo = controller.size.nr > 0 || controller.size.nxi > 0 || has.last_input;
+  return has;
+}
+
+std::vector<std::size_t> stage_starts_of(const Controller& controller) {
+  std::vector<std::size_t> starts = {0};
+  if (controller.has.stages)
+    for (const design::StageSolution& stage : controller.solution.stages) starts.push_back(static_cast<std::size_t>(stage.from));
+  return starts;
+}
+
+bool has_feedthrough(const Controller& controller) {
+  return controller.has.filter &&
+         in_any_stage(controller, [&](std::size_t at) { return !is_zero(plant_at(controller, at).D); });
+}
+
+Eigen::VectorXd start_of(const Controller& controller) {
+  if (!controller.has.filter) return {};
+  const Eigen::VectorXd& own = controller.problem.estimator->x0;
+  Eigen::VectorXd x0 = Eigen::VectorXd::Zero(controller.size.nx);
+  x0.head(own.size()) = own;
+  return x0;
+}
+
+// What follows from problem and solution alone.
+Controller described(design::Problem problem, design::Solution solution, Source source) {
+  Controller controller;
+  controller.target = {problem.code.real == design::Scalar::float64, problem.code.arithmetic == design::Arithmetic::fused};
+  controller.filter = filter_of(problem);
+  controller.is_predictor = problem.estimator && problem.estimator->form == design::Form::predictor;
+  controller.size = dimensions_of(problem, solution);
+  controller.integrated = design::integrated_outputs(problem);
+  controller.references = design::reference_outputs(problem);
+  controller.problem = std::move(problem);
+  controller.solution = std::move(solution);
+  controller.source = std::move(source);
+  controller.has = terms_of(controller);
+  controller.stage_starts = stage_starts_of(controller);
+  controller.has.feedthrough = has_feedthrough(controller);
+  controller.x0 = start_of(controller);
+  return controller;
+}
+
+bool keeps_innovation(const Controller& controller) {
+  if (!controller.has.filter) return false;
+  if (controller.solution.online)
+    return in_any_stage(controller, [&](std::size_t at) { return !is_zero(online_at(controller, at).M); });
+  return std::any_of(controller.filters.begin(), controller.filters.end(), [](const Gains& row) { return !is_zero(row[1]); });
+}
+
+// What is kept follows from the gains, too.
+Memory memory_of(const Controller& controller) {
+  Memory keeps;
+  keeps.input = controller.has.feedthrough || controller.has.last_input;
+  keeps.innovation = keeps_innovation(controller);
+  keeps.sample = controller.last_sample > 0;
+  keeps.gain_row = controller.filters.size() > 1;
+  keeps.any = controller.has.filter || controller.has.servo || keeps.sample;
+  return keeps;
+}
+
+// What the engine can design and the target cannot have.
+void check_emittable(const Controller& controller, design::Findings& findings) {
+  const auto refuse = [&](const char* key, const char* why) {
+    findings.push_back({design::Severity::error, key, why});
+  };
+  if (controller.has.stages && controller.problem.code.style == design::Style::unrolled)
+    refuse("code.style", "expected \"compact\" or \"auto\": straight-line code is of one plant, the stages are of several");
+  if (!controller.has.filter && controller.size.nxi && !controller.solution.stages.empty())
+    refuse("lqr.integral", "expected a [kalman]: without one the outputs are made of the states, by one C for all stages");
+  if (controller.has.gate && controller.has.stages && !controller.solution.online)
+    refuse("kalman.gate", "expected 0, or gain = \"online\": tables of gains for several stages come without variances");
+  if (controller.has.gate && !controller.has.variance)
+    refuse("kalman.gate", "expected 0: there is no variance of the innovations to compare with");
+}
+
+// A start that the bounds, which cannot be wider than the target's squares, would not let be.
+void check_start(const Controller& controller, design::Findings& findings) {
+  constexpr int bits_to_bound = 4;
+  const auto check = [&](const char* key, const char* what, int i, double size) {
+    const double most = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound);
+    if (size >= most)
+      findings.push_back({design::Severity::error, key,
+                          std::string("expected ") + what + " below " + design::decimal(most) + ", found " +
+                              design::decimal(size) + " for " +
+                              controller.problem.plant.states[static_cast<std::size_t>(i)].name +
+                              ": its square has to be a number of the target; choose a larger unit, or double"});
+  };
+  for (int i = 0; i < controller.problem.estimator->P0.rows(); ++i) {
+    check("kalman.initial_state", "values", i, std::abs(controller.x0(i)));
+    check("kalman.initial_covariance", "standard deviations", i, std::sqrt(controller.problem.estimator->P0(i, i)));
+  }
+}
+
+}  // namespace
+
+std::optional<Controller> controller_of(design::Problem problem, design::Solution solution, Source source,
+                                        design::Findings& findings) {
+  Controller controller = described(std::move(problem), std::move(solution), std::move(source));
+  check_emittable(controller, findings);
+  if (design::has_error(findings)) return std::nullopt;
+  controller.laws = law_gains(controller);
+  controller.filters = filter_gains(controller);
+  controller.last_sample = std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
+  controller.keeps = memory_of(controller);
+  controller.bounds = bounds_of(controller);
+  if (controller.has.filter) check_start(controller, findings);
+  if (design::has_error(findings)) return std::nullopt;
+  return controller;
+}
+
+Controller with_form(Controller controller, const design::LinearForm& form) {
+  controller.linear = form;
+  controller.size.nz = static_cast<int>(form.A.rows());
+  controller.bounds = {};
+  return controller;
+}
+
+const FormCost& chosen_form(const FormChoice& forms) {
+  switch (forms.chosen) {
+    case design::Realisation::folded: return *forms.folded;
+    case design::Realisation::modal: return *forms.modal;
+    default: return forms.physical;
+  }
+}
+
+std::string name_of(design::Realisation realisation) {
+  switch (realisation) {
+    case design::Realisation::folded: return "folded";
+    case design::Realisation::modal: return "modal";
+    default: return "physical";
+  }
+}
+
+bool can_set_input(const Controller& controller) {
+  return controller.size.nu > 0 && (controller.has.filter || controller.has.servo) &&
+         (controller.size.delayed || controller.keeps.input || controller.size.nxi);
+}
+
+bool can_update_alone(const Controller& controller, int output) {
+  return !controller.solution.online || !in_any_stage(controller, [&](std::size_t at) {
+    return !is_zero(online_at(controller, at).E.row(output).head(output));
+  });
+}
+
+}  // namespace lqg::controller

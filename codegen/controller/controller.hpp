@@ -1,0 +1,132 @@
+// One solved design as it is emitted: data only, in the target's terms. `controller_of` makes it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controller/bounds.hpp"
+#include "design/finding.hpp"
+#include "design/linear_form.hpp"
+#include "design/solution.hpp"
+#include "step/model.hpp"
+
+namespace lqg::controller {
+
+struct Source {
+  std::string file;    // without its folder
+  std::string sha256;  // of its bytes
+};
+
+// The numbers of the target, and how it multiplies and adds.
+struct Target {
+  bool is_double = false;
+  bool is_fused = false;
+};
+
+struct Dimensions {
+  int nx = 0;       // states, the inputs on their way among them
+  int nu = 0;       // inputs
+  int ny = 0;       // outputs that the filter is told; 0 without a filter
+  int nr = 0;       // references
+  int nxi = 0;      // ξ, integrals
+  int nz = 0;       // numbers that a linear form keeps in place of x̂
+  int delayed = 0;  // inputs on their way: the last of the states
+};
+
+// Which terms the equations of a sample have.
+struct Terms {
+  bool filter = false, regulator = false;
+  bool feedthrough = false;  // D u needs the last input in every update
+  bool gate = false;
+  bool variance = false;     // of the innovations
+  bool stages = false;       // the filter is told of changes of the plant
+  bool input_change = false; // the law gives u[k] − u[k−1]
+  bool rate_limit = false;
+  bool last_input = false;   // the law begins with u[k−1]
+  bool servo = false;        // the law is more than −K x̂ within limits
+};
+
+// What is kept from one call to the next beside x̂ and its covariance.
+struct Memory {
+  bool any = false;         // or x̂: there is a state
+  bool input = false;       // that acts
+  bool innovation = false;  // predict needs the last outputs: w and v are correlated
+  bool sample = false;      // its number chooses the law's gains, or the stage
+  bool gain_row = false;    // which of the filter's gains is in force
+};
+
+// The gains of one sample: of a law {K, Nbar, H}, of a filter with given gains {L, M, variances of the innovations if a
+// gate needs them}.
+using Gains = std::vector<design::RealMatrix>;
+
+// What the emitted code costs. Multiply-adds and RAM are exact; flash and stack are estimates for a Cortex-M4F at -O2.
+struct CodeCost {
+  long multiply_adds = 0;  // in one sample: update, control, predict; a lone add, multiply or division counts as one
+  long ram = 0;            // bytes of the state
+  long flash = 0;          // bytes of code and constants
+  long stack = 0;          // bytes of the deepest function
+};
+
+// What each form that the design can have costs and loses, when it asks for another than the physical one.
+struct FormCost {
+  long multiply_adds = 0;     // in one sample, of straight-line code
+  double rounding_error = 0;  // of u for the same y: rms of the error in the target's numbers / rms of u, the worst input
+  double agreement = 0;       // digits in which a linear form answers outputs as the physical form does
+};
+struct FormChoice {
+  design::Realisation chosen = design::Realisation::physical;
+  FormCost physical;
+  std::optional<FormCost> folded, modal;
+};
+
+struct Controller {
+  design::Problem problem;
+  design::Solution solution;
+  Source source;
+  Target target;
+  step::Filter filter = step::Filter::none;
+  bool is_predictor = false;  // u is made before the outputs are there
+  Dimensions size;
+  Terms has;
+  Memory keeps;
+  Eigen::VectorXd x0;                     // nx, with zeros for inputs on their way; empty without a filter
+  std::vector<int> integrated;            // the outputs that are integrated, ξ by ξ
+  std::vector<int> references;            // the outputs that r names, rising
+  std::vector<std::size_t> stage_starts;  // 0, and the `from` of the stages that the filter is told of
+  std::size_t last_sample = 0;            // from here on nothing changes
+  std::vector<Gains> laws;     // of sample 0, 1, …; the last one is held. One only: it is constant. Empty: no regulator
+  std::vector<Gains> filters;  // likewise; empty without a filter of given gains
+  Bounds bounds;
+  std::optional<design::LinearForm> linear;   // the controller keeps z of this form; else it keeps x̂
+  std::optional<FormChoice> forms;            // among which it was chosen
+  design::Style style = design::Style::unrolled;  // never automatic
+  CodeCost cost;
+};
+
+// The physical form, which keeps x̂, with its bounds; straight-line code, whose cost is not counted yet. Findings: what
+// the engine can design and the target cannot have, a start that the bounds would not let be.
+std::optional<Controller> controller_of(design::Problem problem, design::Solution solution, Source source,
+                                        design::Findings& findings);
+
+// The same controller, which keeps z of `form`. Its bounds are gone: they are of x̂; z has to be finite.
+Controller with_form(Controller controller, const design::LinearForm& form);
+
+// What the form that the controller keeps costs and loses.
+const FormCost& chosen_form(const FormChoice& forms);
+
+// "folded"
+std::string name_of(design::Realisation realisation);
+
+// The law reads a table of gains, row by row.
+inline bool has_law_table(const Controller& controller) { return controller.laws.size() > 1; }
+// control writes to the state, beside a filter.
+inline bool control_changes_state(const Controller& controller) {
+  return controller.has.feedthrough || controller.size.nxi > 0;
+}
+// An input that was set by hand tells the controller something.
+bool can_set_input(const Controller& controller);
+// No other output is needed to make the noise of this one independent.
+bool can_update_alone(const Controller& controller, int output);
+
+}  // namespace lqg::controller

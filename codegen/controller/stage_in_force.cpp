@@ -1,0 +1,28 @@
+#include "controller/stage_in_force.hpp"
+
+namespace lqg::controller {
+
+const design::StageSolution* stage_in_force(const design::Solution& solution, std::size_t sample) {
+  const design::StageSolution* found = nullptr;
+  for (const design::StageSolution& stage : solution.stages)
+    if (static_cast<std::size_t>(stage.from) <= sample) found = &stage;
+  return found;
+}
+
+const design::SampledPlant& plant_at(const Controller& controller, std::size_t sample) {
+  const design::StageSolution* stage = controller.has.filter ? stage_in_force(controller.solution, sample) : nullptr;
+  return stage ? stage->plant : controller.solution.plant;
+}
+
+const design::SampledNoise* noise_at(const Controller& controller, std::size_t sample) {
+  const design::StageSolution* stage = stage_in_force(controller.solution, sample);
+  const std::optional<design::SampledNoise>& noise = stage && stage->noise ? stage->noise : controller.solution.noise;
+  return noise ? &*noise : nullptr;
+}
+
+const design::OnlineSolution& online_at(const Controller& controller, std::size_t sample) {
+  const design::StageSolution* stage = stage_in_force(controller.solution, sample);
+  return stage && stage->online ? *stage->online : *controller.solution.online;
+}
+
+}  // namespace lqg::controller

@@ -1,0 +1,25 @@
+// The steady Kalman filter, and the same filter prepared for the target to carry its covariance.
+#pragma once
+
+#include "design/equations/riccati.hpp"
+#include "design/finding.hpp"
+#include "design/sampled/samples.hpp"
+
+namespace lqg::design {
+
+// The dual Riccati equation: Aᵀ, Cᵀ, GWGᵀ, V, G Swv in the places of A, B, Q, R, N; its X is P_prior, its K
+// is L_predictorᵀ; `closed` is that of the plant's own states. `start` is P_prior in fewer digits, or empty.
+RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start);
+
+// All of the filter that follows from P_prior; the poles stay empty.
+EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior);
+
+// P0 of the file, with nothing to learn of the inputs on their way.
+RealMatrix initial_covariance(const Estimator& estimator, const Samples& samples);
+
+OnlineSolution online_filter(const Estimator& estimator, const Samples& samples);
+
+// Says under the right key why there is no filter.
+void explain_estimator(RiccatiFailure failure, Findings& findings);
+
+}  // namespace lqg::design

@@ -1,0 +1,18 @@
+// A real matrix in the coordinates of its modes.
+#pragma once
+
+#include "design/numeric/linear_algebra.hpp"
+
+namespace lqg::design {
+
+// A T = T Λ, the blocks of Λ by falling |λ|: [σ] for a real eigenvalue, [σ ω; −ω σ] for a pair σ ± jω, ω > 0.
+struct ModalBasis {
+  RealMatrix blocks, T, inverse;
+  std::vector<Index> starts;  // of the blocks, and the end
+};
+
+// Parts of `A` that know nothing of each other are taken apart first, so that they may have the same eigenvalues. Within one
+// part a repeated eigenvalue makes T singular, exactly (empty) or up to the digits.
+std::optional<ModalBasis> modal_basis(const RealMatrix& A);
+
+}  // namespace lqg::design

@@ -1,0 +1,28 @@
+// One run of the whole design in the digits in force.
+#pragma once
+
+#include "design/equations/placement.hpp"
+#include "design/finding.hpp"
+#include "design/numeric/linear_algebra.hpp"
+#include "design/sampled/stages.hpp"
+#include "design/solution.hpp"
+
+namespace lqg::design {
+
+// What the numbers of a Solution are before Ziv's test has passed. Its poles, costs and margins are still empty.
+struct DesignRun {
+  Solution solution;
+  std::vector<SampledStage> stages;  // what it is of
+  std::vector<ComplexReal> regulator_poles, estimator_poles, loop_poles;
+  std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
+  std::optional<EstimatorSolution> full_filter;  // without the structure that its gain has
+  std::optional<Real> cost_per_sample, cost_per_second;
+  bool has_steady_loop = false;  // stable, with margins
+  Findings findings;             // with an error: the rest is not complete
+  bool may_want_digits = false;  // the error may be one of too few digits
+};
+
+// `coarser` is a run with fewer digits and without errors to start from, or null.
+DesignRun run_design(const Problem& problem, const DesignRun* coarser);
+
+}  // namespace lqg::design

@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include "design/checks/well_posed.hpp"
+#include "design/gains/pole_placement.hpp"
+#include "design/gains/schedule.hpp"
+#include "design/run/design_run_parts.hpp"
+#include "design/run/sparse_gain_run.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+std::vector<ComplexReal> poles_of_filter(const Samples& samples, const RealMatrix& L_predictor) {
+  const SampledPlant own = own_plant(samples);
+  std::vector<ComplexReal> poles =
+      eigenvalues(own.A - multiply(L_predictor.topRows(own.A.rows()), own.C));
+  poles.resize(static_cast<std::size_t>(samples.plant.A.rows()), {Real(0), Real(0)});  // of the known inputs
+  return poles;
+}
+
+// Is there a steady filter? One that is updated on the target can do without, where a mode needs no noise.
+bool has_steady_filter(const Problem& problem, const Samples& samples, DesignRun& result) {
+  if (!check_detectable(problem, own_plant(samples), result.findings)) result.may_want_digits = true;
+  Findings on_limit;
+  check_noise_on_limit(problem, samples, on_limit);
+  const bool is_online = problem.estimator->gain == Gain::online;
+  for (Finding& finding : on_limit) {
+    if (is_online) finding.severity = Severity::note;
+    if (is_online) finding.message += "; its gain tends to 0, and the loop has no margins and no steady cost";
+    result.findings.push_back(finding);
+  }
+  return on_limit.empty() && !has_error(result.findings);
+}
+
+void run_steady(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
+  if (!has_steady_filter(last.problem, last.samples, result)) return;
+  const bool has_start = coarser && coarser->solution.estimator;
+  const RiccatiResult found =
+      solve_estimator(last.samples, has_start ? coarser->solution.estimator->P_prior : RealMatrix());
+  explain_estimator(found.failure, result.findings);
+  if (found.failure != RiccatiFailure::none) result.may_want_digits = true;
+  if (found.failure != RiccatiFailure::none) return;
+  take_condition(found, result.solution);
+  result.solution.estimator = filter_of(last.samples, found.X);
+  result.estimator_poles = poles_of_filter(last.samples, result.solution.estimator->L_predictor);
+  if (last.problem.estimator->structure.size() > 0)
+    keep_estimator_structure(last.problem, last.samples, coarser, result);
+}
+
+void take_tables(const GainSchedule& schedule, DesignRun& result) {
+  result.solution.estimator->L_schedule = schedule.L;
+  result.solution.estimator->M_schedule = schedule.M;
+}
+
+void run_schedule_to_steady(const Problem& problem, const std::vector<SampledStage>& stages, DesignRun& result) {
+  if (stages.size() == 1) check_start(problem, stages.front().samples, result.findings);
+  if (has_error(result.findings)) return;
+  const EstimatorSolution& steady = *result.solution.estimator;
+  const int most = most_gains(problem, steady);
+  const GainSchedule schedule =
+      gains_until_steady(stages, initial_covariance(*problem.estimator, stages.front().samples), steady,
+                         problem.code.real, most);
+  if (!schedule.is_settled)
+    return add_error(result.findings, "kalman.gain",
+                     "after " + std::to_string(most) + " samples, all that fit into code.flash, the gains are not the "
+                         "steady ones yet: give a horizon, more flash, or use \"online\"");
+  take_tables(schedule, result);
+}
+
+// The gains of `horizon` samples; the last one is held, whatever that makes of the filter.
+void run_finite_schedule(const Problem& problem, const std::vector<SampledStage>& stages, DesignRun& result) {
+  const int count = problem.estimator->horizon;
+  const GainSchedule schedule =
+      gains_forward(stages, initial_covariance(*problem.estimator, stages.front().samples), count);
+  result.solution.estimator = schedule.last;
+  take_tables(schedule, result);
+  result.estimator_poles = poles_of_filter(stage_at(stages, count - 1).samples, schedule.last.L_predictor);
+  if (!is_stable(result.estimator_poles))
+    add_note(result.findings, "kalman.horizon",
+             "the gain that is held at the end is not that of a stable filter: no margins and no steady cost");
+}
+
+void run_optimal(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
+                   DesignRun& result) {
+  const Gain gain = problem.estimator->gain;
+  result.solution.noise = stages.front().samples.noise;
+  if (gain == Gain::schedule && problem.estimator->horizon > 0)
+    return run_finite_schedule(problem, stages, result);
+  run_steady(stages.back(), coarser, result);
+  if (has_error(result.findings)) return;
+  if (gain == Gain::schedule) run_schedule_to_steady(problem, stages, result);
+  if (gain == Gain::online)
+    result.solution.online = online_filter(*problem.estimator, stages.front().samples);
+}
+
+void run_placed(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
+  const PlacedGain placed = place_observer(problem, samples,
+                                           coarser ? &*coarser->estimator_choice : nullptr, result.findings);
+  result.may_want_digits = result.may_want_digits || placed.may_want_digits;
+  if (has_error(result.findings)) return;
+  result.estimator_choice = placed.choice;
+  result.estimator_poles = placed.poles;
+  result.solution.estimator = observer_of(samples.plant, problem.estimator->form, placed.gain);
+}
+
+}  // namespace
+
+void run_estimator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
+                     DesignRun& result) {
+  if (has_noise(problem.estimator)) return run_optimal(problem, stages, coarser, result);
+  run_placed(problem, stages.back().samples, coarser, result);
+}
+
+}  // namespace lqg::design

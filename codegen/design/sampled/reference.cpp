@@ -1,0 +1,87 @@
+#include "design/sampled/reference.hpp"
+
+#include <algorithm>
+
+#include "design/numeric/elimination.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+// x = particular + null c with c free, column by column.
+struct Freedom {
+  RealMatrix particular, null;
+};
+
+// What is left free when xᵀWx is least.
+Freedom least(const Freedom& of, const RealMatrix& W) {
+  if (of.null.cols() == 0) return of;
+  const RealMatrix slope = transpose_multiply(of.null, multiply(W, of.particular));
+  const Eliminated solved = eliminated(transpose_congruence(of.null, W), -slope);
+  return {of.particular + multiply(of.null, solved.particular), multiply(of.null, solved.null)};
+}
+
+// The weight of an input that stays the same for a period: of a delayed one, all that are on their way.
+RealMatrix weight_of_constant_input(const Problem& problem, const SampledCost& cost) {
+  const Index nx = problem.plant.A.rows(), nu = cost.R.rows(), on_their_way = cost.Q.rows() - nx;
+  const RealMatrix Q = cost.Q.bottomRightCorner(on_their_way, on_their_way), N = cost.N.bottomRows(on_their_way);
+  RealMatrix same(on_their_way, nu);
+  for (Index i = 0; i < on_their_way; i += nu) same.middleRows(i, nu) = identity(nu);
+  const RealMatrix across = transpose_multiply(same, N);
+  return cost.R + across + across.transpose() + transpose_congruence(same, Q);
+}
+
+// A plant that rests anywhere needs no input for it: what elimination leaves of such a zero is one.
+RealMatrix without_rounding(RealMatrix a) {
+  const Real least = negligible(0.6) * largest_entry(a);
+  for (Index i = 0; i < a.size(); ++i)
+    if (abs(a.data()[i]) <= least) a.data()[i] = 0;
+  return a;
+}
+
+}  // namespace
+
+const std::vector<int>& integrated_outputs(const Problem& problem) {
+  static const std::vector<int> none;
+  return problem.regulator && problem.regulator->integral ? problem.regulator->integral->outputs : none;
+}
+
+std::vector<int> reference_outputs(const Problem& problem) {
+  std::vector<int> outputs = integrated_outputs(problem);
+  if (problem.regulator)
+    outputs.insert(outputs.end(), problem.regulator->track.begin(), problem.regulator->track.end());
+  std::sort(outputs.begin(), outputs.end());
+  outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
+  return outputs;
+}
+
+std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& plant, const SampledCost& cost,
+                                  Findings& findings) {
+  const std::vector<int>& track = problem.regulator->track;
+  const std::vector<int> outputs = reference_outputs(problem);
+  const std::size_t before = findings.size();
+  check_set_points(plant, track, "lqr.track", findings);
+  if (findings.size() > before) return std::nullopt;
+  const Index nx = plant.A.rows(), nu = plant.B.cols(), tracked = static_cast<Index>(track.size());
+  RealMatrix wanted = zeros(nx + tracked, static_cast<Index>(outputs.size()));
+  for (std::size_t i = 0; i < track.size(); ++i)
+    for (std::size_t j = 0; j < outputs.size(); ++j)
+      if (outputs[j] == track[i]) wanted(nx + static_cast<Index>(i), static_cast<Index>(j)) = 1;
+  const RealMatrix M = above(beside(plant.A - identity(nx), plant.B),
+                             beside(rows_of(plant.C, track), rows_of(plant.D, track)));
+  const Eliminated all = eliminated(M, wanted);
+  RealMatrix of_u = zeros(nx + nu, nx + nu), of_x = of_u;
+  of_u.bottomRightCorner(nu, nu) = weight_of_constant_input(problem, cost);
+  of_x.topLeftCorner(nx, nx) = identity(nx);
+  const RealMatrix point = without_rounding(least(least({all.particular, all.null}, of_u), of_x).particular);
+  return SetPoint{point.topRows(nx), point.bottomRows(nu)};
+}
+
+RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const SetPoint& set_point) {
+  const Index nu = K.rows();
+  const RealMatrix of_state = multiply(K.leftCols(set_point.Nx.rows()), set_point.Nx);
+  if (problem.regulator->input_rate.size() == 0) return set_point.Nu + of_state;
+  return of_state + multiply(K.rightCols(nu), set_point.Nu);
+}
+
+}  // namespace lqg::design

@@ -1,0 +1,29 @@
+// A problem whose plant, weights and noise change at given steps.
+#pragma once
+
+#include <vector>
+
+#include "design/sampled/samples.hpp"
+
+namespace lqg::design {
+
+// From step `from` on.
+struct SampledStage {
+  int from = 0;
+  Problem problem;  // with what this stage replaces
+  Samples samples;
+};
+
+// `problem` with what each stage replaces, before and from the first stage on.
+std::vector<Problem> problems_of_stages(const Problem& problem);
+
+// The first one begins at step 0; one alone without [[stage]].
+std::vector<SampledStage> sample_stages(const Problem& problem);
+
+// The stage of step k.
+const SampledStage& stage_at(const std::vector<SampledStage>& stages, int k);
+
+// The step from which on nothing changes.
+inline int last_change(const std::vector<SampledStage>& stages) { return stages.back().from; }
+
+}  // namespace lqg::design

@@ -1,0 +1,237 @@
+#include "emit/c/compact_constants.hpp"
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "controller/model_of.hpp"
+#include "emit/text/wording.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using design::Real;
+using design::RealMatrix;
+
+// One row: the lower triangle, row by row.
+RealMatrix lower_triangle(const RealMatrix& matrix) {
+  const int n = static_cast<int>(matrix.rows());
+  RealMatrix row(1, n * (n + 1) / 2);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) row(0, step::triangle(i, j)) = matrix(i, j);
+  return row;
+}
+
+// One row: the strict upper triangle, column by column.
+RealMatrix strict_upper_triangle(const RealMatrix& matrix) {
+  const int n = static_cast<int>(matrix.rows());
+  RealMatrix row(1, n * (n - 1) / 2);
+  for (int j = 1; j < n; ++j)
+    for (int k = 0; k < j; ++k) row(0, step::strict_triangle(k, j)) = matrix(k, j);
+  return row;
+}
+
+RealMatrix as_row(const design::RealVector& vector) { return vector.transpose(); }
+
+// What the library compares u with; nothing finite lies beyond the largest number.
+RealMatrix limits_row(const Eigen::VectorXd& limits, int inward, bool is_double) {
+  const double largest = is_double ? std::numeric_limits<double>::max() : std::numeric_limits<float>::max();
+  RealMatrix row(1, limits.size());
+  for (int i = 0; i < limits.size(); ++i)
+    row(0, i) = std::isinf(limits(i)) ? std::copysign(largest, limits(i))
+                                      : controller::limit_of_target(limits(i), inward, is_double);
+  return row;
+}
+
+// Fields of an initializer, in the order in which they were defined (a braced list is evaluated from left to right).
+std::string fields(std::initializer_list<std::string> values) {
+  std::string out;
+  for (const std::string& value : values) out += (out.empty() ? "" : ", ") + value;
+  return out;
+}
+
+std::string plant_fields(const Controller& controller, const design::SampledPlant& plant, const RealMatrix& C,
+                         const RealMatrix& D, Tables& tables) {
+  const std::string NAME = upper(controller.problem.name);
+  return "    {" + fields({NAME + "_NX", std::to_string(controller.size.nu), NAME + "_NY",
+                           tables.add("A", plant.A), tables.add("B", plant.B),
+                           tables.add("C", C), tables.add_unless_zero("D", D)}) +
+         "},  /* nx, nu, ny, A, B, C, D */\n";
+}
+
+// Numbers that are in no matrix of the design.
+std::string numbers(const std::string& suffix, const std::vector<double>& values, Tables& tables) {
+  RealMatrix row(1, static_cast<Eigen::Index>(values.size()));
+  for (Eigen::Index i = 0; i < row.size(); ++i) row(0, i) = values[static_cast<std::size_t>(i)];
+  return tables.add(suffix, row);
+}
+
+// 1/b of bounds b = 2^exponents.
+std::vector<double> inverse_powers(std::vector<int> exponents) {
+  for (int& exponent : exponents) exponent = -exponent;
+  return controller::powers_of_two(exponents);
+}
+
+std::string bound_fields(const Controller& controller, Tables& tables) {
+  const Eigen::VectorXd& limits = controller.bounds.innovation;
+  return "    " + fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
+                            numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables)}) +
+         "  /* x_scale, innovation_limit */\n";
+}
+
+std::string initial_state(const Controller& controller, Tables& tables) {
+  const Eigen::VectorXd x0 = controller.x0;
+  RealMatrix row(1, x0.size());
+  for (int i = 0; i < x0.size(); ++i) row(0, i) = x0(i);
+  return tables.add_unless_zero("X0", row);
+}
+
+// The same matrix of all rows of gains, one under the other; the description points to the first.
+RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
+  const RealMatrix& first = rows.front()[matrix];
+  RealMatrix all(first.rows() * static_cast<Eigen::Index>(rows.size()), first.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    all.middleRows(static_cast<Eigen::Index>(k) * first.rows(), first.rows()) = rows[k][matrix];
+  return all;
+}
+
+std::string steady_fields(const Controller& controller, const design::SampledPlant& plant, Tables& tables) {
+  std::string out = plant_fields(controller, plant, plant.C, plant.D, tables);
+  if (controller.has.gate) tables.add("S", stacked(controller.filters, 2));
+  return out + "    " + fields({tables.add("L", stacked(controller.filters, 0)),
+                                controller.keeps.innovation ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
+                                initial_state(controller, tables)}) + ",  /* L, M, x0 */\n" + bound_fields(controller, tables);
+}
+
+std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
+                          const design::OnlineSolution& online, Tables& tables) {
+  const design::OnlineSolution& first = *controller.solution.online;
+  const bool has_M = controller.keeps.innovation;
+  std::string out = plant_fields(controller, plant, online.C, online.D, tables);
+  out += "    " + fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
+         ",  /* E, V */\n";
+  const auto add_rest = [&] {
+    out += "    " + fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
+           ",  /* M, A_free */\n";
+  };
+  if (controller.filter == step::Filter::plain) {
+    out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
+    add_rest();
+    return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(first.P0))}) +
+           ",  /* x0, P0 */\n" + bound_fields(controller, tables);
+  }
+  out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
+         ",  /* nq, G, w */\n";
+  add_rest();
+  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
+                                tables.add("D0", as_row(first.D0))}) + ",  /* x0, U0, d0 */\n" +
+         bound_fields(controller, tables);
+}
+
+// The limits of the file; nothing is defined for those that no input has.
+std::pair<std::string, std::string> limits_fields(const Controller& controller, Tables& tables) {
+  const auto& limits = controller.problem.limits;
+  if (!limits || limits->u_min.size() == 0) return {"NULL", "NULL"};
+  const std::string low = tables.add("U_MIN", limits_row(limits->u_min, +1, controller.target.is_double));
+  return {low, tables.add("U_MAX", limits_row(limits->u_max, -1, controller.target.is_double))};
+}
+
+// Defines an array of indices; "NULL" when there is nothing in it.
+std::string index_array(const std::string& name, const std::vector<int>& values, std::string& text) {
+  if (values.empty()) return "NULL";
+  text += "static const unsigned " + name + "[" + std::to_string(values.size()) + "] = {";
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i ? ", " : "") + std::to_string(values[i]);
+  text += "};\n";
+  return name;
+}
+
+// Which of the descriptions is in force.
+std::string stage_function(const Controller& controller) {
+  std::string index;
+  for (const std::size_t start : controller.stage_starts)
+    if (start > 0)
+      index += (index.empty() ? "" : " + ") + std::string("(self->sample >= ") + std::to_string(start) + " ? 1 : 0)";
+  return fill(R"(
+/* The plant of this sample. */
+static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
+{
+    return &{NAME}_KALMAN[{index}];
+}
+)", [&] {
+    Words words = common_words(controller);
+    words["index"] = index;
+    return words;
+  }());
+}
+
+}  // namespace
+
+Tables::Tables(const Controller& controller, const char* owner)
+    : controller_(controller), name_(upper(controller.problem.name) + "_" + owner) {}
+
+std::string Tables::add(const std::string& suffix, const RealMatrix& matrix) {
+  if (matrix.size() == 0) return "NULL";
+  const std::string values = array_values(matrix, controller_.target.is_double);
+  auto& same_suffix = defined_[suffix];
+  const std::string number = same_suffix.empty() ? "" : "_" + std::to_string(same_suffix.size());
+  const auto [at, is_new] = same_suffix.try_emplace(values, name_ + "_" + suffix + number);
+  if (is_new)
+    text += "static const lqg_real " + at->second + "[" + std::to_string(matrix.size()) + "] = {\n" + values + "};\n";
+  return at->second;
+}
+
+std::string Tables::add_unless_zero(const std::string& suffix, const RealMatrix& matrix) {
+  return is_zero(matrix) ? "NULL" : add(suffix, matrix);
+}
+
+std::string kalman_constants(const Controller& controller) {
+  Tables tables(controller, "KALMAN");
+  std::vector<std::string> descriptions;
+  for (const std::size_t start : controller.stage_starts) {
+    const design::SampledPlant& plant = plant_at(controller, start);
+    descriptions.push_back(controller.solution.online ? online_fields(controller, plant, online_at(controller, start), tables)
+                                                      : steady_fields(controller, plant, tables));
+  }
+  const Words words = common_words(controller);
+  if (descriptions.size() == 1)
+    return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", words) + descriptions[0] + "};\n";
+  std::string all;
+  for (const std::string& description : descriptions)
+    all += "    {\n" + description + (&description == &descriptions.back() ? "    }\n" : "    },\n");
+  return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN[" + std::to_string(descriptions.size()) +
+                            "] = {\n", words) + all + "};\n" + stage_function(controller);
+}
+
+std::string lqr_constants(const Controller& controller) {
+  Tables tables(controller, "LQR");
+  const std::string NAME = upper(controller.problem.name), K = tables.add("K", stacked(controller.laws, 0));
+  const auto [u_min, u_max] = limits_fields(controller, tables);
+  return tables.text + "static const lqg_lqr_t " + NAME + "_LQR = {\n    " +
+         fields({NAME + "_NX", NAME + "_NU", K, u_min, u_max}) + "  /* nx, nu, K, u_min, u_max */\n};\n";
+}
+
+std::string servo_constants(const Controller& controller) {
+  Tables tables(controller, "SERVO");
+  const bool is_double = controller.target.is_double;
+  const std::string NAME = upper(controller.problem.name), SERVO = NAME + "_SERVO";
+  const std::string K = tables.add("K", stacked(controller.laws, 0)), Nbar = tables.add("NBAR", stacked(controller.laws, 1));
+  const std::string H = tables.add("H", stacked(controller.laws, 2));
+  const auto model = controller::model_of<double>(controller, [](const Real& value) { return design::to_double(value); });
+  const std::string output = index_array(SERVO + "_OUTPUT", model.integral, tables.text);
+  const std::string wanted = index_array(SERVO + "_REFERENCE", model.wanted, tables.text);
+  const auto [u_min, u_max] = limits_fields(controller, tables);
+  const Eigen::VectorXd& error = controller.bounds.error;
+  const std::string xi_scale = numbers("XI_SCALE", inverse_powers(controller.bounds.xi), tables);
+  const std::string error_limit = numbers("ERROR_LIMIT", {error.data(), error.data() + error.size()}, tables);
+  const std::string u_step =
+      controller.has.rate_limit ? tables.add("U_STEP", limits_row(controller::rate_steps(controller), -1, is_double)) : "NULL";
+  return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
+         fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.size.nr), std::to_string(controller.size.nxi),
+                 controller.has.input_change ? "1" : "0", NAME + "_SAMPLE_TIME"}) +
+         ",  /* nx, nu, nr, nxi, gives_change, T */\n    " + fields({K, Nbar, H, output, wanted}) +
+         ",  /* K, Nbar, H, output, reference */\n    " + fields({u_min, u_max, u_step, xi_scale, error_limit}) +
+         "  /* u_min, u_max, u_step, xi_scale, error_limit */\n};\n";
+}
+
+}  // namespace lqg::emit

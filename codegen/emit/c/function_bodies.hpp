@@ -1,0 +1,36 @@
+// What stands between the braces of the emitted functions, in either style.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+// Everything of the header that depends on the style.
+struct FunctionBodies {
+  std::string includes;   // #include lines and checks of options
+  std::string constants;  // definitions that the functions need
+  std::string options;    // of the compiler, for the functions
+  std::string init, update, control, predict, set_input;
+  std::vector<std::string> updates_alone;  // of each output that can_update_alone
+  bool resets = false;    // they call NAME_reset
+};
+
+// What predict does to the counters at its end.
+std::string advance_counters(const Controller& controller);
+
+// The update by one output alone where there is no other.
+std::string only_update_body(const Controller& controller);
+
+// Straight-line code in either style: who does not call it does not pay for it.
+std::string innovation_body(const Controller& controller);
+
+// What all straight-line code begins with: includes, options, init.
+FunctionBodies straight_line_bodies(const Controller& controller);
+
+FunctionBodies unrolled_bodies(const Controller& controller);
+FunctionBodies compact_bodies(const Controller& controller);
+
+}  // namespace lqg::emit

@@ -1,0 +1,32 @@
+#include "emit/c/preamble.hpp"
+
+#include "emit/text/description.hpp"
+#include "emit/text/wording.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+// Each line of `text` as one of a comment.
+std::string comment_lines(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at) + 1;
+    out += (end == at + 1 ? " *" : " * ") + text.substr(at, end - at);
+    at = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string preamble(const Controller& controller) {
+  const design::Problem& problem = controller.problem;
+  return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" + provenance(controller) +
+         comment_lines(describe_plant(controller) + describe_regulator(controller) + describe_estimator(controller) +
+                       describe_linear_form(controller) + describe_loop(controller) + describe_forms(controller) +
+                       describe_cost(controller)) +
+         " */\n";
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,13 @@
+// The comment at the top of every emitted file.
+#pragma once
+
+#include <string>
+
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+// The whole comment that opens the header.
+std::string preamble(const Controller& controller);
+
+}  // namespace lqg::emit

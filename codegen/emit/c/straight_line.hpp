@@ -1,0 +1,18 @@
+// Traced functions as the bodies of C functions.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "emit/recorded/traced.hpp"
+
+namespace lqg::emit {
+
+// `parameters` that the body does not need are said to be unused; `last` stands behind its statements.
+std::string body(const Controller& controller, const TracedFunction& function,
+                 std::initializer_list<const char*> parameters, const std::string& last = "");
+
+// The body of init: all fields of the state, in their order.
+std::string initial_state(const Controller& controller);
+
+}  // namespace lqg::emit

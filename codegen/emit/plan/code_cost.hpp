@@ -1,0 +1,12 @@
+// What the emitted code costs the target.
+#pragma once
+
+#include "emit/controller.hpp"
+
+namespace lqg::emit {
+
+CodeCost cost_of_unrolled(const Controller& controller);
+CodeCost cost_of_linear_form(const Controller& controller);  // of controller.linear
+CodeCost cost_of_compact(const Controller& controller);
+
+}  // namespace lqg::emit

@@ -1,0 +1,82 @@
+#include "emit/plan/realisation.hpp"
+
+#include "emit/plan/code_cost.hpp"
+#include "emit/vectors/linear_vectors.hpp"
+#include "simulate/agreement.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using design::Realisation;
+
+std::string obstacle(const Controller& controller) {
+  if (controller.problem.code.style == design::Style::compact) return "the library's loops, style = \"compact\", are of x̂";
+  return design::no_linear_form(controller.problem, controller.solution);
+}
+
+FormCost cost_of_physical(const Controller& controller) {
+  return {cost_of_unrolled(controller).multiply_adds, rounding_error(controller), 0};
+}
+
+// None, with its obstacle in `found`, where there is no such form.
+std::optional<FormCost> cost_of(const Controller& physical, design::LinearFormResult& found) {
+  if (!found.form) return std::nullopt;
+  const double agreement = simulate::agreement(physical, *found.form);
+  if (agreement < simulate::digits_of_agreement(physical.solution) / 2.0) {
+    found = {std::nullopt, "it is not equal to the physical form in half of the digits"};
+    return std::nullopt;
+  }
+  const Controller controller = controller::with_form(physical, *found.form);
+  return FormCost{cost_of_linear_form(controller).multiply_adds, rounding_error(controller), agreement};
+}
+
+// What comes first wins where two cost the same.
+Realisation cheapest(const FormChoice& among) {
+  Realisation best = Realisation::physical;
+  long least = among.physical.multiply_adds;
+  for (const auto& [kind, cost] :
+       {std::pair(Realisation::folded, &among.folded), std::pair(Realisation::modal, &among.modal)}) {
+    if (!*cost || (*cost)->multiply_adds >= least) continue;
+    if ((*cost)->rounding_error > most_loss * among.physical.rounding_error) continue;
+    best = kind;
+    least = (*cost)->multiply_adds;
+  }
+  return best;
+}
+
+std::optional<Controller> refuse(const char* instead, const std::string& why, design::Findings& findings) {
+  findings.push_back({design::Severity::error, "code.realisation", std::string("expected ") + instead + ": " + why});
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Controller> in_chosen_form(Controller controller, design::Findings& findings) {
+  const Realisation wanted = controller.problem.code.realisation;
+  if (wanted == Realisation::physical) return controller;
+  const std::string why = obstacle(controller);
+  if (!why.empty() && wanted != Realisation::cheapest) return refuse("\"physical\"", why, findings);
+  if (!why.empty()) {
+    findings.push_back({design::Severity::note, "code.realisation", "physical: " + why});
+    return controller;
+  }
+  design::LinearFormResult folded = design::folded_form(controller.problem, controller.solution);
+  design::LinearFormResult modal = design::modal_form(controller.problem, controller.solution);
+  FormChoice forms;
+  forms.folded = cost_of(controller, folded);
+  forms.modal = cost_of(controller, modal);
+  if (wanted == Realisation::folded && !folded.form) return refuse("\"physical\"", folded.obstacle, findings);
+  if (wanted == Realisation::modal && !modal.form) return refuse("\"folded\" or \"physical\"", modal.obstacle, findings);
+
+  forms.physical = cost_of_physical(controller);
+  forms.chosen = wanted == Realisation::cheapest ? cheapest(forms) : wanted;
+  controller.forms = forms;
+  if (forms.chosen == Realisation::physical) return controller;
+  const design::LinearForm& form = forms.chosen == Realisation::folded ? *folded.form : *modal.form;
+  design::check_rounded_form(controller.problem, form, controller.solution, findings);
+  if (design::has_error(findings)) return std::nullopt;
+  return controller::with_form(std::move(controller), form);
+}
+
+}  // namespace lqg::emit

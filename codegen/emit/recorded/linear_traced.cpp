@@ -1,0 +1,102 @@
+#include "emit/recorded/linear_traced.hpp"
+
+#include "controller/linear_model_of.hpp"
+#include "emit/recorded/trace_listener.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using trace::Expr;
+using Function = TracedFunction;
+using Model = step::LinearModel<Expr>;
+using State = step::LinearState<Expr>;
+
+void store_all(TracedFunction& function, const std::string& array, const Symbols& values) {
+  for (int i = 0; i < values.size(); ++i) store(function, element(array, i), values(i));
+}
+
+// Runs `step(function, model, state, listener)` on a fresh graph. state.y is what self->y holds, where that `hears` it.
+template <class Step>
+TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = controller::linear_model_of<Expr>(controller, [&](const design::Real& value) {
+    return Expr(rounded_to_target(value, controller.target.is_double));
+  });
+  State state{load(*function.graph, "self->z", "z", controller.size.nz),
+              load(*function.graph, "self->y", "y", hears ? controller.size.ny : 0)};
+  TraceListener listener(controller, function);
+  step(function, model, state, listener);
+  return function;
+}
+
+// In filter form control keeps y for advance.
+bool keeps_outputs(const Controller& controller) { return !controller.is_predictor; }
+
+Symbols load_outputs(const Controller& controller) { return load(trace::graph(), "y", "y", controller.size.ny); }
+
+TracedFunction trace_control(const Controller& controller) {
+  const auto step = [&](Function& into, const Model& model, State& state, TraceListener& listener) {
+    const Symbols y = controller.is_predictor ? Symbols() : load_outputs(controller);
+    Symbols u;
+    into.finite = step::control_expected(model, state, y, u, listener).node;
+    store_all(into, "u", u);
+    store_all(into, "self->y", state.y);
+  };
+  TracedFunction function = trace_step(controller, false, step);
+  function.recovery = controller.problem.name + "_control_fault(self, u)";
+  return function;
+}
+
+TracedFunction trace_control_fault(const Controller& controller) {
+  return trace_step(controller, keeps_outputs(controller), [](Function& into, const Model& model, State& state, TraceListener& listener) {
+    const Symbols u = step::control(model, state, state.y, listener);
+    store_all(into, "self->y", state.y);
+    store_all(into, "u", u);
+  });
+}
+
+TracedFunction trace_advance(const Controller& controller) {
+  return trace_step(controller, keeps_outputs(controller), [&](Function& into, const Model& model, State& state, TraceListener& listener) {
+    const Symbols y = controller.is_predictor ? load_outputs(controller) : state.y;
+    into.finite = step::advance(model, state, y, listener).node;
+    store_all(into, "self->z", state.z);
+  });
+}
+
+TracedFunction trace_hear(const Controller& controller) {
+  return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
+    store_all(into, "heard", step::heard_outputs(model, state, load_outputs(controller), listener));
+  });
+}
+
+TracedFunction trace_estimate(const Controller& controller) {
+  return trace_step(controller, keeps_outputs(controller), [](Function& into, const Model& model, State& state, TraceListener& listener) {
+    into.is_void = true;
+    store_all(into, "x", step::estimate(model, state, listener));
+  });
+}
+
+TracedFunction trace_set_state(const Controller& controller) {
+  return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
+    const Symbols x = load(*into.graph, "x", "x", controller.size.nx);
+    into.finite = step::set_state(model, state, x, listener).node;
+    store_all(into, "self->z", state.z);
+  });
+}
+
+}  // namespace
+
+TracedLinear trace_linear(const Controller& controller) {
+  TracedLinear traced;
+  traced.control = trace_control(controller);
+  traced.control_fault = trace_control_fault(controller);
+  traced.advance = trace_advance(controller);
+  if (controller.is_predictor) traced.hear = trace_hear(controller);
+  traced.estimate = trace_estimate(controller);
+  traced.set_state = trace_set_state(controller);
+  return traced;
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,89 @@
+#include "emit/recorded/trace_listener.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using trace::Condition;
+
+const char* status_name(step::Event event) {
+  switch (event) {
+    case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
+    case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
+    case step::Event::input_limited: return "LQG_INPUT_LIMITED";
+    case step::Event::output_gated: return "LQG_OUTPUT_GATED";
+    case step::Event::reference_not_finite: return "LQG_REFERENCE_NOT_FINITE";
+    default: return "LQG_STATE_RESET";
+  }
+}
+
+}  // namespace
+
+void TraceListener::section(const std::string& equation, int output) {
+  if (output < 0) return function_.graph->section(equation, "");
+  const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
+  const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";
+  function_.graph->section("output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation,
+                           "_" + signal.name);
+}
+
+void TraceListener::raise(step::Event event, const Condition& condition) {
+  if (!function_.graph->is_constant(condition.node, 0))
+    function_.statuses.push_back(choice(condition, function_.graph->flag(status_name(event)), flag_ok()));
+}
+
+Condition TraceListener::accept(const Condition& usable, step::Event reason) {
+  return accept_or(usable, function_.graph->flag(status_name(reason)));
+}
+
+Condition TraceListener::accept(const Condition& usable, const Condition& finite, step::Event if_finite, step::Event if_not) {
+  const int one = function_.graph->flag(status_name(if_finite)), other = function_.graph->flag(status_name(if_not));
+  return accept_or(usable, choice(finite, one, other));
+}
+
+void TraceListener::gate(const Condition& gated, int output) {
+  raise(step::Event::output_gated, gated);
+  function_.gates.emplace_back(output, gated.node);
+}
+
+int TraceListener::choice(const Condition& condition, int yes, int no) {
+  return function_.graph->make(trace::Op::select, condition.node, yes, no);
+}
+
+Condition TraceListener::accept_or(const Condition& usable, int fault) {
+  const int status = choice(usable, flag_ok(), fault);
+  function_.graph->name(status, "fault");
+  function_.statuses.push_back(status);
+  const int same = function_.graph->make(trace::Op::same, status, flag_ok());
+  function_.graph->name(same, "usable");
+  return {same};
+}
+
+TracedFunction new_function(const Controller& controller) {
+  TracedFunction function;
+  function.graph = std::make_shared<trace::Graph>(trace::Target{controller.target.is_double, controller.target.is_fused});
+  return function;
+}
+
+std::string element(const std::string& array, int i) { return array + "[" + std::to_string(i) + "]"; }
+
+Symbols load(trace::Graph& graph, const std::string& array, const std::string& name, int size) {
+  Symbols symbols(size);
+  for (int i = 0; i < size; ++i)
+    symbols(i) = trace::Expr::of(graph.input(element(array, i), name + index_suffix(i, -1, size)));
+  return symbols;
+}
+
+void store(TracedFunction& function, const std::string& target, const trace::Expr& value) {
+  const trace::Node& node = function.graph->nodes()[static_cast<std::size_t>(value.node)];
+  if (node.op == trace::Op::input && node.text == target) return;  // as it was
+  function.stores.push_back({target, value.node});
+}
+
+std::string index_suffix(int i, int j, int size) {
+  if (i < 0) return "";
+  if (j < 0) return "_" + std::to_string(i);
+  return "_" + std::to_string(i) + (size > 10 ? "_" : "") + std::to_string(j);
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,239 @@
+#include "emit/report/json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "design/sampled/reference.hpp"
+#include "emit/text/wording.hpp"
+#include "emit/plan/realisation.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rows(const design::RealMatrix& matrix) {
+  Json out = Json::array();
+  for (int i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < matrix.cols(); ++j) row.push_back(design::to_double(matrix(i, j)));
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+std::vector<double> numbers(const Eigen::VectorXd& vector) { return {vector.begin(), vector.end()}; }
+
+Json poles(const design::Poles& poles) {
+  Json out = Json::array();
+  for (const std::complex<double>& pole : poles) out.push_back({pole.real(), pole.imag()});
+  return out;
+}
+
+Json names(const std::vector<design::Signal>& signals) {
+  Json out = Json::array();
+  for (const design::Signal& signal : signals) out.push_back(name_with_unit(signal));
+  return out;
+}
+
+Json plant(const Controller& controller) {
+  const design::SampledPlant& sampled = controller.solution.plant;
+  const design::Plant& stated = controller.problem.plant;
+  return {{"domain", stated.domain == design::Domain::continuous ? "continuous" : "discrete"},
+          {"sample_time", stated.sample_time},
+          {"A", rows(sampled.A)},
+          {"B", rows(sampled.B)},
+          {"C", rows(sampled.C)},
+          {"D", rows(sampled.D)},
+          {"G", rows(sampled.G)},
+          {"states", names(stated.states)},
+          {"inputs", names(stated.inputs)},
+          {"outputs", names(stated.outputs)}};
+}
+
+Json schedule(const std::vector<design::RealMatrix>& gains) {
+  Json out = Json::array();
+  for (const design::RealMatrix& gain : gains) out.push_back(rows(gain));
+  return out;
+}
+
+// What does not exist in a design is left out.
+void add(Json& out, const char* key, const design::RealMatrix& matrix) {
+  if (matrix.size() > 0) out[key] = rows(matrix);
+}
+void add(Json& out, const char* key, const std::vector<design::RealMatrix>& gains) {
+  if (!gains.empty()) out[key] = schedule(gains);
+}
+void add(Json& out, const char* key, const std::vector<int>& outputs) {
+  if (!outputs.empty()) out[key] = outputs;
+}
+void add(Json& out, const char* key, const std::optional<double>& value) {
+  if (value) out[key] = *value;
+}
+
+void add_margins(Json& out, const design::Margins& margins) {
+  add(out, "gain_margin_dB", margins.gain_dB);
+  add(out, "phase_margin_deg", margins.phase_deg);
+  add(out, "disk_margin", margins.disk);
+}
+
+Json structure(const design::StructureReport& report) {
+  Json out = {{"full", rows(report.full)}, {"full_poles", poles(report.full_poles)}, {"cost_ratio", report.cost_ratio}};
+  add_margins(out, report.full_margins);
+  return out;
+}
+
+Json noise(const design::SampledNoise& noise) {
+  return {{"W", rows(noise.W)}, {"V", rows(noise.V)}, {"cross", rows(noise.Swv)}};
+}
+
+Json cost(const design::SampledCost& cost) {
+  return {{"Q", rows(cost.Q)}, {"R", rows(cost.R)}, {"N", rows(cost.N)}};
+}
+
+Json lqr(const Controller& controller) {
+  const design::RegulatorSolution& regulator = *controller.solution.regulator;
+  Json out = {{"K", rows(regulator.K)}};
+  add(out, "X", regulator.X);
+  out["poles"] = poles(regulator.poles);
+  add(out, "schedule", regulator.K_schedule);
+  add(out, "cost_to_go", regulator.X0);
+  add(out, "Nx", regulator.Nx);
+  add(out, "Nu", regulator.Nu);
+  add(out, "Nbar", regulator.Nbar);
+  add(out, "integral", design::integrated_outputs(controller.problem));
+  add(out, "references", design::reference_outputs(controller.problem));
+  if (regulator.structure) out["structure"] = structure(*regulator.structure);
+  return out;
+}
+
+// A filter that never becomes steady has its form alone.
+Json kalman(const Controller& controller) {
+  Json out = {{"form", controller.is_predictor ? "predictor" : "filter"}};
+  if (!controller.solution.estimator) return out;
+  const design::EstimatorSolution& estimator = *controller.solution.estimator;
+  out["L"] = rows(estimator.L);
+  out["L_predictor"] = rows(estimator.L_predictor);
+  add(out, "P_prior", estimator.P_prior);
+  add(out, "P_posterior", estimator.P_posterior);
+  add(out, "S", estimator.S);
+  out["poles"] = poles(estimator.poles);
+  add(out, "schedule", estimator.L_schedule);
+  if (estimator.structure) out["structure"] = structure(*estimator.structure);
+  return out;
+}
+
+// Of the loop as it is designed, or as it is rounded.
+template <class Loop>
+Json poles_margins_and_cost(const Loop& loop) {
+  Json out = {{"poles", poles(loop.poles)}};
+  add_margins(out, loop.at_input);
+  Json at_output = Json::object();
+  add_margins(at_output, loop.at_output);
+  if (!at_output.empty()) out["at_output"] = at_output;
+  add(out, "cost_per_sample", loop.cost_per_sample);
+  return out;
+}
+
+Json loop(const design::LoopSolution& solution) {
+  Json out = poles_margins_and_cost(solution);
+  add(out, "cost_per_second", solution.cost_per_second);
+  if (solution.rounded) out["rounded"] = poles_margins_and_cost(*solution.rounded);
+  return out;
+}
+
+Json stages(const std::vector<design::StageSolution>& stages) {
+  Json out = Json::array();
+  for (const design::StageSolution& stage : stages) {
+    Json one = {{"from", stage.from},
+                {"plant",
+                 {{"A", rows(stage.plant.A)},
+                  {"B", rows(stage.plant.B)},
+                  {"C", rows(stage.plant.C)},
+                  {"D", rows(stage.plant.D)},
+                  {"G", rows(stage.plant.G)}}}};
+    if (stage.noise) one["noise"] = noise(*stage.noise);
+    if (stage.cost) one["cost"] = cost(*stage.cost);
+    out.push_back(one);
+  }
+  return out;
+}
+
+// Of each form that was looked at: "multiply_adds": {"physical": …}.
+template <class Value>
+Json of_each_form(const FormChoice& forms, Value value) {
+  Json out = {{"physical", value(forms.physical)}};
+  if (forms.folded) out["folded"] = value(*forms.folded);
+  if (forms.modal) out["modal"] = value(*forms.modal);
+  return out;
+}
+
+Json realisation(const Controller& controller) {
+  const FormChoice& forms = *controller.forms;
+  Json out = {{"kind", controller::name_of(forms.chosen)},
+              {"multiply_adds", of_each_form(forms, [](const FormCost& of) { return of.multiply_adds; })},
+              {"rounding_error", of_each_form(forms, [](const FormCost& of) { return of.rounding_error; })}};
+  if (controller.linear) {
+    out["condition"] = controller.linear->condition;
+    out["agreement_digits"] = std::floor(chosen_form(*controller.forms).agreement);
+  }
+  return out;
+}
+
+Json compensator(const design::LinearForm& form) {
+  Json out = {{"A", rows(form.A)}, {"B", rows(form.B)}, {"C", rows(form.C)}, {"D", rows(form.D)}, {"T", rows(form.T)},
+              {"expected", rows(form.expected)}, {"estimate", rows(form.estimate)}, {"heard", rows(form.heard)},
+              {"of_state", rows(form.of_state)}};
+  add(out, "keep", form.keep);
+  out["z0"] = rows(form.z0);
+  return out;
+}
+
+Json bounds(const controller::Bounds& bounds) {
+  Json out = {{"x", controller::powers_of_two(bounds.x)}, {"innovation", numbers(bounds.innovation)}};
+  if (!bounds.xi.empty()) out["xi"] = controller::powers_of_two(bounds.xi), out["error"] = numbers(bounds.error);
+  return out;
+}
+
+Json code(const Controller& controller) {
+  Json out = {{"real", controller.target.is_double ? "double" : "float"},
+              {"arithmetic", controller.target.is_fused ? "fused" : "plain"},
+              {"style", controller.style == design::Style::compact ? "compact" : "unrolled"},
+              {"flash", controller.cost.flash},
+              {"ram", controller.cost.ram},
+              {"stack", controller.cost.stack},
+              {"multiply_adds", controller.cost.multiply_adds}};
+  if (controller.forms) out["realisation"] = realisation(controller);
+  return out;
+}
+
+}  // namespace
+
+std::string json(const Controller& controller) {
+  const design::Solution& solution = controller.solution;
+  Json out = {{"name", controller.problem.name},
+              {"brief", controller.problem.brief},
+              {"lqgen", version()},
+              {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
+              {"plant", plant(controller)}};
+  if (solution.estimator && solution.estimator->noise.V.size() > 0) out["noise"] = noise(solution.estimator->noise);
+  if (solution.regulator) {
+    const design::RegulatorSolution& regulator = *solution.regulator;
+    if (regulator.cost.R.size() > 0) {
+      out["cost"] = cost(regulator.cost);
+      add(out["cost"], "Q_final", regulator.Q_final);
+    }
+    out["lqr"] = lqr(controller);
+  }
+  if (controller.has.filter) out["kalman"] = kalman(controller);
+  if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
+  if (controller.linear) out["compensator"] = compensator(*controller.linear);
+  out["loop"] = loop(solution.loop);
+  out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
+  if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller.bounds);
+  out["code"] = code(controller);
+  return out.dump(2) + "\n";
+}
+
+}  // namespace lqg::emit

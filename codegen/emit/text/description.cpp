@@ -1,0 +1,217 @@
+#include "emit/text/description.hpp"
+
+#include <cmath>
+
+#include "emit/text/wording.hpp"
+#include "trace/print.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+std::string signals(const char* what, const std::string& array, const std::vector<design::Signal>& signals) {
+  if (signals.empty()) return "";
+  std::string line;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (i) line += ", ";
+    line += array + "[" + std::to_string(i) + "] " + name_with_unit(signals[i]);
+  }
+  return "  " + trace::wrap(what + line, 0, 96) + "\n";
+}
+
+// A wrapped line goes on further in.
+std::string indented(const std::string& text) {
+  std::string out;
+  for (const char& c : text) {
+    out += c;
+    if (c == '\n' && &c != &text.back()) out += "      ";
+  }
+  return out;
+}
+
+std::string poles(const design::Poles& poles) {
+  std::string out;
+  for (const std::complex<double>& pole : poles) {
+    if (pole.imag() < 0) continue;  // stands with its conjugate
+    if (!out.empty()) out += ", ";
+    out += decimal(pole.real());
+    if (pole.imag() > 0) out += " ± " + decimal(pole.imag()) + "i";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string describe_plant(const Controller& controller) {
+  const design::SampledPlant& plant = controller.solution.plant;
+  const bool is_double = controller.target.is_double;
+  std::string out = "\nPlant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +
+                    " s:  x⁺ = A x + B u + G w,  y = C x + D u + v\n\n";
+  out += indented(signals("states   ", "x", state_signals(controller)));
+  out += indented(signals("inputs   ", "u", controller.problem.plant.inputs));
+  if (controller.has.filter) out += indented(signals("outputs  ", "y", controller.problem.plant.outputs));
+  out += "\n" + matrix_lines("A", plant.A, is_double);
+  if (controller.size.nu) out += matrix_lines("B", plant.B, is_double);
+  if (!controller.has.filter) return out;
+  out += matrix_lines("C", plant.C, is_double);
+  if (controller.size.nu) out += matrix_lines("D", plant.D, is_double);
+  for (const std::size_t start : controller.stage_starts)
+    if (start > 0) out += "  from sample " + std::to_string(start) + " on another plant, whose numbers stand below\n";
+  return out;
+}
+
+namespace {
+
+std::string limit(double value, const std::string& sign, bool before) {
+  if (std::isinf(value)) return "";
+  const std::string number = trace::literal(value, true);
+  return before ? number + sign : sign + number;
+}
+
+std::string limits(const Controller& controller) {
+  std::string out;
+  if (!controller.problem.limits) return out;
+  const design::Limits& limits = *controller.problem.limits;
+  for (int i = 0; i < controller.size.nu; ++i) {
+    const std::string u = "u[" + std::to_string(i) + "]";
+    if (limits.u_min.size())
+      out += "  " + limit(limits.u_min(i), " ≤ ", true) + u + limit(limits.u_max(i), " ≤ ", false) + "\n";
+    if (controller.has.rate_limit)
+      out += "  |change of " + u + "| ≤ " + trace::literal(limits.u_rate(i), true) + " per second\n";
+  }
+  return out;
+}
+
+std::string integrals(const Controller& controller) {
+  if (!controller.size.nxi) return "";
+  std::string outputs;
+  for (const int i : controller.integrated)
+    outputs += (outputs.empty() ? "" : ", ") + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name;
+  return "  ξ⁺ = ξ + T (r − y) of " + outputs + "; ξ ← ξ + H (u − what the law asked for) with the u that was applied\n" +
+         matrix_lines("H", controller.laws.back()[2], controller.target.is_double);
+}
+
+}  // namespace
+
+std::string describe_regulator(const Controller& controller) {
+  if (!controller.has.regulator) return "";
+  const design::RegulatorSolution& solution = *controller.solution.regulator;
+  const bool is_double = controller.target.is_double;
+  std::string out = "\nRegulator  u = " + equation_of_law(controller) + ":\n\n";
+  if (controller.laws.size() > 1)
+    out += "  K of " + std::to_string(controller.laws.size()) + " samples from init on; the last one is held:\n";
+  out += matrix_lines("K", solution.K, is_double);
+  if (controller.laws.back()[1].size()) out += matrix_lines("Nbar", controller.laws.back()[1], is_double);
+  out += integrals(controller);
+  out += "  poles of A − B K: " + poles(solution.poles) + "\n";
+  return out + limits(controller);
+}
+
+std::string describe_gains(const Controller& controller) {
+  if (!controller.solution.estimator) return "";
+  const design::EstimatorSolution& solution = *controller.solution.estimator;
+  return matrix_lines("L", solution.L, controller.target.is_double) + "  poles of A − L_predictor C: " +
+         poles(solution.poles) + "\n";
+}
+
+namespace {
+
+std::string gain_in_words(const Controller& controller) {
+  if (controller.solution.online)
+    return "its covariance carried on line as " +
+           std::string(controller.filter == step::Filter::ud ? "U diag(d) Uᵀ" : "a lower triangle") +
+           (controller.solution.estimator ? "; in the steady state, of samples:\n" : ":\n");
+  if (controller.filters.size() > 1)
+    return "with the gains of " + std::to_string(controller.filters.size()) +
+           " samples from init on; the last one is held; of samples:\n";
+  return "with its constant gain; of samples:\n";
+}
+
+template <class Values>
+std::string bounds_line(const std::string& what, const Values& values) {
+  std::string list;
+  for (const double value : values) list += (list.empty() ? "" : ", ") + decimal(value);
+  return "  " + indented(trace::wrap(what + list, 0, 96)) + "\n";
+}
+
+std::string bounds(const Controller& controller) {
+  if (controller.bounds.x.empty()) return "";
+  return bounds_line("x̂ begins anew when it reaches, in size: ", controller::powers_of_two(controller.bounds.x)) +
+         bounds_line("an innovation is not believed from, in size: ", controller.bounds.innovation);
+}
+
+}  // namespace
+
+std::string describe_estimator(const Controller& controller) {
+  if (!controller.has.filter) return "";
+  const bool is_double = controller.target.is_double, is_observer = controller.problem.estimator->poles.has_value();
+  std::string out = is_observer ? "\nObserver, " : "\nKalman filter, ";
+  out += controller.is_predictor ? "predictor form (u[k] is made of the outputs up to y[k−1])"
+                                   : "filter form (u[k] is made of the outputs up to y[k])";
+  out += ",\n" + gain_in_words(controller) + "\n";
+  if (!controller.solution.estimator || is_observer) return out + describe_gains(controller) + bounds(controller);
+  const design::SampledNoise& noise = controller.solution.estimator->noise;
+  out += matrix_lines("G", controller.solution.plant.G, is_double);
+  out += matrix_lines("W = E[w wᵀ]", noise.W, is_double);
+  out += matrix_lines("V = E[v vᵀ]", noise.V, is_double);
+  if (!is_zero(noise.Swv)) out += matrix_lines("E[w vᵀ]", noise.Swv, is_double);
+  return out + describe_gains(controller) + bounds(controller);
+}
+
+std::string describe_loop(const Controller& controller) {
+  const design::LoopSolution& loop = controller.solution.loop;
+  std::string out;
+  const auto add = [&](const char* what, const std::optional<double>& value, const char* unit) {
+    if (value) out += "  " + std::string(what) + decimal(*value) + unit + "\n";
+  };
+  add("gain margin         ", loop.at_input.gain_dB, " dB");
+  add("phase margin        ", loop.at_input.phase_deg, "°");
+  add("disk margin         ", loop.at_input.disk, "");
+  add("cost per sample     ", loop.cost_per_sample, "");
+  add("cost per second     ", loop.cost_per_second, "");
+  return out.empty() ? "" : "\nClosed loop, opened at the plant's input:\n\n" + out;
+}
+
+namespace {
+
+std::string form_cost(const char* name, const FormCost& cost) {
+  return std::string("  ") + name + std::to_string(cost.multiply_adds) + " multiply-adds, " +
+         decimal(cost.rounding_error) + "\n";
+}
+
+}  // namespace
+
+std::string describe_forms(const Controller& controller) {
+  if (!controller.forms) return "";
+  const FormChoice& forms = *controller.forms;
+  std::string out = "\nForms of the controller, what a sample costs, and the error of u that rounding makes (rms, beside u):\n\n" +
+                    form_cost("physical  ", forms.physical);
+  if (forms.folded) out += form_cost("folded    ", *forms.folded);
+  if (forms.modal) out += form_cost("modal     ", *forms.modal);
+  return out + "  of these it is the " + controller::name_of(forms.chosen) + " one\n";
+}
+
+std::string describe_linear_form(const Controller& controller) {
+  if (!controller.linear) return "";
+  const design::LinearForm& form = *controller.linear;
+  const bool is_double = controller.target.is_double, predicts = controller.is_predictor;
+  std::string out = "\nThe same as one linear system, equal to it in " + std::to_string(static_cast<int>(chosen_form(*controller.forms).agreement)) +
+                    " digits:\n\n  z⁺ = A z + B y,  u = C z" + (predicts ? "" : " + D y") + ",  x̂ = X z" +
+                    (predicts ? "" : " + L y") + "\n\n";
+  out += matrix_lines("A", form.A, is_double) + matrix_lines("B", form.B, is_double) +
+         matrix_lines("C", form.C, is_double);
+  if (!predicts) out += matrix_lines("D", form.D, is_double);
+  return out + matrix_lines("X", form.estimate, is_double);
+}
+
+std::string describe_cost(const Controller& controller) {
+  const CodeCost& cost = controller.cost;
+  return "\nOne sample takes " + std::to_string(cost.multiply_adds) + " multiply-adds and " +
+         std::to_string(cost.ram) + " bytes of RAM; on a Cortex-M4F at -O2 about " + std::to_string(cost.flash) +
+         " bytes of\nflash and " + std::to_string(cost.stack) + " bytes of stack. Style: " +
+         (controller.style == design::Style::compact ? "compact" : "unrolled") + ". Arithmetic: " +
+         (controller.target.is_fused ? "fused" : "plain") + ". Digits of the design: " +
+         std::to_string(controller.solution.numerics.digits) + ".\n";
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,197 @@
+#include "emit/vectors/vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "design/numeric/digits.hpp"
+#include "emit/vectors/comparison.hpp"
+#include "emit/vectors/linear_vectors.hpp"
+#include "simulate/emitted_controller.hpp"
+#include "simulate/plant.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using design::Real;
+using simulate::as_double;
+using simulate::EmittedController;
+using simulate::in_target;
+using simulate::Noise;
+using step::Vector;
+
+constexpr int bits_to_bound = 8;  // a plant that nobody stabilises leaves: the vectors end 2⁸ before a bound
+
+// P, lower triangle, of either covariance form; empty with a steady gain.
+template <class S>
+std::vector<double> covariance(const step::Model<S>& model, const step::State<S>& state) {
+  std::vector<double> out;
+  for (const S& entry : state.P) out.push_back(as_double(entry));
+  if (model.filter != step::Filter::ud) return out;
+  for (int i = 0; i < model.nx; ++i)
+    for (int j = 0; j <= i; ++j) {
+      S sum = i == j ? state.D[i] : S(state.U[step::strict_triangle(j, i)] * state.D[i]);
+      for (int k = i + 1; k < model.nx; ++k)
+        sum = sum + state.U[step::strict_triangle(j, k)] * state.D[k] * state.U[step::strict_triangle(i, k)];
+      out.push_back(as_double(sum));
+    }
+  return out;
+}
+
+// What is applied: what the law gave; of an estimator alone what is given.
+template <class S>
+void act(EmittedController<S>& emitted, Vector<S>& u) {
+  if (emitted.model().K.rows()) emitted.control(u);
+}
+
+// Feeds recorded outputs and inputs to the emitted controller; what it answers goes to `hear`.
+template <class S, class Hear>
+void replay(EmittedController<S>& emitted, const std::vector<Sample>& inputs, Hear hear) {
+  for (const Sample& input : inputs) {
+    const step::Model<S>& model = emitted.model();
+    step::State<S>& state = emitted.state();
+    Vector<S> u(0);
+    state.r = numbers_of<S>(input.r);
+    if (model.filter == step::Filter::none) {
+      emitted.control(numbers_of<S>(input.y), u);
+      hear(emitted, u);
+      continue;
+    }
+    if (model.predictor_form) act(emitted, u);
+    // These outputs are those of the recorded u. With a D they would drive away an estimate that thinks of its own.
+    if (model.predictor_form && step::has_feedthrough(model)) state.u = numbers_of<S>(input.u);
+    emitted.update(numbers_of<S>(input.y));
+    if (!model.predictor_form) act(emitted, u);
+    hear(emitted, u);
+    emitted.predict(numbers_of<S>(input.u));
+  }
+}
+
+// References that jump from time to time.
+std::vector<double> references(const Controller& controller, std::size_t sample) {
+  constexpr std::size_t samples_between_jumps = 40;
+  Noise noise(seed + 2 + sample / samples_between_jumps);
+  Eigen::VectorXd r(controller.size.nr);
+  for (double& each : r) each = 2 * noise.uniform();
+  return list_of(in_target(controller.target, r));
+}
+
+// Now and then something far off, for the gate.
+void add_outlier(std::size_t sample, std::vector<double>& y) {
+  constexpr std::size_t every = 17;
+  if (sample % every == 0) y[sample / every % y.size()] = 1024;
+}
+
+bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (!(std::abs(x(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound))) return false;
+  return true;
+}
+
+// The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
+template <class S>
+std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted) {
+  simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
+  Noise excitation(seed + 1);
+  Eigen::VectorXd applied = Eigen::VectorXd::Zero(controller.size.nu);
+  std::vector<Sample> samples;
+  while (samples.size() < sample_count && is_near(controller, plant.state())) {
+    Sample& sample = samples.emplace_back();
+    sample.r = references(controller, samples.size() - 1);
+    emitted.state().r = numbers_of<S>(sample.r);
+    const auto apply = [&] {
+      for (double& each : applied) each = excitation.uniform();
+      Vector<S> u;
+      act(emitted, u);
+      if (u.size()) applied = simulate::as_doubles(u);
+    };
+    if (controller.is_predictor) apply();
+    sample.y = list_of(in_target(controller.target, plant.measure(applied)));
+    if (controller.has.gate) add_outlier(samples.size(), sample.y);
+    emitted.update(numbers_of<S>(sample.y));
+    if (!controller.is_predictor) apply();
+    applied = in_target(controller.target, applied);
+    sample.u = list_of(applied);
+    emitted.predict(numbers_of<S>(sample.u));
+    plant.advance(applied);
+  }
+  return samples;
+}
+
+template <class S>
+void record_reference(EmittedController<S> emitted, std::vector<Sample>& samples, std::vector<std::vector<double>>& u) {
+  std::size_t k = 0;
+  replay(emitted, std::vector<Sample>(samples), [&](const EmittedController<S>& now, const Vector<S>& control) {
+    samples[k].x = list_of(now.state().x);
+    samples[k].P = covariance(now.model(), now.state());
+    if (now.model().filter == step::Filter::none) samples[k].u = list_of(control);
+    u.push_back(list_of(control));
+    ++k;
+  });
+}
+
+// Every bit of a sample in the order of the emitted test.
+template <class S>
+void add_sample(bool has_filter, const step::State<S>& state, const Vector<S>& control, Hash& hash) {
+  if (has_filter) hash.add_all(list_of(state.x));
+  hash.add_all(state.P);
+  hash.add_all(state.U);
+  hash.add_all(state.D);
+  hash.add_all(list_of(state.xi));
+  hash.add_all(list_of(control));
+}
+
+// Runs the target's precision S beside the reference; fills in tolerances and the hash.
+template <class S>
+void compare(const Controller& controller, Vectors& vectors, const std::vector<std::vector<double>>& u) {
+  EmittedController<S> emitted(controller, simulate::constants_of<S>(controller.target));
+  Hash hash(controller.target.is_double);
+  Errors of_x, of_u, of_P;
+  std::size_t k = 0;
+  replay(emitted, vectors.samples, [&](const EmittedController<S>& now, const Vector<S>& control) {
+    const Sample& reference = vectors.samples[k];
+    of_x.add(list_of(now.state().x), reference.x);
+    of_u.add(list_of(control), u[k]);
+    of_P.add(covariance(now.model(), now.state()), reference.P);
+    add_sample(controller.has.filter, now.state(), control, hash);
+    ++k;
+  });
+  const bool is_double = controller.target.is_double;
+  vectors.tolerance = {of_x.tolerances(is_double), of_u.tolerances(is_double), of_P.tolerances(is_double)};
+  vectors.hash = hash.value();
+}
+
+// States that a regulator alone may meet.
+std::vector<Sample> random_states(const Controller& controller) {
+  Noise noise(seed);
+  std::vector<Sample> samples(sample_count);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    samples[k].r = references(controller, k);
+    Eigen::VectorXd x(controller.size.nx);
+    for (double& each : x) each = noise.normal();
+    samples[k].y = list_of(in_target(controller.target, x));
+  }
+  return samples;
+}
+
+template <class Reference>
+Vectors vectors_of(const Controller& controller, const EmittedController<Reference>& reference) {
+  Vectors vectors;
+  vectors.samples = controller.has.filter ? closed_loop(controller, reference) : random_states(controller);
+  std::vector<std::vector<double>> u;
+  record_reference(reference, vectors.samples, u);
+  simulate::with_scalar_of(controller.target, [&](auto zero) { compare<decltype(zero)>(controller, vectors, u); });
+  return vectors;
+}
+
+}  // namespace
+
+Vectors make_vectors(const Controller& controller) {
+  if (controller.linear) return linear_vectors(controller);
+  if (!controller.target.is_double)
+    return vectors_of(controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); }));
+  const design::Digits digits(reference_digits);
+  return vectors_of(controller, EmittedController<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }));
+}
+
+}  // namespace lqg::emit

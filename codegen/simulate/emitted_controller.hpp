@@ -1,0 +1,105 @@
+// The emitted controller at work: the calls of its header for any scalar, with what they keep, count and say.
+#pragma once
+
+#include "controller/model_of.hpp"
+#include "step/loop.hpp"
+
+namespace lqg::simulate {
+
+using controller::Controller;
+using step::Vector;
+
+// A listener that counts what a gate leaves out, as the header does.
+struct CountingListener : step::Listener {
+  explicit CountingListener(std::vector<unsigned long>& count) : gated(count) {}
+  void gate(bool is_gated, int output) {
+    step::Listener::gate(is_gated, output);
+    gated[static_cast<std::size_t>(output)] += is_gated;
+  }
+  std::vector<unsigned long>& gated;
+};
+
+// A controller that keeps x̂. Each call is the one of that name in the header, limits, gate, faults and resets included, and
+// returns the events that its status would tell. `constants` turns a number of the design into an S.
+template <class S>
+class EmittedController {
+ public:
+  using Constants = std::function<S(const design::Real&)>;
+
+  EmittedController(const Controller& controller, Constants constants)
+      : controller_(controller), constants_(std::move(constants)), gated_(static_cast<std::size_t>(controller.size.ny), 0) {
+    load();
+    state_ = step::initial_state(model_);
+  }
+
+  unsigned update(const Vector<S>& y) {
+    CountingListener listener(gated_);
+    return end(step::update(model_, state_, y, listener), listener);
+  }
+  unsigned update_alone(int output, const S& y) {
+    CountingListener listener(gated_);
+    return end(step::update_alone(model_, state_, y, output, listener), listener);
+  }
+  // Beside a filter, or of a law without a memory: then x is what was put into state().x.
+  unsigned control(Vector<S>& u) {
+    step::Listener listener;
+    u = step::control(model_, state_, listener);
+    return listener.events;
+  }
+  unsigned predict(const Vector<S>& u) {
+    CountingListener listener(gated_);
+    const bool within = step::predict(model_, state_, u, listener);
+    advance_counters();
+    return end(within, listener);
+  }
+  // A regulator alone, of the state x.
+  unsigned control(const Vector<S>& x, Vector<S>& u) {
+    step::Listener listener;
+    state_.x = x;
+    const bool within = step::act(model_, state_, u, listener);
+    advance_counters();
+    return end(within, listener);
+  }
+
+  const step::Model<S>& model() const { return model_; }  // of the sample that is to come
+  step::State<S>& state() { return state_; }
+  const step::State<S>& state() const { return state_; }
+  unsigned long resets() const { return resets_; }
+  const std::vector<unsigned long>& gated() const { return gated_; }
+
+ private:
+  // The constants of this sample.
+  void load() { model_ = controller::model_of<S>(controller_, constants_, sample_, gain_row_); }
+
+  void advance_counters() {
+    const std::size_t sample = std::min(sample_ + 1, controller_.last_sample);
+    const std::size_t gain_row = controller_.keeps.gain_row ? std::min(gain_row_ + 1, controller_.filters.size() - 1) : 0;
+    go_to(sample, gain_row);
+  }
+  void go_to(std::size_t sample, std::size_t gain_row) {
+    if (sample == sample_ && gain_row == gain_row_) return;
+    sample_ = sample;
+    gain_row_ = gain_row;
+    load();
+  }
+
+  // What NAME_reset does: the time, the references and the counters stay.
+  unsigned end(bool is_within, step::Listener& listener) {
+    if (is_within) return listener.events;
+    step::begin_anew(model_, state_);
+    go_to(sample_, 0);
+    ++resets_;
+    listener.raise(step::Event::state_reset, true);
+    return listener.events;
+  }
+
+  const Controller& controller_;
+  Constants constants_;
+  step::Model<S> model_;
+  step::State<S> state_;
+  std::size_t sample_ = 0, gain_row_ = 0;
+  unsigned long resets_ = 0;
+  std::vector<unsigned long> gated_;
+};
+
+}  // namespace lqg::simulate

@@ -1,0 +1,50 @@
+// The emitted controller that keeps z, at work: as emitted_controller.hpp.
+#pragma once
+
+#include "controller/linear_model_of.hpp"
+
+namespace lqg::simulate {
+
+using controller::Controller;
+using step::Vector;
+
+template <class S>
+class EmittedForm {
+ public:
+  template <class Constants>
+  EmittedForm(const Controller& controller, Constants constants)
+      : model_(controller::linear_model_of<S>(controller, constants)), state_(step::initial_state(model_)) {}
+
+  // In predictor form y is not looked at.
+  unsigned control(const Vector<S>& y, Vector<S>& u) {
+    step::Listener listener;
+    u = step::control(model_, state_, y, listener);
+    return listener.events;
+  }
+  // In filter form control has heard y.
+  unsigned advance(const Vector<S>& y) {
+    step::Listener listener;
+    const Vector<S> heard = model_.predictor_form ? step::heard_outputs(model_, state_, y, listener) : state_.y;
+    if (step::advance(model_, state_, heard, listener)) return listener.events;
+    state_ = step::initial_state(model_);
+    ++resets_;
+    listener.raise(step::Event::state_reset, true);
+    return listener.events;
+  }
+  // x̂ that u is made of, between the two.
+  Vector<S> estimate() const {
+    step::Listener listener;
+    return step::estimate(model_, state_, listener);
+  }
+
+  const step::LinearModel<S>& model() const { return model_; }
+  const step::LinearState<S>& state() const { return state_; }
+  unsigned long resets() const { return resets_; }
+
+ private:
+  step::LinearModel<S> model_;
+  step::LinearState<S> state_;
+  unsigned long resets_ = 0;
+};
+
+}  // namespace lqg::simulate

@@ -1,0 +1,48 @@
+// The plant around the controller: the design's own samples, with its noise, in double.
+#pragma once
+
+#include <vector>
+
+#include "controller/controller.hpp"
+#include "simulate/noise.hpp"
+
+namespace lqg::simulate {
+
+using controller::Controller;
+
+enum class PlantNoise {
+  none,
+  designed,  // w and v as the design has them; none where it has no noise
+  assumed,   // the same; beside an observer, whose design says nothing of noise, a variance of 1e-4 everywhere
+};
+
+// x⁺ = A x + B u + G w,  y = C x + D u + v,  stage after stage. Every sum is in ascending order: the same bits on every host.
+class Plant {
+ public:
+  Plant(const Controller& controller, const Eigen::VectorXd& x, PlantNoise noise, std::uint64_t seed);
+
+  // y with the u that acts while the outputs are sampled; draws the noises of this sample, the same numbers whether they
+  // are wanted or not.
+  Eigen::VectorXd measure(const Eigen::VectorXd& u);
+  // x ← A x + B u + G w
+  void advance(const Eigen::VectorXd& u);
+  const Eigen::VectorXd& state() const { return x_; }
+  // xᵀQx + uᵀRu + 2xᵀNu of the sampled cost in force; 0 without one
+  double cost(const Eigen::VectorXd& u) const;
+
+ private:
+  struct Stage {
+    std::size_t from = 0;
+    Eigen::MatrixXd A, B, C, D, noise_factor;  // noise_factor: square root of the joint covariance of G w and v
+    Eigen::MatrixXd Q, R, N;                   // of the cost; empty without one
+  };
+  static Stage stage_of(const Controller& controller, std::size_t from, PlantNoise noise);
+  const Stage& stage() const;
+
+  Noise noise_;
+  std::vector<Stage> stages_;
+  std::size_t sample_ = 0;
+  Eigen::VectorXd x_, drawn_;
+};
+
+}  // namespace lqg::simulate

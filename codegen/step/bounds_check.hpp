@@ -1,0 +1,61 @@
+// The check that all of a state is within its bounds.
+#pragma once
+
+#include <vector>
+
+#include "step/scalar.hpp"
+
+namespace lqg::step {
+
+// Σ (x_i/b_i)² + Σ |P_ii|/b_i² < 1 with bounds b that are powers of two, and all that has no bound is finite. No term is
+// negative and rounding is monotone, so each |x_i| is below b_i and each |P_ii| below b_i²; a NaN is not below anything.
+//
+// The sum is kept in units of the last b²: scaling by a power of two is exact, and states of one bound are not scaled at
+// all. What has no bound is added up by itself: the sum is finite if and only if each term is, short of an overflow that
+// no honest state comes near. Each part is added as it is found, and each sum has a name, so that none has to wait for
+// the last.
+template <class S>
+class BoundsCheck {
+ public:
+  // Part i of a vector whose bounds are 2^bounds; an empty one: it has to be finite.
+  template <class Listener>
+  void add(const S& part, const std::vector<int>& bounds, int i, Listener& listener) {
+    if (bounds.empty()) return add(part, listener);
+    sum_ = multiply_add(part, part, in_units_of(bounds[static_cast<std::size_t>(i)]));
+    listener.name(sum_, "sum");
+  }
+  // Likewise P_ii of part i.
+  template <class Listener>
+  void add_variance(const S& variance, const std::vector<int>& bounds, int i, Listener& listener) {
+    if (bounds.empty()) return add(variance, listener);
+    sum_ = in_units_of(bounds[static_cast<std::size_t>(i)]) + absolute(variance);
+    listener.name(sum_, "sum");
+  }
+  // What has to be finite.
+  template <class Listener>
+  void add(const S& part, Listener& listener) {
+    others_ = has_others_ ? S(others_ + part) : part;
+    has_others_ = true;
+    listener.name(others_, "others");
+  }
+
+  auto is_within() const {
+    const S limit = PowerOfTwo<S>::of(2 * unit_);
+    if (!has_others_) return is_less(sum_, limit);
+    return has_sum_ ? is_usable(others_, S(limit - sum_)) : is_finite(others_);
+  }
+
+ private:
+  S in_units_of(int bound) {
+    const S scaled = has_sum_ && bound != unit_ ? S(PowerOfTwo<S>::of(2 * (bound - unit_)) * sum_) : sum_;
+    has_sum_ = true;
+    unit_ = bound;
+    return scaled;
+  }
+
+  S sum_ = S(0), others_ = S(0);
+  bool has_sum_ = false, has_others_ = false;
+  int unit_ = 0;  // the sum counts in units of 2^(2 unit)
+};
+
+}  // namespace lqg::step
