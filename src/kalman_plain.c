@@ -1,7 +1,7 @@
 /* The Kalman filter that carries the covariance P of its error, as a lower triangle. */
+#include "bounds_check.h"
 #include "kernel.h"
 #include "plant.h"
-#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -16,12 +16,12 @@ void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_r
 static lqg_status reset_unless_bounded(const lqg_kalman_plain_t *kalman, int diagonal, lqg_real x[],
                                        lqg_real P[], lqg_real u_applied[], lqg_real innovation[])
 {
-    total_t total = {0, 0};
+    bounds_check_t check = {0, 0};
 
-    lqg_total_add(&total, x, kalman->x_scale, kalman->plant.nx);
+    lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
     for (unsigned i = 0; diagonal && i < kalman->plant.nx; i++)
-        lqg_total_add_variance(&total, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
-    if (is_within_bounds(&total))
+        lqg_bounds_check_add_variance(&check, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
+    if (is_within_bounds(&check))
         return LQG_OK;
 
     lqg_kalman_plain_init(kalman, x, P, u_applied, innovation);

@@ -1,7 +1,7 @@
 /* The Kalman filter with constant gain. */
+#include "bounds_check.h"
 #include "kernel.h"
 #include "plant.h"
-#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -14,10 +14,10 @@ void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg
 static lqg_status reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
                                        lqg_real innovation[])
 {
-    total_t total = {0, 0};
+    bounds_check_t check = {0, 0};
 
-    lqg_total_add(&total, x, kalman->x_scale, kalman->plant.nx);
-    if (is_within_bounds(&total))
+    lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
+    if (is_within_bounds(&check))
         return LQG_OK;
 
     lqg_kalman_steady_init(kalman, x, u_applied, innovation);

@@ -1,7 +1,7 @@
 /* The Kalman filter that carries its covariance as P = U diag(d) Uᵀ, U unit upper triangular. */
+#include "bounds_check.h"
 #include "factors.h"
 #include "plant.h"
-#include "total.h"
 
 LQG_STRICT_BEGIN
 
@@ -20,15 +20,15 @@ static lqg_status reset_unless_bounded(const lqg_kalman_ud_t *kalman, int factor
                                        lqg_real d[], lqg_real u_applied[], lqg_real innovation[])
 {
     LQG_STRICT_BODY
-    total_t total = {0, 0};
+    bounds_check_t check = {0, 0};
 
-    lqg_total_add(&total, x, kalman->x_scale, kalman->plant.nx);
+    lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
     for (unsigned i = kalman->plant.nx; factors && i-- > 0;) {
-        lqg_total_add_variance(&total, d[i], kalman->x_scale, i);
+        lqg_bounds_check_add_variance(&check, d[i], kalman->x_scale, i);
         for (unsigned j = 0; j < i; j++)
-            total.others += U[LQG_STRICT_TRIANGLE(i) + j];
+            check.others += U[LQG_STRICT_TRIANGLE(i) + j];
     }
-    if (is_within_bounds(&total))
+    if (is_within_bounds(&check))
         return LQG_OK;
 
     lqg_kalman_ud_init(kalman, x, U, d, u_applied, innovation);

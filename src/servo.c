@@ -1,7 +1,7 @@
 /* The control law with a memory. */
 #include "lqg/servo.h"
 
-#include "total.h"
+#include "bounds_check.h"
 
 LQG_STRICT_BEGIN
 
@@ -90,12 +90,12 @@ lqg_status lqg_servo_control(const lqg_servo_t *servo, const lqg_real x[], const
 static lqg_status reset_unless_bounded(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[],
                                        lqg_real demand[], lqg_real u_applied[], const lqg_real u[])
 {
-    total_t total = {0, 0};
+    bounds_check_t check = {0, 0};
 
-    lqg_total_add(&total, xi, servo->xi_scale, servo->nxi);
+    lqg_bounds_check_add(&check, xi, servo->xi_scale, servo->nxi);
     if (u_applied)
-        lqg_total_add(&total, u, NULL, servo->nu);
-    if (is_within_bounds(&total))
+        lqg_bounds_check_add(&check, u, NULL, servo->nu);
+    if (is_within_bounds(&check))
         return LQG_OK;
 
     lqg_servo_init(servo, xi, error, demand, u_applied);

@@ -42,7 +42,7 @@ if grep -q "^static inline .*${name}_advance(" "$scratch/$name.h"; then  # it ke
 fi
 if [ "$style" = compact ]; then
   restate_library "$scratch"
-  for source in "$scratch"/{kalman_plain,kalman_steady,kalman_ud,factors,plant,lqr,servo,total}.c; do sources+=("$source"); done
+  for source in "$scratch"/{kalman_plain,kalman_steady,kalman_ud,factors,plant,lqr,servo,bounds_check}.c; do sources+=("$source"); done
   control=$(grep -o 'lqg_[a-z]*_control' "$scratch/$name.h" | tail -n 1 || true)
   control=${control:+${control}_$variant}
 fi

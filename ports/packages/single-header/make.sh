@@ -7,7 +7,7 @@ here=$(dirname "${BASH_SOURCE[0]}")
 
 # In the order in which they need each other.
 public=(arithmetic status version kalman lqr ekf rls servo lqg)
-private=(kernel total factors plant)
+private=(kernel bounds_check factors plant)
 
 check_names() {
   local folder=$1 expected
@@ -41,7 +41,7 @@ renaming() {
   echo '#ifdef LQG_IMPLEMENTATION'
   echo '#ifndef LQG_IMPLEMENTED'
   echo '#define LQG_IMPLEMENTED'
-  everywhere="$(renaming "$root/src/kernel.h") $(renaming "$root/src/total.h")"
+  everywhere="$(renaming "$root/src/kernel.h") $(renaming "$root/src/bounds_check.h")"
   for file in "${private[@]/%/.h}" $(cd "$root/src" && printf '%s\n' *.c); do
     echo
     body_of "$root/src/$file" | perl -pe "$everywhere $(renaming "$root/src/$file")"

@@ -1,30 +1,30 @@
 /* Whether a state is within its bounds. Not for firmware. */
-#ifndef LQG_TOTAL_H
-#define LQG_TOTAL_H
+#ifndef LQG_BOUNDS_CHECK_H
+#define LQG_BOUNDS_CHECK_H
 
 #include "kernel.h"
 
-#define lqg_total_add LQG_VARIANT(lqg_total_add)
-#define lqg_total_add_variance LQG_VARIANT(lqg_total_add_variance)
+#define lqg_bounds_check_add LQG_VARIANT(lqg_bounds_check_add)
+#define lqg_bounds_check_add_variance LQG_VARIANT(lqg_bounds_check_add_variance)
 
 /* Begins with {0, 0}. A scale is 1/b of a bound b; NULL: no bounds. */
 typedef struct {
     lqg_real bounded; /* Σ (scale_i x_i)² + Σ scale_i² |P_ii| */
     lqg_real others;  /* the sum of what only has to be finite */
-} total_t;
+} bounds_check_t;
 
 /* Adds x, with the bounds 1/scale_i. */
-void lqg_total_add(total_t *total, const lqg_real x[], const lqg_real scale[], unsigned length);
+void lqg_bounds_check_add(bounds_check_t *check, const lqg_real x[], const lqg_real scale[], unsigned length);
 
 /* Adds P_ii, with the bound 1/scale_i². */
-void lqg_total_add_variance(total_t *total, lqg_real variance, const lqg_real scale[], unsigned i);
+void lqg_bounds_check_add_variance(bounds_check_t *check, lqg_real variance, const lqg_real scale[], unsigned i);
 
 /* bounded < 1 and others finite, in one comparison: others − others is 0, or NaN, which is not less than anything. No
  * term of bounded is negative and rounding is monotone, so |x_i| < b_i and |P_ii| < b_i². */
-static inline int is_within_bounds(const total_t *total)
+static inline int is_within_bounds(const bounds_check_t *check)
 {
     LQG_STRICT_BODY
-    return total->others - total->others < 1 - total->bounded;
+    return check->others - check->others < 1 - check->bounded;
 }
 
 #endif
