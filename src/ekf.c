@@ -1,6 +1,7 @@
 /* The extended Kalman filter with P = U diag(d) Uᵀ. */
 #include "lqg/ekf.h"
 
+#include "bounds_check.h"
 #include "factors.h"
 #include "plant.h"
 
@@ -13,10 +14,16 @@ void lqg_ekf_init(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_real d[]
     copy(d, ekf->d0, ekf->nx);
 }
 
-static lqg_status reset_unless_finite(const lqg_ekf_t *ekf, lqg_real sum, lqg_real x[], lqg_real U[],
+/* `factors`: U and d are looked at, too. */
+static lqg_status reset_unless_finite(const lqg_ekf_t *ekf, int factors, lqg_real x[], lqg_real U[],
                                       lqg_real d[])
 {
-    if (is_finite(sum))
+    bounds_check_t check = {0, 0};
+
+    add_finite(&check, x, ekf->nx);
+    if (factors)
+        add_factors(&check, U, d, NULL, ekf->nx);
+    if (is_within_bounds(&check))
         return LQG_OK;
 
     lqg_ekf_init(ekf, x, U, d);
@@ -81,7 +88,7 @@ lqg_status lqg_ekf_update(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_
 
     for (unsigned j = 0; j < nx; j++)
         x[j] += delta[j];
-    return status | reset_unless_finite(ekf, add_all(0, x, nx), x, U, d);
+    return status | reset_unless_finite(ekf, 0, x, U, d);
 }
 
 lqg_status lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_real d[], const lqg_real u[],
@@ -95,7 +102,7 @@ lqg_status lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg
     copy(x, next, nx);
     lqg_factors_predict(U, d, nx, A, ekf->nq, ekf->G, ekf->w, scratch);
 
-    return reset_unless_finite(ekf, lqg_factors_sum(add_all(0, x, nx), U, d, nx), x, U, d);
+    return reset_unless_finite(ekf, 1, x, U, d);
 }
 
 LQG_STRICT_END

@@ -115,12 +115,4 @@ void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real
     orthogonalise(U, d, nx, columns, T, weight, v);
 }
 
-lqg_real lqg_factors_sum(lqg_real sum, const lqg_real U[], const lqg_real d[], unsigned nx)
-{
-    LQG_STRICT_BODY
-    for (unsigned i = nx; i-- > 1;)
-        sum = add_all(sum + d[i], U + LQG_STRICT_TRIANGLE(i), i);
-    return sum + d[0]; /* its column of U is empty, and U may be NULL */
-}
-
 LQG_STRICT_END

@@ -3,6 +3,7 @@
 #ifndef LQG_FACTORS_H
 #define LQG_FACTORS_H
 
+#include "bounds_check.h"
 #include "kernel.h"
 #include "lqg/kalman.h"
 
@@ -10,7 +11,6 @@
 #define lqg_factors_variance LQG_VARIANT(lqg_factors_variance)
 #define lqg_factors_update LQG_VARIANT(lqg_factors_update)
 #define lqg_factors_predict LQG_VARIANT(lqg_factors_predict)
-#define lqg_factors_sum LQG_VARIANT(lqg_factors_sum)
 
 /* f = Uᵀ cᵀ, or 0 where the output is not usable. */
 void lqg_factors_project(const lqg_real U[], unsigned nx, const lqg_real c[], int usable, lqg_real f[]);
@@ -26,7 +26,21 @@ lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[
 void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nq,
                          const lqg_real G[], const lqg_real w[], lqg_real work[]);
 
-/* sum + all of U and d. */
-lqg_real lqg_factors_sum(lqg_real sum, const lqg_real U[], const lqg_real d[], unsigned nx);
+LQG_STRICT_BEGIN
+
+/* Adds d_i with the bound 1/scale_i², like P_ii, and U, which has no bounds, from the last column to the first; U may be
+ * NULL when nx is 1. */
+static inline void add_factors(bounds_check_t *check, const lqg_real U[], const lqg_real d[], const lqg_real scale[],
+                               unsigned nx)
+{
+    LQG_STRICT_BODY
+    for (unsigned i = nx; i-- > 0;) {
+        add_variance(check, d[i], scale, i);
+        for (unsigned j = 0; j < i; j++)
+            check->others += U[LQG_STRICT_TRIANGLE(i) + j];
+    }
+}
+
+LQG_STRICT_END
 
 #endif

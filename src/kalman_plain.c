@@ -20,7 +20,7 @@ static lqg_status reset_unless_bounded(const lqg_kalman_plain_t *kalman, int dia
 
     lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
     for (unsigned i = 0; diagonal && i < kalman->plant.nx; i++)
-        lqg_bounds_check_add_variance(&check, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
+        add_variance(&check, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
     if (is_within_bounds(&check))
         return LQG_OK;
 

@@ -19,15 +19,11 @@ void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[
 static lqg_status reset_unless_bounded(const lqg_kalman_ud_t *kalman, int factors, lqg_real x[], lqg_real U[],
                                        lqg_real d[], lqg_real u_applied[], lqg_real innovation[])
 {
-    LQG_STRICT_BODY
     bounds_check_t check = {0, 0};
 
     lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
-    for (unsigned i = kalman->plant.nx; factors && i-- > 0;) {
-        lqg_bounds_check_add_variance(&check, d[i], kalman->x_scale, i);
-        for (unsigned j = 0; j < i; j++)
-            check.others += U[LQG_STRICT_TRIANGLE(i) + j];
-    }
+    if (factors)
+        add_factors(&check, U, d, kalman->x_scale, kalman->plant.nx);
     if (is_within_bounds(&check))
         return LQG_OK;
 

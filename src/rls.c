@@ -1,6 +1,7 @@
 /* Recursive least squares with P = U diag(d) Uᵀ. */
 #include "lqg/rls.h"
 
+#include "bounds_check.h"
 #include "factors.h"
 
 LQG_STRICT_BEGIN
@@ -44,6 +45,19 @@ static void limit_variances(const lqg_rls_t *rls, lqg_real U[], lqg_real d[], in
     }
 }
 
+static lqg_status reset_unless_finite(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+{
+    bounds_check_t check = {0, 0};
+
+    add_finite(&check, theta, rls->ntheta);
+    add_factors(&check, U, d, NULL, rls->ntheta);
+    if (is_within_bounds(&check))
+        return LQG_OK;
+
+    lqg_rls_init(rls, theta, U, d);
+    return LQG_STATE_RESET;
+}
+
 lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[],
                           const lqg_real phi[], lqg_real y, lqg_real work[])
 {
@@ -68,11 +82,7 @@ lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], 
     if (rls->P_limits)
         limit_variances(rls, U, d, usable, work);
 
-    const lqg_status status = usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
-    if (is_finite(lqg_factors_sum(add_all(0, theta, ntheta), U, d, ntheta)))
-        return status;
-    lqg_rls_init(rls, theta, U, d);
-    return status | LQG_STATE_RESET;
+    return (usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) | reset_unless_finite(rls, theta, U, d);
 }
 
 LQG_STRICT_END

@@ -7,8 +7,8 @@ restate_library() {
   sed -i "s/^    if (is_within_bounds(&check))\$/    if ($within)/" "$1/kalman_steady.c"
   sed -i "s/^    if (is_within_bounds(&check))\$/    if ($within \&\& (!diagonal || perhaps_diagonal_below(P, kalman->x_scale, kalman->plant.nx)))/" "$1/kalman_plain.c"
   sed -i "s/^    if (is_within_bounds(&check))\$/    if ($within \&\& (!factors || perhaps_factors_below(U, d, kalman->x_scale, kalman->plant.nx)))/" "$1/kalman_ud.c"
-  sed -i 's/^    if (is_finite(sum))$/    if (perhaps_all_finite(x, ekf->nx))/' "$1/ekf.c"
-  sed -i 's/^    if (is_finite(lqg_factors_sum(add_all(0, theta, ntheta), U, d, ntheta)))$/    if (perhaps_all_finite(theta, ntheta))/' "$1/rls.c"
+  sed -i 's/^    if (is_within_bounds(&check))$/    if (perhaps_all_finite(x, ekf->nx))/' "$1/ekf.c"
+  sed -i 's/^    if (is_within_bounds(&check))$/    if (perhaps_all_finite(theta, rls->ntheta))/' "$1/rls.c"
   sed -i 's/^    if (is_within_bounds(&check))$/    if (perhaps_all_scaled_below(xi, servo->xi_scale, servo->nxi) \&\& (!u_applied || perhaps_all_finite(u_applied, servo->nu)))/' \
     "$1/servo.c"
   [ "$(grep -l perhaps_all "$1"/{kalman_*,ekf,rls,servo}.c | wc -l)" = 6 ] && grep -q 'BELOW(a' "$1/kernel.h" || stop "the library's test of its state reads otherwise than it did"

@@ -41,7 +41,7 @@ renaming() {
   echo '#ifdef LQG_IMPLEMENTATION'
   echo '#ifndef LQG_IMPLEMENTED'
   echo '#define LQG_IMPLEMENTED'
-  everywhere="$(renaming "$root/src/kernel.h") $(renaming "$root/src/bounds_check.h")"
+  everywhere=$(for name in "${private[@]}"; do renaming "$root/src/$name.h"; done)
   for file in "${private[@]/%/.h}" $(cd "$root/src" && printf '%s\n' *.c); do
     echo
     body_of "$root/src/$file" | perl -pe "$everywhere $(renaming "$root/src/$file")"
