@@ -60,11 +60,7 @@ static lqg_status update_output(const lqg_ekf_t *ekf, unsigned i, lqg_real delta
 
     /* f = Uᵀ cᵀ; with f = 0 the output is left out */
     lqg_factors_project(U, nx, c, !left_out, f);
-    const lqg_real inverse = lqg_factors_update(U, d, nx, f, ekf->V[i]);
-
-    /* gain = b/s,  δ ← δ + gain ν */
-    for (unsigned j = 0; j < nx; j++)
-        delta[j] = multiply_add(f[j] * inverse, nu, delta[j]);
+    update_with_factors(delta, U, d, nx, f, nu, ekf->V[i]);
     return left_out;
 }
 

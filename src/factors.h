@@ -41,6 +41,17 @@ static inline void add_factors(bounds_check_t *check, const lqg_real U[], const 
     }
 }
 
+/* Bierman's update, lqg_factors_update, of x as well: gain = f/s of the f that it leaves, x ← x + gain ν. */
+static inline void update_with_factors(lqg_real x[], lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real nu,
+                                       lqg_real v)
+{
+    LQG_STRICT_BODY
+    const lqg_real inverse = lqg_factors_update(U, d, nx, f, v);
+
+    for (unsigned j = 0; j < nx; j++)
+        x[j] = multiply_add(f[j] * inverse, nu, x[j]);
+}
+
 LQG_STRICT_END
 
 #endif

@@ -52,11 +52,7 @@ static lqg_status update_output(const lqg_kalman_ud_t *kalman, unsigned i, lqg_r
 
     /* f = Uᵀ cᵀ; with f = 0 the output is left out */
     lqg_factors_project(U, nx, c, !left_out, f);
-    const lqg_real inverse = lqg_factors_update(U, d, nx, f, kalman->V[i]);
-
-    /* gain = b / s,  x̂ ← x̂ + gain ν */
-    for (unsigned j = 0; j < nx; j++)
-        x[j] = multiply_add(f[j] * inverse, nu, x[j]);
+    update_with_factors(x, U, d, nx, f, nu, kalman->V[i]);
     return left_out;
 }
 
