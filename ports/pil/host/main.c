@@ -132,13 +132,14 @@ static int run_loop(target_t *target, timing_t *timing, run_t *run)
 
 static int write_files(const options_t *options, const timing_t *timing, const run_t *run)
 {
+    char title[32];
     const chart_curve_t curves[] = {{"pitch [°]", run->pitch, NULL},
                                     {"voltage [V]", run->voltage, NULL},
-                                    {timing->frequency > 0.0 ? "cycles of a sample" : "instructions of a sample",
-                                     timing->rows[TIMING_ALL], NULL}};
+                                    {title, timing->rows[TIMING_ALL], NULL}};
     const int count = (int)run->done;
     int status = GOOD;
 
+    snprintf(title, sizeof title, "%s of a sample", timing->unit);
     if (options->csv && timing_write_csv(timing, run->done, options->csv) != 0) {
         fprintf(stderr, "%s cannot be written\n", options->csv);
         status = NO_FILE;

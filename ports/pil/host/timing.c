@@ -1,5 +1,6 @@
 #include "timing.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +9,22 @@ static const char *const titles[TIMING_ROWS] = {"update", "control", "predict", 
 
 enum { CYCLES_MAX = 8 }; /* that a real processor takes to do nothing; a counter that is faster is an emulator's */
 
+/* On a board a tick is a cycle. An emulator's counter that stands still for a thousand instructions says nothing of one. */
+static void choose_unit(timing_t *timing, const pil_hello_t *hello, int emulated)
+{
+    timing->frequency = emulated || hello->ticks_of_thousand > 1000 * CYCLES_MAX ? 0.0 : hello->frequency;
+    timing->ticks_of_unit = 1.0;
+    timing->unit = timing->frequency > 0.0 ? "cycles" : "ticks";
+    if (timing->frequency > 0.0 || hello->ticks_of_thousand == 0)
+        return;
+    timing->ticks_of_unit = hello->ticks_of_thousand / 1000.0;
+    timing->unit = "instructions";
+}
+
 int timing_start(timing_t *timing, unsigned count, const pil_hello_t *hello, int emulated)
 {
     timing->count = count;
-    timing->frequency = emulated || hello->ticks_of_thousand > 1000 * CYCLES_MAX ? 0.0 : hello->frequency;
-    timing->ticks_of_unit = timing->frequency > 0.0 ? 1.0 : hello->ticks_of_thousand / 1000.0;
+    choose_unit(timing, hello, emulated);
     for (int row = 0; row < TIMING_ROWS; row++) {
         timing->rows[row] = calloc(count, sizeof timing->rows[row][0]);
         if (!timing->rows[row])
@@ -30,7 +42,7 @@ void timing_end(timing_t *timing)
 /* An emulated counter ticks more than once an instruction, so that rounding gives the exact number of them. */
 static double units_of(const timing_t *timing, double ticks)
 {
-    return timing->ticks_of_unit > 0.0 ? (double)(long)(ticks / timing->ticks_of_unit + 0.5) : 0.0;
+    return floor(ticks / timing->ticks_of_unit + 0.5);
 }
 
 void timing_add(timing_t *timing, unsigned sample, const answer_t *answer)
@@ -83,8 +95,7 @@ void timing_print(const timing_t *timing, unsigned count)
 
     if (count == 0)
         return;
-    printf("  %-22s %10s %10s %10s %14s\n", timing->frequency > 0.0 ? "cycles" : "instructions", "least", "median", "most",
-           "worst sample");
+    printf("  %-22s %10s %10s %10s %14s\n", timing->unit, "least", "median", "most", "worst sample");
     for (int row = 0; row < TIMING_ROWS; row++)
         if (summarise(timing->rows[row], count, &summary) == 0)
             printf("  %-*s %10.0f %10.0f %10.0f %14u\n", row == TIMING_ROUND_TRIP ? 23 : 22, titles[row], summary.least,

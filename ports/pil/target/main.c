@@ -3,6 +3,7 @@
 #include "board.h"
 #include "controller.h"
 #include "protocol.h"
+#include "ticks.h"
 
 /* ---- what a step takes ---------------------------------------------------------------------------------- */
 
@@ -47,7 +48,23 @@ __attribute__((noinline)) static uint32_t ticks_of(step_t *step, lqg_status *sta
     const uint32_t before = counter_now();
 
     *status |= step();
-    return ((counter_now() - before) & counter_mask) - ticks_of_frame;
+    return pil_ticks(before, counter_now(), counter_mask, ticks_of_frame);
+}
+
+/* The least of several: the first fills the caches, where there are any, and another may be interrupted. */
+static uint32_t least_ticks_of(step_t *step)
+{
+    enum { TIMES = 16 };
+    lqg_status status = LQG_OK;
+    uint32_t least = counter_mask;
+
+    for (int i = 0; i < TIMES; i++) {
+        const uint32_t ticks = ticks_of(step, &status);
+
+        if (ticks < least)
+            least = ticks;
+    }
+    return least;
 }
 
 /* ---- what is said --------------------------------------------------------------------------------------- */
@@ -174,12 +191,10 @@ static void wait_a_little(void)
 
 int main(void)
 {
-    lqg_status status = LQG_OK;
-
     uart_start();
     counter_start();
-    ticks_of_frame = ticks_of(do_nothing, &status);
-    ticks_of_thousand = ticks_of(do_nothing_a_thousand_times, &status);
+    ticks_of_frame = least_ticks_of(do_nothing);
+    ticks_of_thousand = least_ticks_of(do_nothing_a_thousand_times);
     controller_init(&loop);
     for (;;) {
         const int byte = uart_read();

@@ -6,7 +6,10 @@
  *     PIL_FAULT=junk:N   before byte N come others, the beginning of a frame among them
  *     PIL_FAULT=end:N    the board dies
  *     PIL_FAULT=deaf:N   byte N of what it hears is lost
- *     PIL_FAULT=hears:N  byte N of what it hears has one bit wrong */
+ *     PIL_FAULT=hears:N  byte N of what it hears has one bit wrong
+ *     PIL_FAULT=still:1  its counter stands still
+ *     PIL_FAULT=dear:1   reading its counter is dear at first: the frame takes 100 ticks, a thousand instructions 1000 more, and every
+ *                        step with its frame 50 */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,10 +78,26 @@ void counter_start(void)
 {
 }
 
+/* The target measures the frame first, then a thousand instructions, in 64 readings at most. */
+static uint32_t dear_counter(void)
+{
+    static uint32_t now = 0;
+    static unsigned readings = 0;
+
+    readings++;
+    now += readings == 2 ? 100 : readings <= 64 ? 1100 : 50;
+    return now;
+}
+
+/* Nanoseconds. */
 uint32_t counter_now(void)
 {
     struct timespec now;
 
+    if (happens("dear", 1))
+        return dear_counter();
+    if (happens("still", 1))
+        return 0;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint32_t)now.tv_nsec;
+    return (uint32_t)((uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec);
 }
