@@ -392,7 +392,7 @@ void test_file_that_cannot_be_read_is_told_from_one_that_is_wrong() {
   TEST_ASSERT_FALSE(folder.readable);
   TEST_ASSERT_EQUAL_STRING("d.toml: cannot be read: it is a folder\n", lines(folder).c_str());
   TEST_ASSERT_FALSE(input::read_design_file("/dev/null").readable);
-  TEST_ASSERT_FALSE(input::read_design_file("there/is/no/such.toml").readable);
+  TEST_ASSERT_FALSE(input::read_design_file(__FILE__ "/such.toml").readable);
   TEST_ASSERT_FALSE(input::read_design_file("").readable);
   TEST_ASSERT_TRUE(input::parse_design("").readable);
 }
