@@ -2,11 +2,13 @@
 licences from the network; here the list has MIT."""
 import sys
 import tarfile
+from pathlib import Path
 
 from platformio.package.manifest import schema
 from platformio.package.pack import PackagePacker
 
 schema.ManifestSchema.load_spdx_licenses = staticmethod(lambda: {"licenses": [{"licenseId": "MIT"}]})
+Path(sys.argv[2]).parent.mkdir(parents=True, exist_ok=True)
 PackagePacker(sys.argv[1]).pack(sys.argv[2])
 
 with tarfile.open(sys.argv[2]) as archive:
