@@ -4,9 +4,12 @@
 #
 #   test/bits/targets.sh <a build with tests> [core]…       after test/run.sh: test/bits/targets.sh build
 #
+# WAYS=1 tries the first way of each core alone. Temporary files go below TMPDIR.
 # Debian's packages: those of test/bench/run.sh, and clang-19.
 set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=../../codegen/cmake/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
+# shellcheck source-path=SCRIPTDIR source=../bench/cores.sh
 source "$lqg_root/test/bench/cores.sh"
 [ -e "${1:-}/test/bits/controllers/controllers.h" ] || lqg_stop "expected a build with tests, found: ${1:-nothing}"
 controllers=$(cd "$1" && pwd)/test/bits/controllers
@@ -26,6 +29,8 @@ clang_options() {
 # compare <real> <contracts> <compiler> <options> [linker]: what the selected core has of it in hardware.
 compare() {
   local kinds=plain_$1 contracts=OFF emulator
+  ways=$((ways + 1))
+  [ "$ways" -le "${WAYS:-$ways}" ] || return 0
   if [[ " $fused_reals " == *" $1 "* ]]; then
     kinds+="|fused_$1" contracts=$2
   fi
@@ -45,6 +50,7 @@ options=()
 [ $# -gt 0 ] || set -- "${every_core[@]}"
 for core in "$@"; do
   select_core "$core"
+  ways=0
   gcc="${compiler[*]:1}" clang="$(clang_options) ${cpu[*]} -ffunction-sections -I$lqg_root/include"
   link=$(IFS=';' && echo "${compiler[*]}")
   "${compiler[@]}" -c "$startup" -o "$work/startup.o"

@@ -1,0 +1,194 @@
+#!/usr/bin/env bash
+# Long campaigns: for as long as it takes to meet what is rare. The tests run a sample of each, test/README.md says which.
+#
+#   test/campaign.sh                             lists them, and how long they take
+#   test/campaign.sh <build> soak [samples]      every controller of test/soak: default 100000000 samples
+#   test/campaign.sh <build> bits [core]…        test/bits/targets.sh: every core, compiler, level and mode; WAYS=1: one of
+#                                                the twenty ways of each core
+#   test/campaign.sh <build> random [designs]    random designs, emitted, compiled and compared: default 1000
+#   test/campaign.sh <build> fuzz [seconds]      the library's and the design files' fuzzer: default 3600 each
+#
+# <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19 test/run.sh.
+# A campaign has parts, of which as many run side by side as there are processors. It ends at the first part that fails.
+# Everything is written below <build>/campaign/NAME, or below FOLDER: summary.txt, and a folder for each part with its log.txt
+# and what else it writes. A fuzzer keeps its corpus there, and begins with it the next time.
+#
+# Exit status 0: all parts have passed; 1: one has failed; 2: the command line is wrong, or something is not there. Bash 5.1.
+set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=../codegen/cmake/setup.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../codegen/cmake/setup.sh"
+# shellcheck source-path=SCRIPTDIR source=bench/cores.sh
+source "$lqg_root/test/bench/cores.sh"
+
+list() {
+  cat <<'END'
+test/campaign.sh <build> <campaign>             on two processors
+  soak [samples]    default 100000000            5 minutes
+  bits [core]...    default all nine             7 minutes
+  random [designs]  default 1000                10 minutes
+  fuzz [seconds]    default 3600, of each        1 hour
+END
+}
+
+refuse() {
+  echo "$1" >&2
+  exit 2
+}
+
+# number <default> [argument]: the argument, if there is one; it has to be a number above 0.
+number() {
+  local found=${2:-$1}
+  [[ $found =~ ^[1-9][0-9]{0,11}$ ]] || refuse "expected a number above 0, found: $found"
+  echo "$found"
+}
+
+# ---- parts side by side ------------------------------------------------------------------------------------------
+
+declare -A part_of=() began=() # running parts by their process, and the second in which they began
+count=0 passed=0               # parts of this campaign, and those that have passed
+
+say() { echo "$*" | tee -a "$folder/summary.txt"; }
+
+# start <part> <command>…: in a folder of its own.
+start() {
+  local part=$1
+  shift
+  [ ${#part_of[@]} -lt "$(getconf _NPROCESSORS_ONLN)" ] || finish_one
+  mkdir -p "$folder/$part"
+  say "$part begins"
+  (cd "$folder/$part" && TMPDIR=$PWD exec "$@") >"$folder/$part/log.txt" 2>&1 &
+  part_of[$!]=$part began[$!]=$SECONDS
+}
+
+finish_one() {
+  local process status=0 part
+  wait -n -p process || status=$?
+  part=${part_of[$process]}
+  unset "part_of[$process]"
+  [ $status = 0 ] || fail "$part" "$status"
+  passed=$((passed + 1))
+  say "$passed of $count: $part has passed in $((SECONDS - began[$process])) s: $(tail -n 1 "$folder/$part/log.txt")"
+}
+
+finish_all() {
+  while [ ${#part_of[@]} -gt 0 ]; do
+    finish_one
+  done
+  say "$campaign: all $count parts have passed in $SECONDS s"
+  exit
+}
+
+fail() {
+  tail -n 20 "$folder/$1/log.txt"
+  say "FAILED: $1, with status $2: $folder/$1/log.txt"
+  say "$campaign: FAILED after $SECONDS s; $passed of $count parts have passed"
+  exit 1
+}
+
+# Each part is a process group of its own, which ends with the campaign.
+# shellcheck disable=SC2317  # a trap calls it
+end_all() {
+  local process
+  for process in "${!part_of[@]}"; do
+    kill -- "-$process" 2>/dev/null || true
+  done
+}
+
+# ---- the campaigns -----------------------------------------------------------------------------------------------
+
+soak() {
+  local samples file programs=()
+  samples=$(number 100000000 "$@")
+  for file in "$build"/test/soak/soak_*; do
+    if [ -f "$file" ] && [ -x "$file" ]; then
+      programs+=("$file")
+    fi
+  done
+  count=${#programs[@]}
+  [ "$count" -gt 0 ] || refuse "Not found: programs in $build/test/soak"
+  for file in "${programs[@]}"; do
+    start "$(basename "$file")" "$file" "$samples"
+  done
+}
+
+bits() {
+  local absent=
+  options=()
+  [ -e "$build/test/bits/controllers/controllers.h" ] || refuse "Not found: $build/test/bits/controllers"
+  [ $# -gt 0 ] || set -- "${every_core[@]}"
+  for core in "$@"; do
+    [[ " ${every_core[*]} " == *" $core "* ]] || refuse "no core $core: expected one of ${every_core[*]}"
+    select_core "$core"
+    absent+=$(missing_tools)
+  done
+  lqg_has_command clang-19 || absent+=" clang-19"
+  [ -z "$absent" ] || refuse "Not found:$absent"
+  count=$#
+  for core in "$@"; do
+    start "$core" "$lqg_root/test/bits/targets.sh" "$build" "$core"
+  done
+}
+
+# A hundred designs a part. The tests have the first seeds.
+random() {
+  local designs seed here program=$build/test/codegen/emit/test_emit_emitted
+  designs=$(number 1000 "$@")
+  [ -x "$program" ] || refuse "Not found: $program"
+  count=$(((designs + 99) / 100))
+  for ((seed = 0; seed < designs; seed += 100)); do
+    here=$((designs - seed < 100 ? designs - seed : 100))
+    start "seeds_from_$((1000 + seed))" "$program" $((1000 + seed)) "$here"
+  done
+}
+
+# fuzz_one <part> <program> <folder or file to begin with> <option>…
+fuzz_one() {
+  local part=$1 program=$2 seeds=$3
+  shift 3
+  mkdir -p "$folder/$part/corpus"
+  start "$part" "$program" "-max_total_time=$seconds" -timeout=10 "$@" corpus "$seeds"
+}
+
+fuzz() {
+  local seconds library=$build/test/src/fuzz_library files=$build/test/codegen/input/fuzz_design_file
+  seconds=$(number 3600 "$@")
+  [ ! -x "$library" ] || count=$((count + 1))
+  [ ! -x "$files" ] || count=$((count + 1))
+  [ "$count" -gt 0 ] || refuse "Not found: fuzzers in $build; they come with clang and its runtime library: CC=clang-19 test/run.sh"
+  [ ! -x "$library" ] || fuzz_one library "$library" "$lqg_root/test/src/fuzz_corpus" -max_len=2000
+  [ ! -x "$files" ] || fuzz_one design_files "$files" "$lqg_root/codegen/designs" -max_len=4000 \
+    "-dict=$lqg_root/test/codegen/input/fuzz_design_file.dict"
+}
+
+# ---- the command line --------------------------------------------------------------------------------------------
+
+# All of the script is read before a campaign begins: bash reads a file as it goes, and this one may change meanwhile.
+main() {
+  if [ $# = 0 ]; then
+    list
+    exit
+  fi
+  [ $# -ge 2 ] || refuse "expected a build and a campaign, found: $*; test/campaign.sh lists the campaigns"
+  [ -f "$1/CTestTestfile.cmake" ] || refuse "expected a build with tests, found: $1"
+  build=$(cd "$1" && pwd) campaign=$2
+  shift 2
+  case $campaign in
+    soak | random | fuzz) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
+    bits) ;;
+    *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;
+  esac
+  mkdir -p "${FOLDER:-$build/campaign}/$campaign"
+  folder=$(cd "${FOLDER:-$build/campaign}/$campaign" && pwd)
+  : >"$folder/summary.txt"
+  set -m
+  trap end_all EXIT
+  trap 'exit 130' INT TERM
+  case $campaign in
+    soak) soak "$@" ;;
+    bits) bits "$@" ;;
+    random) random "$@" ;;
+    fuzz) fuzz "$@" ;;
+  esac
+  finish_all
+}
+main "$@"
