@@ -28,17 +28,23 @@ void check_shapes(const design::Problem& problem) {
   const auto is = [](const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index columns) {
     demand(matrix.rows() == rows && matrix.cols() == columns && matrix.allFinite());
   };
-  is(plant.A, nx, nx), is(plant.B, nx, nu), is(plant.C, ny, nx), is(plant.D, ny, nu), is(plant.G, nx, nw);
+  // Empty where something else stands in its place: Q_output or bryson, poles that are placed, no noise.
+  const auto is_or_empty = [&is](const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index columns) {
+    if (matrix.size() > 0) is(matrix, rows, columns);
+  };
+  is(plant.A, nx, nx), is(plant.B, nx, nu), is(plant.C, ny, nx), is(plant.D, ny, nu), is_or_empty(plant.G, nx, nw);
   demand(static_cast<Eigen::Index>(plant.states.size()) == nx &&
          static_cast<Eigen::Index>(plant.inputs.size()) == nu);
   demand(static_cast<Eigen::Index>(plant.outputs.size()) == ny && plant.sample_time > 0 &&
          !problem.name.empty());
   if (problem.regulator)
-    is(problem.regulator->Q, nx, nx), is(problem.regulator->R, nu, nu), is(problem.regulator->N, nx, nu);
+    is_or_empty(problem.regulator->Q, nx, nx), is_or_empty(problem.regulator->R, nu, nu),
+        is_or_empty(problem.regulator->N, nx, nu);
   if (problem.estimator) {
     const design::Estimator& kalman = *problem.estimator;
-    is(kalman.W, nw, nw), is(kalman.V, ny, ny), is(kalman.Swv, nw, ny), is(kalman.P0, nx, nx),
-        is(kalman.x0, nx, 1);
+    is_or_empty(kalman.W, nw, nw), is_or_empty(kalman.V, ny, ny), is_or_empty(kalman.Swv, nw, ny),
+        is_or_empty(kalman.P0, nx, nx), is_or_empty(kalman.x0, nx, 1);
+    demand(kalman.poles || kalman.V.size() > 0);
   }
   demand(problem.regulator || problem.estimator);
   if (problem.limits) demand(problem.limits->u_min.rows() == nu && problem.limits->u_max.rows() == nu);
