@@ -19,8 +19,17 @@ Files: *
 Copyright: ${holder}
 License: Expat
 
+Files: usr/bin/lqgen
+Copyright: ${holder}
+ The Mbed TLS Contributors
+License: Expat and Apache-2.0
+Comment: lqgen has SHA-256 of Mbed TLS inside.
+
 License: Expat
  ${license}
+
+License: Apache-2.0
+ The full text is in /usr/share/common-licenses/Apache-2.0.
 ")
 
 # A changelog in Debian's form, which has to have a date (SOURCE_DATE_EPOCH can set it); what has changed is TinyLQG's own text.

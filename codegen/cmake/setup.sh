@@ -48,9 +48,9 @@ lqg_install() {
   else
     lqg_stop "Please install what Debian calls: $*
 Fedora:  dnf install cmake gcc-c++ make eigen3-devel boost-devel mpfr-devel gmp-devel tomlplusplus-devel \\
-           cli11-devel json-devel
-Arch:    pacman -S cmake gcc make eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json
-macOS:   brew install cmake eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json"
+           cli11-devel json-devel mbedtls-devel
+Arch:    pacman -S cmake gcc make eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json mbedtls
+macOS:   brew install cmake eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json mbedtls"
   fi
 }
 
@@ -69,6 +69,7 @@ lqg_install_packages() {
   lqg_has_header toml++/toml.h || missing+=(libtomlplusplus-dev)
   lqg_has_header CLI/CLI.hpp || missing+=(libcli11-dev)
   lqg_has_header nlohmann/json.hpp || missing+=(nlohmann-json3-dev)
+  lqg_has_header mbedtls/md.h || missing+=(libmbedtls-dev)
   lqg_install "${missing[@]}"
 }
 

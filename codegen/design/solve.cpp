@@ -94,10 +94,6 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
   check_requirements(problem, solution, findings);
 }
 
-}  // namespace
-
-namespace {
-
 void check_matrices(const Problem& problem, Findings& findings) {
   check_symmetry(problem, findings);
   if (!has_error(findings)) check_definiteness(problem, findings);

@@ -42,8 +42,10 @@ void run_steady(const SampledStage& last, const DesignRun* coarser, DesignRun& r
   const SteadyRegulator found = solve_regulator(last.problem, last.samples,
                                                 coarser ? coarser->solution.regulator->X : RealMatrix());
   explain_regulator(found.riccati.failure, result.findings);
-  if (found.riccati.failure != RiccatiFailure::none) result.may_want_digits = true;
-  if (found.riccati.failure != RiccatiFailure::none) return;
+  if (found.riccati.failure != RiccatiFailure::none) {
+    result.may_want_digits = true;
+    return;
+  }
   take_condition(found.riccati, result.solution);
   result.solution.regulator->K = found.riccati.K;
   result.solution.regulator->X = found.riccati.X;

@@ -15,14 +15,23 @@ namespace {
 // Estimates for a Cortex-M4F at -O2, fitted to what GCC 12 made of the designs in designs/ and of two_mass,
 // dc_motor and quadrotor with every filter and arithmetic; test/bench/run.sh prints estimate and truth. The FPU
 // computes floats; double is left to the C library.
-struct Rates {
-  long function, operation, constant, access, selection;  // bytes of straight-line code
-  long numbers_in_software, division_in_software;         // bytes of the C library's routines
-  long steady_code, plain_code, ud_code;                  // bytes of this library's loops, the control law among them
-  long steady_frame, plain_frame, ud_frame;               // bytes of their stack without work[]
+struct StraightLine {
+  long function, operation, constant, access, selection;
 };
-constexpr Rates rates_of_float = {-24, 4, 10, 5, 11, 0, 0, 1650, 2690, 2970, 164, 214, 224};
-constexpr Rates rates_of_double = {-60, 13, 20, 15, 12, 1780, 480, 4210, 5550, 5980, 220, 288, 318};
+struct Software {
+  long numbers, division;
+};
+struct Loops {
+  long steady, plain, ud;
+};
+struct Rates {
+  StraightLine line;  // bytes of straight-line code
+  Software software;  // bytes of the C library's routines
+  Loops code;         // bytes of this library's loops, the control law among them
+  Loops frame;        // bytes of their stack without work[]
+};
+constexpr Rates rates_of_float = {{-24, 4, 10, 5, 11}, {0, 0}, {1650, 2690, 2970}, {164, 214, 224}};
+constexpr Rates rates_of_double = {{-60, 13, 20, 15, 12}, {1780, 480}, {4210, 5550, 5980}, {220, 288, 318}};
 
 // Of the FPU: half of them are free to use, what a function uses of the others it saves on the stack.
 constexpr long registers = 32;
@@ -93,7 +102,7 @@ void add_function(CodeCost& cost, const Controller& controller, const TracedFunc
   const Numbers numbers = numbers_of(function, printer);
   const bool is_one_operation = controller.target.is_fused && !controller.target.is_double;  // a multiply-add
   const long operations = count.total() + (is_one_operation ? 0 : count.multiply_adds);
-  const Rates& bytes = rates(controller);
+  const StraightLine& bytes = rates(controller).line;
   cost.multiply_adds += count.total();
   cost.flash += bytes.function + bytes.operation * operations + bytes.constant * count.constants +
                    bytes.access * (numbers.inputs + static_cast<long>(function.stores.size())) +
@@ -163,10 +172,10 @@ long filter_cost(const Controller& controller) {
 
 long filter_code(const Controller& controller) {
   switch (controller.filter) {
-    case step::Filter::steady: return rates(controller).steady_code;
-    case step::Filter::plain: return rates(controller).plain_code;
-    case step::Filter::ud: return rates(controller).ud_code;
-    default: return rates(controller).steady_code / 4;  // the control law alone
+    case step::Filter::steady: return rates(controller).code.steady;
+    case step::Filter::plain: return rates(controller).code.plain;
+    case step::Filter::ud: return rates(controller).code.ud;
+    default: return rates(controller).code.steady / 4;  // the control law alone
   }
 }
 
@@ -174,12 +183,12 @@ long filter_code(const Controller& controller) {
 long filter_stack(const Controller& controller) {
   const long nx = controller.size.nx, ny = controller.size.ny, real = bytes_of_real(controller);
   switch (controller.filter) {
-    case step::Filter::steady: return rates(controller).steady_frame + real * std::max(nx, ny);
-    case step::Filter::plain: return rates(controller).plain_frame + real * std::max(nx * nx, nx + ny);
+    case step::Filter::steady: return rates(controller).frame.steady + real * std::max(nx, ny);
+    case step::Filter::plain: return rates(controller).frame.plain + real * std::max(nx * nx, nx + ny);
     case step::Filter::ud:
-      return rates(controller).ud_frame +
+      return rates(controller).frame.ud +
              real * std::max((nx + 2) * (nx + controller.solution.online->G.cols()), nx + ny);
-    default: return rates(controller).steady_frame / 2;
+    default: return rates(controller).frame.steady / 2;
   }
 }
 
@@ -200,7 +209,7 @@ CodeCost cost_of_linear_form(const Controller& controller) {
     cost.stack = std::max(cost.stack, 8 + bytes_of_real(controller) * controller.size.ny);  // heard[], return address
   }
   cost.ram = state_bytes(controller);
-  cost.flash += aside.flash + rates(controller).numbers_in_software + initial_state_bytes(controller, cost.ram);
+  cost.flash += aside.flash + rates(controller).software.numbers + initial_state_bytes(controller, cost.ram);
   return cost;
 }
 
@@ -215,7 +224,7 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   const long entries = static_cast<long>(controller::changing_places(controller.laws, controller.target.is_double).size() * controller.laws.size() +
                                          controller::changing_places(controller.filters, controller.target.is_double).size() * controller.filters.size());
   const bool divides = controller.has.filter && controller.filter != step::Filter::steady;
-  cost.flash += bytes.numbers_in_software + (divides ? bytes.division_in_software : 0) + initial_state +
+  cost.flash += bytes.software.numbers + (divides ? bytes.software.division : 0) + initial_state +
                    bytes_of_real(controller) * entries;
   return cost;
 }

@@ -14,39 +14,18 @@ std::string linear_estimate_check() {
          "        assert_near(x_tolerance, x_out[k], x, {NAME}_NX);\n";
 }
 
-std::string linear_fault_test(const Controller& controller) {
+std::string linear_hostile_sample(const Controller& controller) {
   const bool predicts = controller.is_predictor;
-  return std::string(R"(
-static void test_{name}_stays_finite_whatever_a_sensor_says(void)
-{
-    const {real} hostile[] = {({real})NAN, ({real})INFINITY, -({real})INFINITY, {huge}, -{huge}, {tiny}};
-
-    for (int bad = 0; bad < {NAME}_NY; bad++) {
-        for (int what = 0; what < (int)(sizeof hostile / sizeof hostile[0]); what++) {
-            {name}_t self;
-            {real} u[{NAME}_NU];
-            {real} y[{NAME}_NY];
-
-            {name}_init(&self);
-            for (int k = 0; k < SAMPLES; k++) {
-                lqg_status status;
-
-                memcpy(y, y_in[k], sizeof y);
-                y[bad] = k % 3 == 1 ? hostile[what] : y[bad];
-                status = {name}_control(&self, )") +
-         (predicts ? "u);\n" : "y, u);\n") + R"(                for (int i = 0; i < {NAME}_NU; i++)
+  return std::string("                status = {name}_control(&self, ") + (predicts ? "u);\n" : "y, u);\n") +
+         R"(                for (int i = 0; i < {NAME}_NU; i++)
                     TEST_ASSERT_TRUE(u[i] - u[i] == {zero});
-                status |= {name}_advance(&self)" +
-         (predicts ? ", y);\n" : ");\n") + R"(                if (k % 3 == 1 && what < 3)
+                status |= {name}_advance(&self)" + (predicts ? ", y);\n" : ");\n") +
+         R"(                if (k % 3 == 1 && what < 3)
                     TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
                 if (what < 3)
                     TEST_ASSERT_FALSE(status & LQG_STATE_RESET);
                 for (int i = 0; i < {NAME}_NZ; i++)
                     TEST_ASSERT_TRUE(self.z[i] - self.z[i] == {zero});
-            }
-        }
-    }
-}
 )";
 }
 

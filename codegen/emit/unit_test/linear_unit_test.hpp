@@ -13,7 +13,7 @@ std::string linear_sample(const Controller& controller, const std::string& look)
 // x̂ beside the reference, to stand there.
 std::string linear_estimate_check();
 
-// A hostile number in each output in turn: the loop goes on, finite, and says so.
-std::string linear_fault_test(const Controller& controller);
+// A sample with a hostile number: all stays finite, and the status says so.
+std::string linear_hostile_sample(const Controller& controller);
 
 }  // namespace lqg::emit

@@ -133,34 +133,53 @@ std::string bits_test(const Controller& controller) {
          "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n}\n";
 }
 
-// A hostile number in each output in turn: the loop goes on, finite and within its limits, and never begins anew.
+// What one sample with a hostile number calls and looks at.
+std::string hostile_sample(const Controller& controller) {
+  if (controller.linear) return linear_hostile_sample(controller);
+  const std::string act = controller.has.regulator ? R"(                (void){name}_control(&self, u);
+                for (int i = 0; i < {NAME}_NU; i++)
+                    TEST_ASSERT_TRUE(u[i] - u[i] == {zero}{within});
+)" : "";
+  const std::string applied = controller.size.nu ? controller.has.regulator ? ", u" : ", u_out[k]" : "";
+  return R"(                status = {name}_update(&self, y);
+                if (k % 3 == 1 && what < 5)
+                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
+)" + act + "                (void){name}_predict(&self" + applied + R"();
+                for (int i = 0; i < {NAME}_NX; i++)
+                    TEST_ASSERT_TRUE(self.x[i] > -bound[i] && self.x[i] < bound[i]);
+)";
+}
+
+// A hostile number in each output in turn: finite and within its limits, and no reset.
 std::string fault_test(const Controller& controller) {
   if (!controller.has.filter) return "";
-  if (controller.linear) return linear_fault_test(controller);
-  const std::string act = controller.has.regulator ? "                (void){name}_control(&self, u);\n"
-                                                       "                for (int i = 0; i < {NAME}_NU; i++)\n"
-                                                       "                    TEST_ASSERT_TRUE(u[i] - u[i] == {zero}{within});\n"
-                                                     : "";
-  const std::string applied = controller.size.nu ? controller.has.regulator ? ", u" : ", u_out[k]" : "";
-  return "\nstatic void test_{name}_stays_within_its_bounds_whatever_a_sensor_says(void)\n{\n"
-         "    static const {real} bound[{NAME}_NX] = {NAME}_X_BOUNDS;\n"
-         "    const {real} hostile[] = {({real})NAN, ({real})INFINITY, -({real})INFINITY, {huge}, -{huge}, {tiny}};\n\n"
-         "    for (int bad = 0; bad < {NAME}_NY; bad++) {\n"
-         "        for (int what = 0; what < (int)(sizeof hostile / sizeof hostile[0]); what++) {\n"
-         "            {name}_t self;\n" + std::string(controller.has.regulator ? "            {real} u[{NAME}_NU];\n" : "") +
-         "            {real} y[{NAME}_NY];\n\n"
-         "            {name}_init(&self);\n"
-         "            for (int k = 0; k < SAMPLES; k++) {\n"
-         "                lqg_status status;\n\n"
-         "                memcpy(y, y_in[k], sizeof y);\n"
-         "                y[bad] = k % 3 == 1 ? hostile[what] : y[bad];\n"
-         "                status = {name}_update(&self, y);\n"
-         "                if (k % 3 == 1 && what < 5)\n"
-         "                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);\n" + act +
-         "                (void){name}_predict(&self" + applied + ");\n"
-         "                for (int i = 0; i < {NAME}_NX; i++)\n"
-         "                    TEST_ASSERT_TRUE(self.x[i] > -bound[i] && self.x[i] < bound[i]);\n"
-         "            }\n            TEST_ASSERT_EQUAL_UINT(0, self.resets);\n        }\n    }\n}\n";
+  const bool has_bounds = !controller.linear;
+  const Words words = {{"stays", has_bounds ? "within_its_bounds" : "finite"},
+                       {"bound", has_bounds ? "    static const {real} bound[{NAME}_NX] = {NAME}_X_BOUNDS;\n" : ""},
+                       {"u", controller.has.regulator ? "            {real} u[{NAME}_NU];\n" : ""},
+                       {"sample", hostile_sample(controller)},
+                       {"end", has_bounds ? "            TEST_ASSERT_EQUAL_UINT(0, self.resets);\n" : ""}};
+  return fill(R"(
+static void test_{name}_stays_{stays}_whatever_a_sensor_says(void)
+{
+{bound}    const {real} hostile[] = {({real})NAN, ({real})INFINITY, -({real})INFINITY, {huge}, -{huge}, {tiny}};
+
+    for (int bad = 0; bad < {NAME}_NY; bad++) {
+        for (int what = 0; what < (int)(sizeof hostile / sizeof hostile[0]); what++) {
+            {name}_t self;
+{u}            {real} y[{NAME}_NY];
+
+            {name}_init(&self);
+            for (int k = 0; k < SAMPLES; k++) {
+                lqg_status status;
+
+                memcpy(y, y_in[k], sizeof y);
+                y[bad] = k % 3 == 1 ? hostile[what] : y[bad];
+{sample}            }
+{end}        }
+    }
+}
+)", words);
 }
 
 std::string main_function(const Controller& controller) {
