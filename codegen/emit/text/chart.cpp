@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "design/finding.hpp"
 #include "emit/text/html.hpp"
-#include "emit/text/wording.hpp"
 
 namespace lqg::emit {
 
@@ -15,7 +15,8 @@ constexpr double width = 460, height = 190;
 constexpr double left = 62, right = 12, top = 26, bottom = 34;
 constexpr double square_height = width - left - right + top + bottom;
 
-std::string decimal(double value) {
+// One decimal of a unit of the picture.
+std::string coordinate(double value) {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, value + 0.0, std::chars_format::fixed, 1);
   return std::string(text, end.ptr);
@@ -56,8 +57,8 @@ class Picture {
         y_(chart.is_square ? Range{chart.y_low, chart.y_high} : range_of(chart.curves, &Curve::y)) {}
 
   std::string draw() const {
-    std::string out = "<svg viewBox=\"0 0 " + decimal(width) + " " + decimal(height_) + "\" role=\"img\" aria-label=\"" +
-                      escaped(chart_.title) + "\">\n<text class=\"title\" x=\"" + decimal(left) + "\" y=\"15\">" +
+    std::string out = "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height_) + "\" role=\"img\" aria-label=\"" +
+                      escaped(chart_.title) + "\">\n<text class=\"title\" x=\"" + coordinate(left) + "\" y=\"15\">" +
                       escaped(chart_.title) + "</text>\n" + grid() + labels();
     for (const Circle& circle : chart_.circles) out += draw(circle);
     for (const Curve& curve : chart_.curves) out += draw(curve);
@@ -69,8 +70,8 @@ class Picture {
   double at_y(double value) const { return height_ - bottom - (value - y_.low) / y_.size() * (height_ - top - bottom); }
 
   std::string line(const char* kind, double x1, double y1, double x2, double y2) const {
-    return std::string("<line class=\"") + kind + "\" x1=\"" + decimal(x1) + "\" y1=\"" + decimal(y1) + "\" x2=\"" +
-           decimal(x2) + "\" y2=\"" + decimal(y2) + "\"/>\n";
+    return std::string("<line class=\"") + kind + "\" x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) + "\" x2=\"" +
+           coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>\n";
   }
 
   // Numbers at both axes; the lines through 0 are drawn stronger.
@@ -83,20 +84,20 @@ class Picture {
     };
     each_tick(x_, [&](double x, bool is_zero) {
       out += line(is_zero && chart_.is_square ? "zero" : "grid", at_x(x), top, at_x(x), height_ - bottom);
-      out += "<text class=\"tick\" text-anchor=\"middle\" x=\"" + decimal(at_x(x)) + "\" y=\"" + decimal(height_ - bottom + 13) +
-             "\">" + decimal(x) + "</text>\n";
+      out += "<text class=\"tick\" text-anchor=\"middle\" x=\"" + coordinate(at_x(x)) + "\" y=\"" + coordinate(height_ - bottom + 13) +
+             "\">" + design::decimal(x) + "</text>\n";
     });
     each_tick(y_, [&](double y, bool is_zero) {
       out += line(is_zero ? "zero" : "grid", left, at_y(y), width - right, at_y(y));
-      out += "<text class=\"tick\" text-anchor=\"end\" x=\"" + decimal(left - 5) + "\" y=\"" + decimal(at_y(y) + 4) + "\">" +
-             decimal(y) + "</text>\n";
+      out += "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(left - 5) + "\" y=\"" + coordinate(at_y(y) + 4) + "\">" +
+             design::decimal(y) + "</text>\n";
     });
     return out;
   }
 
   std::string labels() const {
-    return "<text class=\"tick\" text-anchor=\"end\" x=\"" + decimal(width - right) + "\" y=\"" + decimal(height_ - 6) + "\">" +
-           escaped(chart_.x_label) + "</text>\n<text class=\"tick\" x=\"4\" y=\"" + decimal(top - 6) + "\">" +
+    return "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(width - right) + "\" y=\"" + coordinate(height_ - 6) + "\">" +
+           escaped(chart_.x_label) + "</text>\n<text class=\"tick\" x=\"4\" y=\"" + coordinate(top - 6) + "\">" +
            escaped(chart_.y_label) + "</text>\n";
   }
 
@@ -105,7 +106,7 @@ class Picture {
     double at = width - right;
     for (auto curve = chart_.curves.rbegin(); curve != chart_.curves.rend(); ++curve) {
       if (curve->label.empty()) continue;
-      out += "<text class=\"legend c" + std::to_string(curve->colour) + "\" text-anchor=\"end\" x=\"" + decimal(at) +
+      out += "<text class=\"legend c" + std::to_string(curve->colour) + "\" text-anchor=\"end\" x=\"" + coordinate(at) +
              "\" y=\"15\">" + escaped(curve->label) + "</text>\n";
       at -= 7.0 * static_cast<double>(letters(curve->label)) + 12;
     }
@@ -113,9 +114,9 @@ class Picture {
   }
 
   std::string draw(const Circle& circle) const {
-    return "<ellipse class=\"circle\" cx=\"" + decimal(at_x(circle.x)) + "\" cy=\"" + decimal(at_y(circle.y)) + "\" rx=\"" +
-           decimal(circle.radius / x_.size() * (width - left - right)) + "\" ry=\"" +
-           decimal(circle.radius / y_.size() * (height_ - top - bottom)) + "\"/>\n";
+    return "<ellipse class=\"circle\" cx=\"" + coordinate(at_x(circle.x)) + "\" cy=\"" + coordinate(at_y(circle.y)) + "\" rx=\"" +
+           coordinate(circle.radius / x_.size() * (width - left - right)) + "\" ry=\"" +
+           coordinate(circle.radius / y_.size() * (height_ - top - bottom)) + "\"/>\n";
   }
 
   bool shows(double x, double y) const {
@@ -129,7 +130,7 @@ class Picture {
     bool pen_is_down = false;
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       const bool shown = shows(curve.x[i], curve.y[i]);
-      const std::string x = decimal(at_x(curve.x[i])), y = decimal(at_y(curve.y[i]));
+      const std::string x = coordinate(at_x(curve.x[i])), y = coordinate(at_y(curve.y[i]));
       if (shown && pen_is_down && curve.mark == Mark::steps) path += "H" + x + "V" + y;
       else if (shown) path += (pen_is_down ? "L" : "M") + x + " " + y;
       pen_is_down = shown;
@@ -143,8 +144,8 @@ class Picture {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       if (!shows(curve.x[i], curve.y[i])) continue;
       const double x = at_x(curve.x[i]), y = at_y(curve.y[i]);
-      path += curve.mark == Mark::dots ? "M" + decimal(x) + " " + decimal(y) + "h0"
-                                       : "M" + decimal(x - 4) + " " + decimal(y - 4) + "l8 8m0 -8l-8 8";
+      path += curve.mark == Mark::dots ? "M" + coordinate(x) + " " + coordinate(y) + "h0"
+                                       : "M" + coordinate(x - 4) + " " + coordinate(y - 4) + "l8 8m0 -8l-8 8";
     }
     return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dots ? " dots" : "") + "\" d=\"" + path + "\"/>\n";
   }

@@ -41,6 +41,11 @@ void test_a_line_goes_from_corner_to_corner_of_its_range() {
   TEST_ASSERT_EQUAL_STRING("M62.0 156.0L255.0 91.0L448.0 26.0", path_of(svg(chart_of({-1, 0, 1}))).c_str());
 }
 
+void test_ticks_of_a_small_range_have_the_digits_that_they_need() {
+  const std::string picture = svg(chart_of({0, 0.002}));
+  for (const char* tick : {">0<", ">0.0005<", ">0.001<", ">0.0015<", ">0.002<"}) TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
+}
+
 void test_steps_hold_a_value_until_the_next() {
   TEST_ASSERT_EQUAL_STRING("M62.0 156.0H448.0V26.0", path_of(svg(chart_of({0, 1}, Mark::steps))).c_str());
 }
@@ -79,6 +84,7 @@ void test_zero_has_no_sign() { TEST_ASSERT_FALSE(has(svg(chart_of({-1, 1})), ">-
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_a_line_goes_from_corner_to_corner_of_its_range);
+  RUN_TEST(test_ticks_of_a_small_range_have_the_digits_that_they_need);
   RUN_TEST(test_steps_hold_a_value_until_the_next);
   RUN_TEST(test_a_number_that_is_not_finite_interrupts_the_line);
   RUN_TEST(test_curves_without_extent_are_drawn_all_the_same);
