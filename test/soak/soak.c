@@ -1,4 +1,4 @@
-/* A controller for a long time: noise for outputs and inputs, one output in 16 missing. Its estimate stays a
+/* A controller for a long time: noise for outputs and inputs, one output in 16 missing; a gate may leave out more. Its estimate stays a
  * thousand times below its bounds, it never begins anew, and the covariance that it carries is positive definite after every update
  * and prediction. States that are known from the beginning, the inputs on their way, are left out of that:
  * their variance is and stays 0.
@@ -98,7 +98,7 @@ int main(int count, char *arguments[])
         const int fine = is_definite(&loop, &beginning);
         status |= predict(&loop, &seed);
         if (!fine || !is_definite(&loop, &beginning) || !is_well_within_bounds(&loop) ||
-            (status & ~LQG_OUTPUT_NOT_FINITE)) {
+            (status & ~(LQG_OUTPUT_NOT_FINITE | LQG_OUTPUT_GATED))) {
             printf("sample %lu: %s\n", sample, lqg_status_text(status));
             return 1;
         }
