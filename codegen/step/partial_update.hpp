@@ -1,0 +1,18 @@
+// What becomes of the outputs when only some of them are there.
+#pragma once
+
+#include "step/online.hpp"
+
+namespace lqg::step {
+
+// Which outputs an update leaves out, of the innovations of the outputs as they are, infinite for one that is not there:
+// those that are not believable, and those whose noise only one that is lost itself would make independent.
+template <class S, class Listener>
+auto lost_outputs(const Model<S>& model, const Vector<S>& innovations, Listener& listener) {
+  const Vector<S> nu = model.E.size() ? decorrelate(model, innovations, listener) : innovations;
+  std::vector<decltype(is_less(nu(0), nu(0)))> lost;
+  for (int i = 0; i < model.ny; ++i) lost.push_back(negation(is_believable(model.nu_limit, i, S(nu(i)))));
+  return lost;
+}
+
+}  // namespace lqg::step
