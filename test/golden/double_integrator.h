@@ -283,18 +283,20 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
 static inline lqg_status double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
 {
     LQG_STRICT_BODY
-    static const float bound[DOUBLE_INTEGRATOR_NX] = DOUBLE_INTEGRATOR_X_BOUNDS;
-    float sum = 0;  /* Σ (x/bound)² */
+    const float x_0 = x[0];
+    const float x_1 = x[1];
 
-    for (int i = 0; i < DOUBLE_INTEGRATOR_NX; i++) {
-        const float part = x[i] / bound[i];
-        const float square = part * part;
-        sum += square;
-        self->x[i] = x[i];
-    }
-    if (sum < 1)
-        return LQG_OK;
-    return double_integrator_reset(self, LQG_OK);
+    /* Σ x² in units of a bound */
+    const float sum = x_0 * x_0;
+    const float sum_a = sum + x_1 * x_1;
+
+    self->x[0] = x_0;
+    self->x[1] = x_1;
+
+    const lqg_status status = LQG_OK;
+    if (!(sum_a < 1.8446744e+19f))
+        return double_integrator_reset(self, status);
+    return status;
 }
 
 LQG_STRICT_END

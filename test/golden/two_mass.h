@@ -373,14 +373,12 @@ static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y
     unsigned long lost = 0;
 
     for (int i = 0; i < TWO_MASS_NY; i++)
-        there[i] = used >> i & 1ul ? y[i] : 0.0f;
+        there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
     two_mass_innovation(self, there, nu, S);
     const float nu_0 = nu[0];
-    lost |= fabsf(nu_0) < 2199023255552.0f ? 0ul : 1ul << 0;
     const float nu_1 = nu[1];
-    lost |= fabsf(nu_1) < 2199023255552.0f ? 0ul : 1ul << 1;
-    for (int i = 0; i < TWO_MASS_NY; i++)
-        there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
+    lost |= !(fabsf(nu_0) < 2199023255552.0f) ? 1ul << 0 : 0ul;
+    lost |= !(fabsf(nu_1) < 2199023255552.0f) ? 1ul << 1 : 0ul;
 
     const lqg_status status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
     return used & lost ? status | LQG_OUTPUT_NOT_FINITE : status;
@@ -394,18 +392,26 @@ static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y
 static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
 {
     LQG_STRICT_BODY
-    static const float bound[TWO_MASS_NX] = TWO_MASS_X_BOUNDS;
-    float sum = 0;  /* Σ (x/bound)² */
+    const float x_0 = x[0];
+    const float x_1 = x[1];
+    const float x_2 = x[2];
+    const float x_3 = x[3];
 
-    for (int i = 0; i < TWO_MASS_NX; i++) {
-        const float part = x[i] / bound[i];
-        const float square = part * part;
-        sum += square;
-        self->x[i] = x[i];
-    }
-    if (sum < 1)
-        return LQG_OK;
-    return two_mass_reset(self, LQG_OK);
+    /* Σ x² in units of a bound */
+    const float sum = x_0 * x_0;
+    const float sum_a = sum + x_1 * x_1;
+    const float sum_b = sum_a + x_2 * x_2;
+    const float sum_c = sum_b + x_3 * x_3;
+
+    self->x[0] = x_0;
+    self->x[1] = x_1;
+    self->x[2] = x_2;
+    self->x[3] = x_3;
+
+    const lqg_status status = LQG_OK;
+    if (!(sum_c < 1.2089258e+24f))
+        return two_mass_reset(self, status);
+    return status;
 }
 
 LQG_STRICT_END

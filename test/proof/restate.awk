@@ -36,15 +36,8 @@ function small_terms(v, exponent,   before) {
   return before small(size_of[v], exponent)
 }
 
-# The terms of the sum that a loop has made, and the arrays to which it has copied them.
-function summed_arrays(   name, all) {
-  all = "any_int"
-  for (name in bound_of) all = all " && perhaps_all_finite(" name ", " bound_of[name] ")" copies[name]
-  return all
-}
-
 /^static / {
-  split("", left); split("", right); split("", places); split("", bound_of); split("", copies)
+  split("", left); split("", right); split("", places)
   split("", square_of); split("", size_of); split("", summed); split("", shift)
 }
 
@@ -82,18 +75,6 @@ function summed_arrays(   name, all) {
   for (i = 1; i <= fields; i++) if (word[i] == "=") add_place(word[i + 1], word[i - 1])
 }
 
-match($0, /i < [A-Z0-9_]+; i\+\+/) { bound = substr($0, RSTART + 4, RLENGTH - 9) }
-match($0, /sum \+= [a-z_]+\[i\];/) { bound_of[substr($0, RSTART + 7, RLENGTH - 11)] = bound }
-/self->[a-zA-Z_]+\[.*\] = [a-z_]+\[.*\];/ {
-  member = $0
-  sub(/^ */, "", member)
-  sub(/\[.*/, "", member)
-  name = $0
-  sub(/.*= /, "", name)
-  sub(/\[.*/, "", name)
-  copies[name] = copies[name] " && perhaps_all_finite(" member ", sizeof " member " / sizeof *" member ")"
-}
-
 # What the emitted functions end with.
 match($0, /if \(!\([a-z0-9_]+ - [a-z0-9_]+ < [^ ]+ - sum[a-z0-9_]*\)\)/) || match($0, /if \(!\(sum[a-z0-9_]* < [^ )]+\)\)/) ||
 match($0, /if \(!\([a-z0-9_]+ - [a-z0-9_]+ == 0\.0f?\)\)/) {
@@ -107,9 +88,6 @@ match($0, /if \(!\([a-z0-9_]+ - [a-z0-9_]+ == 0\.0f?\)\)/) {
 }
 
 {
-  if (match($0, /sum - sum == 0[) ]/)) $0 = substr($0, 1, RSTART - 1) "(" summed_arrays() ")" substr($0, RSTART + 14)
-  if (match($0, /(bounded|sum) < 1\)/))
-    $0 = substr($0, 1, RSTART - 1) "perhaps_all_below(self->x, bound, sizeof self->x / sizeof *self->x))" substr($0, RSTART + RLENGTH)
   while (match($0, /fabsf?\([a-zA-Z0-9_]+\) < [0-9.e+]+f?/)) {
     split(substr($0, RSTART, RLENGTH), word, /[() ]+/)
     $0 = substr($0, 1, RSTART - 1) "BELOW(" word[2] ", " word[4] ")" substr($0, RSTART + RLENGTH)

@@ -22,18 +22,7 @@ static inline int perhaps_all_finite(const lqg_real v[], unsigned long length)
     return 1;
 }
 
-/* Likewise: every |v_i| < bound_i. */
-static inline int perhaps_all_below(const lqg_real v[], const lqg_real bound[], unsigned long length)
-{
-    if (any_int)
-        return 0;
-    for (unsigned long i = 0; i < length; i++)
-        if (!BELOW(v[i], bound[i]))
-            stop();
-    return 1;
-}
-
-/* Likewise, bound_i = 1/scale_i; finite without a scale. */
+/* Likewise: every |v_i| < 1/scale_i; finite without a scale. */
 static inline int perhaps_all_scaled_below(const lqg_real v[], const lqg_real scale[], unsigned long length)
 {
     if (!scale)

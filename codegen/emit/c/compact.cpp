@@ -2,9 +2,10 @@
 #include <algorithm>
 
 #include "controller/model_of.hpp"
+#include "controller/state_fields.hpp"
 #include "emit/c/compact_constants.hpp"
 #include "emit/c/function_bodies.hpp"
-#include "controller/state_fields.hpp"
+#include "emit/c/straight_line.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 
@@ -65,13 +66,10 @@ std::string gains_of_sample(const Controller& controller) {
 
 std::string law_of_sample(const Controller& controller) {
   if (!has_law_table(controller)) return "";
-  const std::string last = std::to_string(controller.laws.size() - 1);
-  const std::string row = controller.laws.size() - 1 == controller.last_sample
-                              ? "self->sample" : "(self->sample < " + last + " ? self->sample : " + last + ")";
   const auto advance = [&](const char* law, const char* matrix, std::size_t at) {
     const design::RealMatrix& gain = controller.laws.front()[at];
     if (gain.size() == 0) return std::string();
-    return "    " + std::string(law) + "." + matrix + " += " + row + " * " + std::to_string(gain.size()) + ";\n";
+    return "    " + std::string(law) + "." + matrix + " += " + row_of_law(controller) + " * " + std::to_string(gain.size()) + ";\n";
   };
   if (!controller.has.servo) return "    lqg_lqr_t lqr = {NAME}_LQR;\n" + advance("lqr", "K", 0);
   return "    lqg_servo_t servo = {NAME}_SERVO;\n" + advance("servo", "K", 0) + advance("servo", "Nbar", 1) +
@@ -122,10 +120,7 @@ std::string update_alone_body(const Controller& controller, Words words, int out
   std::string out = is_steady ? "" : "    lqg_real work[LQG_KALMAN_{FILTER}_WORK({NAME}_NX, {NAME}_NY{nq})];\n";
   out += gains_of_sample(controller) + watch(controller) +
          "    const lqg_status status = lqg_kalman_{filter}_update_output({kalman}, {state}, {i}, {y}, {s}{watch}{scratch});\n\n";
-  for (int k = 0; k < controller.size.nxi; ++k)
-    if (controller.integrated[static_cast<std::size_t>(k)] == output)
-      out += fill("    const lqg_real error = self->r[{NAME}_R_{OUTPUT}] - {y};\n    self->error[{k}] = error > -{limit} && error < {limit} ? error : 0;\n",
-                  {{"k", std::to_string(k)}, {"limit", trace::literal(controller.bounds.error(k), controller.target.is_double)}, {"OUTPUT", upper(words["y"].substr(2))}, {"NAME", words["NAME"]}, {"y", words["y"]}});
+  out += statements(trace_observation(controller, output));
   return fill("    LQG_STRICT_BODY\n" + out + end(controller), words);
 }
 
@@ -183,31 +178,6 @@ std::string act_body(const Controller& controller, const Words& words, std::stri
   return fill(out + counters + end(controller), words);
 }
 
-std::string set_input_body(const Controller& controller, const Words& words) {
-  const bool fills_delay = controller.size.delayed && controller.has.filter;
-  const std::string accumulate = !controller.target.is_fused   ? "bounded += part * part;"
-                                 : controller.target.is_double ? "bounded = fma(part, part, bounded);"
-                                                          : "bounded = fmaf(part, part, bounded);";
-  std::string out = "    LQG_STRICT_BODY\n" + std::string(controller.size.nxi ? law_of_sample(controller) : "") +
-                    (fills_delay ? "    static const lqg_real bound[{NAME}_NX] = {NAME}_X_BOUNDS;\n    lqg_real bounded = 0;\n" : "") +
-                    "    lqg_status status = LQG_OK;\n    lqg_real sum = 0;\n\n" +
-                    (controller.has.filter || controller.size.nxi ? "" : "    (void)x;\n") +
-                    "    for (int i = 0; i < {NAME}_NU; i++)\n        sum += u[i];\n";
-  if (fills_delay) out += fill(R"(    for (int i = 0; i < {count}; i++) {
-        const int at = {NAME}_NX - {count} + i;
-        const lqg_real part = u[i % {NAME}_NU] / bound[at];
-        {accumulate}
-        self->x[at] = u[i % {NAME}_NU];
-    }
-)", {{"accumulate", accumulate}, {"count", std::to_string(controller.size.delayed)}, {"NAME", words.at("NAME")}});
-  if (controller.keeps.input)
-    out += "    for (int i = 0; i < {NAME}_NU; i++)\n        self->u_applied[i] = u[i];\n";
-  if (controller.size.nxi) out += "    status |= lqg_servo_set_input({servo}, {x}, {r}, {memory}, u);\n";
-  out += "    if (!(sum - sum == 0" + std::string(fills_delay ? " && bounded < 1" : "") + ") || (status & LQG_STATE_RESET))\n        return {name}_reset(self, status);\n"
-         "    return status;\n";
-  return fill(out, words);
-}
-
 std::string options_check(const Controller& controller) {
   const auto check = [&](const char* option, bool wanted, const char* what) {
     return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"" + controller.problem.name + ".h " +
@@ -241,7 +211,6 @@ FunctionBodies compact_bodies(const Controller& controller) {
     bodies.control = controller.has.filter || !controller.keeps.any ? control_body(controller, words)
                                                                         : act_body(controller, words, bodies.constants);
   }
-  if (can_set_input(controller)) bodies.set_input = set_input_body(controller, words);
   return bodies;
 }
 

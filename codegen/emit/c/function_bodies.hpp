@@ -13,7 +13,7 @@ struct FunctionBodies {
   std::string includes;   // #include lines and checks of options
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
-  std::string init, update, control, predict, set_input;
+  std::string init, update, control, predict;
   std::vector<std::string> updates_alone;  // of each output that can_update_alone
   bool resets = false;    // they call NAME_reset
 };
@@ -21,11 +21,11 @@ struct FunctionBodies {
 // What predict does to the counters at its end.
 std::string advance_counters(const Controller& controller);
 
+// The row of a table of the law's gains that is in force, as C: one a sample, and the last is held.
+std::string row_of_law(const Controller& controller);
+
 // The update by one output alone where there is no other.
 std::string only_update_body(const Controller& controller);
-
-// Straight-line code in either style: who does not call it does not pay for it.
-std::string innovation_body(const Controller& controller);
 
 // What all straight-line code begins with: includes, options, init.
 FunctionBodies straight_line_bodies(const Controller& controller);

@@ -2,6 +2,7 @@
 
 #include "emit/c/linear_functions.hpp"
 #include "emit/c/partial_update.hpp"
+#include "emit/c/straight_line.hpp"
 #include "emit/text/wording.hpp"
 
 namespace lqg::emit {
@@ -96,7 +97,7 @@ std::string innovation_function(const Controller& controller) {
                                                                                              : " and the variance of each, C P Cᵀ + V";
   words["S"] = controller.has.variance ? " * S   out: the variances; nu²/S is 1 in the mean as long as the model holds\n " : " ";
   words["parameter"] = fill(controller.has.variance ? ", {real} S[{NAME}_NY]" : "", words);
-  words["body"] = innovation_body(controller);
+  words["body"] = body(controller, trace_innovation(controller), {"self", "y"});
   return fill(R"(
 /* How far the outputs are from what is expected, {law}{and}:
  * to be called before update by those who watch the health of sensors and model.
@@ -181,29 +182,34 @@ static inline lqg_status {name}_step({name}_t *self, const {real} y[{NAME}_NY]{p
 )", words);
 }
 
-std::string covariance_function(const Controller& controller) {
-  if (controller.filter != step::Filter::ud) return "";
-  Words words = common_words(controller);
-  words["triangle"] = std::to_string(controller.size.nx * (controller.size.nx + 1) / 2);
-  words["product"] = controller.size.nx > 1 ? R"(            {real} sum = i == j ? self->d[i] : self->U[i * (i - 1) / 2 + j] * self->d[i];
+// P[] of U and d, in a loop.
+std::string multiply_out(const Controller& controller) {
+  return fill(R"(    LQG_STRICT_BODY
+    for (int i = 0; i < {NAME}_NX; i++) {
+        for (int j = 0; j <= i; j++) {
+            {real} sum = i == j ? self->d[i] : self->U[i * (i - 1) / 2 + j] * self->d[i];
             for (int k = i + 1; k < {NAME}_NX; k++) {
                 const {real} weighted = self->U[k * (k - 1) / 2 + j] * self->d[k];
                 const {real} term = weighted * self->U[k * (k - 1) / 2 + i];
                 sum = sum + term;
             }
             P[i * (i + 1) / 2 + j] = sum;
-)" : "            P[i + j] = self->d[i];\n";
-  words["product"] = fill(words["product"], words);
+        }
+    }
+)", common_words(controller));
+}
+
+std::string covariance_function(const Controller& controller) {
+  if (controller.filter != step::Filter::ud) return "";
+  const bool loops = controller.style == design::Style::compact && controller.size.nx > 1;
+  Words words = common_words(controller);
+  words["triangle"] = std::to_string(controller.size.nx * (controller.size.nx + 1) / 2);
+  words["body"] = loops ? multiply_out(controller) : body(controller, trace_covariance(controller), {});
   return fill(R"(
 /* P = U diag(d) Uᵀ, the covariance of the estimate's error: lower triangle, row by row. */
 static inline void {name}_covariance(const {name}_t *self, {real} P[{triangle}])
 {
-    LQG_STRICT_BODY
-    for (int i = 0; i < {NAME}_NX; i++) {
-        for (int j = 0; j <= i; j++) {
-{product}        }
-    }
-}
+{body}}
 )", words);
 }
 
@@ -257,7 +263,7 @@ std::string set_state_function(const Controller& controller) {
   Words words = common_words(controller);
   words["covariance"] = controller.filter == step::Filter::steady ? "" : "; its covariance stays";
   words["then"] = fill(can_set_input(controller) ? " {name}_set_input may follow." : "", words);
-  words["forget"] = fill(controller.keeps.innovation ? "    for (int i = 0; i < {NAME}_NY; i++)\n        self->innovation[i] = 0;\n" : "", words);
+  words["body"] = body(controller, trace_set_state(controller), {"self", "x"});
   return fill(R"(
 /* x̂ ← x, by hand{covariance}.{then}
  *
@@ -266,24 +272,11 @@ std::string set_state_function(const Controller& controller) {
  * Status: LQG_STATE_RESET, when x is not within {NAME}_X_BOUNDS. */
 static inline lqg_status {name}_set_state({name}_t *self, const {real} x[{NAME}_NX])
 {
-    LQG_STRICT_BODY
-    static const {real} bound[{NAME}_NX] = {NAME}_X_BOUNDS;
-    {real} sum = 0;  /* Σ (x/bound)² */
-
-    for (int i = 0; i < {NAME}_NX; i++) {
-        const {real} part = x[i] / bound[i];
-        const {real} square = part * part;
-        sum += square;
-        self->x[i] = x[i];
-    }
-{forget}    if (sum < 1)
-        return LQG_OK;
-    return {name}_reset(self, LQG_OK);
-}
+{body}}
 )", words);
 }
 
-std::string set_input_function(const Controller& controller, const FunctionBodies& bodies) {
+std::string set_input_function(const Controller& controller) {
   Words words = common_words(controller);
   words["follow"] = std::string(controller.size.delayed ? ", and so are those on their way" : "") +
                     (controller.size.nxi ? ".\n * ξ becomes such that control goes on there" : "");
@@ -292,7 +285,8 @@ std::string set_input_function(const Controller& controller, const FunctionBodie
                                                      : "{name}_t *self, const {real} x[{NAME}_NX], const {real} u[{NAME}_NU]", words);
   words["x"] = controller.has.filter ? "" : " * x  in: the state, in its units\n";
   words["reference"] = controller.size.nxi ? "LQG_REFERENCE_NOT_FINITE, " : "";
-  words["body"] = bodies.set_input;
+  words["body"] = controller.has.filter ? body(controller, trace_set_input(controller), {"self", "u"})
+                                        : body(controller, trace_set_input(controller), {"self", "x", "u"});
   return fill(R"(
 /* The input was u, set by hand{follow}{when}.
  *
@@ -319,7 +313,7 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
            update_alone_functions(controller, bodies) + (controller.has.stages ? "" : innovation_function(controller)) +
            partial_update_function(controller) + set_state_function(controller);
-  if (can_set_input(controller)) out += set_input_function(controller, bodies);
+  if (can_set_input(controller)) out += set_input_function(controller);
   return out;
 }
 

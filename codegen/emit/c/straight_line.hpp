@@ -12,6 +12,15 @@ namespace lqg::emit {
 std::string body(const Controller& controller, const TracedFunction& function,
                  std::initializer_list<const char*> parameters, const std::string& last = "");
 
+// The statements alone, which end with their stores.
+std::string statements(const TracedFunction& function);
+
+// Statements that set bit i of `lost` for each output that a partial update leaves out.
+std::string collect_lost(const TracedFunction& function);
+
+// "{0.5f, 1.0f}"
+std::string initializer(const std::vector<double>& values, bool is_double);
+
 // The body of init: all fields of the state, in their order.
 std::string initial_state(const Controller& controller);
 

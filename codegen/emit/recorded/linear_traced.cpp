@@ -78,7 +78,7 @@ TracedFunction trace_estimate(const Controller& controller) {
   });
 }
 
-TracedFunction trace_set_state(const Controller& controller) {
+TracedFunction trace_set_z(const Controller& controller) {
   return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
     const Symbols x = load(*into.graph, "x", "x", controller.size.nx);
     into.finite = step::set_state(model, state, x, listener).node;
@@ -95,7 +95,7 @@ TracedLinear trace_linear(const Controller& controller) {
   traced.advance = trace_advance(controller);
   if (controller.is_predictor) traced.hear = trace_hear(controller);
   traced.estimate = trace_estimate(controller);
-  traced.set_state = trace_set_state(controller);
+  traced.set_state = trace_set_z(controller);
   return traced;
 }
 

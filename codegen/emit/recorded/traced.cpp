@@ -5,8 +5,11 @@
 #include "design/numeric/linear_algebra.hpp"
 #include "emit/recorded/trace_listener.hpp"
 #include "emit/text/wording.hpp"
+#include "step/by_hand.hpp"
+#include "step/covariance.hpp"
 #include "step/innovation.hpp"
 #include "step/loop.hpp"
+#include "step/partial_update.hpp"
 #include "trace/expr.hpp"
 
 namespace lqg::emit {
@@ -94,13 +97,17 @@ void store_state(TracedFunction& function, const State& state, const std::vector
   store_vector("demand", state.demand);
 }
 
-// Entries that change from sample to sample are read from a row of their table.
-void read_row(const std::vector<Gains>& rows, bool is_double, const char* table, const std::vector<const char*>& names,
-              const std::vector<step::Matrix<Expr>*>& matrices, int nx) {
+// Entries that change from sample to sample are read from a row of their table: of those entries alone in straight-line
+// code, of all of K, Nbar or H where the library's loops run over it.
+void read_row(const Controller& controller, const std::vector<Gains>& rows, const char* table,
+              const std::vector<const char*>& names, const std::vector<step::Matrix<Expr>*>& matrices) {
+  const bool compact = controller.style == design::Style::compact;
   int at = 0;
-  for (const auto& [matrix, i, j] : controller::changing_places(rows, is_double))
-    (*matrices[matrix])(i, j) =
-        Expr::of(trace::graph().input(element(table, at++), names[matrix] + index_suffix(i, j, nx)));
+  for (const auto& [matrix, i, j] : controller::changing_places(rows, controller.target.is_double)) {
+    step::Matrix<Expr>& gain = *matrices[matrix];
+    const std::string entry = compact ? element(names[matrix], i * static_cast<int>(gain.cols()) + j) : element(table, at++);
+    gain(i, j) = Expr::of(trace::graph().input(entry, names[matrix] + index_suffix(i, j, controller.size.nx)));
+  }
 }
 
 Model symbolic_model(const Controller& controller) {
@@ -108,9 +115,9 @@ Model symbolic_model(const Controller& controller) {
   Model model = controller::model_of<Expr>(controller, [&](const design::Real& value) {
     return Expr(rounded_to_target(value, is_double));
   });
-  read_row(controller.laws, is_double, "law", {"K", "Nbar", "H"}, {&model.K, &model.Nbar, &model.H}, model.nx);
+  read_row(controller, controller.laws, "law", {"K", "Nbar", "H"}, {&model.K, &model.Nbar, &model.H});
   step::Matrix<Expr> variance = model.variance;
-  read_row(controller.filters, is_double, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance}, model.nx);
+  read_row(controller, controller.filters, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance});
   if (controller.has.gate) model.variance = variance;
   return model;
 }
@@ -134,10 +141,14 @@ TracedFunction trace_update(const Controller& controller, const std::vector<bool
   });
 }
 
+// y_OUTPUT
+Expr load_output(const Controller& controller, int output) {
+  return Expr::of(trace::graph().input("y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name, "y"));
+}
+
 TracedFunction trace_update_alone(const Controller& controller, const std::vector<bool>& pattern, int output) {
   return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
-    const std::string& name = controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
-    return step::update_alone(model, state, Expr::of(trace::graph().input("y_" + name, "y")), output, listener);
+    return step::update_alone(model, state, load_output(controller, output), output, listener);
   });
 }
 
@@ -158,18 +169,6 @@ TracedFunction trace_control(const Controller& controller) {
   else function.finite = step::act(model, state, u, listener).node;
   for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
   state.x.resize(0);  // it is only read
-  store_state(function, state, {});
-  return function;
-}
-
-TracedFunction trace_set_input(const Controller& controller) {
-  TracedFunction function = new_function(controller);
-  const trace::Recording recording(*function.graph);
-  const Model model = symbolic_model(controller);
-  State state = load_state(model, {});
-  TraceListener listener(controller, function);
-  function.finite = step::set_input(model, state, load(*function.graph, "u", "u", model.nu), listener).node;
-  if (!controller.has.filter) state.x.resize(0);
   store_state(function, state, {});
   return function;
 }
@@ -208,6 +207,7 @@ std::vector<int> TracedFunction::results() const {
   nodes.insert(nodes.end(), statuses.begin(), statuses.end());
   if (finite >= 0) nodes.push_back(finite);
   for (const auto& [output, gated] : gates) nodes.push_back(gated);
+  nodes.insert(nodes.end(), lost.begin(), lost.end());
   return nodes;
 }
 
@@ -258,6 +258,58 @@ TracedFunction trace_innovation(const Controller& controller) {
   return function;
 }
 
+TracedFunction trace_set_state(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  State state;  // without an x̂: it is not read
+  load_memory(model, state);
+  TraceListener listener(controller, function);
+  function.finite = step::set_state(model, state, load(*function.graph, "x", "x", model.nx), listener).node;
+  store_state(function, state, {});
+  return function;
+}
+
+TracedFunction trace_set_input(const Controller& controller) {
+  return trace_step(controller, {}, [&](const Model& model, State& state, TraceListener& listener) {
+    const trace::Condition within = step::set_input(model, state, load(trace::graph(), "u", "u", model.nu), listener);
+    if (!controller.has.filter) state.x.resize(0);  // it is only read
+    return within;
+  });
+}
+
+TracedFunction trace_covariance(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  TraceListener listener(controller, function);
+  const std::vector<Expr> P = step::covariance(model, load_state(model, covariance_pattern(controller)), listener);
+  for (std::size_t k = 0; k < P.size(); ++k) store(function, element("P", static_cast<int>(k)), P[k]);
+  function.is_void = true;
+  return function;
+}
+
+TracedFunction trace_observation(const Controller& controller, int output) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  State state = load_state(model, {});
+  TraceListener listener(controller, function);
+  step::observe_alone(model, state, load_output(controller, output), output, listener);
+  store_state(function, state, {});
+  return function;
+}
+
+TracedFunction trace_lost_outputs(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  TraceListener listener(controller, function);
+  for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "nu", "nu", model.ny), listener))
+    function.lost.push_back(lost.node);
+  return function;
+}
+
 TracedController trace_controller(const Controller& controller) {
   TracedController traced;
   if (controller.has.filter) {
@@ -268,7 +320,6 @@ TracedController trace_controller(const Controller& controller) {
       if (can_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
   }
   if (controller.has.regulator) traced.control = trace_control(controller);
-  if (can_set_input(controller)) traced.set_input = trace_set_input(controller);
   return traced;
 }
 

@@ -19,19 +19,35 @@ struct TracedFunction {
   std::string recovery;  // the call that answers where it is not finite; empty: NAME_reset
   bool is_void = false;
   std::vector<std::pair<int, int>> gates;  // output, and the condition that it was gated
+  std::vector<int> lost;  // output by output, the condition that a partial update leaves it out
 
   std::vector<int> results() const;
 };
 
 struct TracedController {
-  TracedFunction update, control, predict, set_input;
+  TracedFunction update, control, predict;
   std::vector<TracedFunction> updates_alone;
 };
+
+TracedController trace_controller(const Controller& controller);
+
+// What both styles have as straight-line code: who does not call it does not pay for it.
 
 // nu[] and S[] of y[].
 TracedFunction trace_innovation(const Controller& controller);
 
-TracedController trace_controller(const Controller& controller);
+// x̂ of x[], and the input of u[].
+TracedFunction trace_set_state(const Controller& controller);
+TracedFunction trace_set_input(const Controller& controller);
+
+// P[] of U and d.
+TracedFunction trace_covariance(const Controller& controller);
+
+// r − y of the integrals of y_OUTPUT; no stores where it has none.
+TracedFunction trace_observation(const Controller& controller, int output);
+
+// Those that an update leaves out, of the innovations nu[] of the outputs as they are, infinite where one is not there.
+TracedFunction trace_lost_outputs(const Controller& controller);
 
 // Which entries of P (or of U, then D) are ever different from 0: those of P0, and those that a step makes so.
 std::vector<bool> covariance_pattern(const Controller& controller);
