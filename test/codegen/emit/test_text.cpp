@@ -1,5 +1,6 @@
 // Placeholders, names, numbers and matrices as text.
 #include <cmath>
+#include <stdexcept>
 
 #include <unity.h>
 
@@ -30,6 +31,43 @@ void test_fill_leaves_braces_of_C_alone() {
 }
 
 void test_fill_does_not_look_into_what_it_put_in() { expect_filled("{name}", "{twice}"); }
+
+const Conditions conditions = {{"has.gate", true}, {"size.nr", false}, {"order", true}};
+
+void expect_kept(const char* expected, const char* text) {
+  TEST_ASSERT_EQUAL_STRING(expected, keep_lines(text, conditions).c_str());
+}
+
+void test_lines_without_a_mark_are_kept() {
+  expect_kept("", "");
+  expect_kept("a;\n\n    b;  // ? not a mark\n", "a;\n\n    b;  // ? not a mark\n");
+  expect_kept("no end", "no end");
+}
+
+void test_marked_lines_are_kept_without_the_mark_where_the_condition_holds() {
+  expect_kept("    gate();\n", "    gate();    //? has.gate\n    r();       //? size.nr\n");
+  expect_kept("    no_r();\n", "    no_gate();   //? not has.gate\n    no_r();      //? not size.nr\n");
+  expect_kept("a\nb", "a\nb  //? has.gate");
+  expect_kept("a\n", "a\nb  //? not order");
+}
+
+void test_a_line_that_is_a_mark_alone_is_an_empty_one_or_none() {
+  expect_kept("a\n\nb\n", "a\n    //? has.gate\nb\n");
+  expect_kept("a\n\nb\n", "a\n//? has.gate\nb\n");
+  expect_kept("a\nb\n", "a\n    //? size.nr\nb\n");
+}
+
+void test_a_condition_that_nobody_knows_is_an_error() {
+  for (const char* text : {"a  //? has.gates\n", "a  //? not has.gates\n", "a  //? \n"}) {
+    bool noticed = false;
+    try {
+      keep_lines(text, conditions);
+    } catch (const std::out_of_range&) {
+      noticed = true;
+    }
+    TEST_ASSERT_TRUE(noticed);
+  }
+}
 
 void test_upper_turns_small_letters_only() { TEST_ASSERT_EQUAL_STRING("TWO_MASS_2", upper("two_Mass_2").c_str()); }
 
@@ -94,6 +132,10 @@ int main() {
   RUN_TEST(test_fill_replaces_what_it_knows);
   RUN_TEST(test_fill_leaves_braces_of_C_alone);
   RUN_TEST(test_fill_does_not_look_into_what_it_put_in);
+  RUN_TEST(test_lines_without_a_mark_are_kept);
+  RUN_TEST(test_marked_lines_are_kept_without_the_mark_where_the_condition_holds);
+  RUN_TEST(test_a_line_that_is_a_mark_alone_is_an_empty_one_or_none);
+  RUN_TEST(test_a_condition_that_nobody_knows_is_an_error);
   RUN_TEST(test_upper_turns_small_letters_only);
   RUN_TEST(test_numbers_are_rounded_once_to_the_precision_of_the_target);
   RUN_TEST(test_matrices_stand_in_aligned_columns);
