@@ -1,0 +1,22 @@
+// The emitted functions, whole, as they stand in templates/*.c.in: with {words} to fill in, and lines that only some
+// controllers have behind a mark, "//? condition".
+#pragma once
+
+#include "emit/controller.hpp"
+#include "emit/text/text.hpp"
+
+namespace lqg::emit {
+
+namespace templates {
+
+extern const char init[], reset[], update[], update_alone[], partial_update[], innovation[], control[], predict[], step[],
+    covariance[], covariance_in_loops[], set_state[], set_input[];
+extern const char linear_filter_form[], linear_predictor_form[], linear_state[];
+
+}  // namespace templates
+
+// The template with its lines chosen and its places filled, by common_words, what most templates ask for ("has.filter",
+// "keeps.sample", "size.nu" (is not 0) … as in Controller), and by these.
+std::string write_function(const char* text, const Controller& controller, Words words, Conditions conditions = {});
+
+}  // namespace lqg::emit
