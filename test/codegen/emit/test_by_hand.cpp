@@ -330,6 +330,17 @@ void test_regulators_alone() {
       }));
 }
 
+// set_input tells the law that the inputs on their way are u, whatever x says of them.
+void test_a_regulator_alone_with_inputs_on_their_way() {
+  DesignText design = double_integrator();
+  design.W.resize(0, 0);
+  expect_the_bits_of_the_step(changed(design, [](Problem& problem, Solution& solution) {
+    delay_input(problem, solution);
+    integrate_position(problem, solution);
+    solution.regulator->K = matrix({{0.8, 1.2, 0.12, 0.125, -0.25}});
+  }));
+}
+
 void test_inputs_on_their_way() { expect_the_bits_of_the_step(changed(double_integrator(), delay_input)); }
 
 }  // namespace
@@ -342,6 +353,7 @@ int main() {
   RUN_TEST(test_laws_that_begin_with_the_last_input);
   RUN_TEST(test_laws_with_feed_forward);
   RUN_TEST(test_regulators_alone);
+  RUN_TEST(test_a_regulator_alone_with_inputs_on_their_way);
   RUN_TEST(test_inputs_on_their_way);
   return UNITY_END();
 }
