@@ -1,15 +1,13 @@
 #include "emit/c/function_bodies.hpp"
 
+#include "emit/c/templates.hpp"
+
 namespace lqg::emit {
 
 std::string advance_counters(const Controller& controller) {
-  const auto advance = [](const std::string& counter, std::size_t last) {
-    return "    if (self->" + counter + " < " + std::to_string(last) + ")\n        self->" + counter + "++;\n";
-  };
-  std::string out;
-  if (controller.keeps.sample) out += advance("sample", controller.last_sample);
-  if (controller.keeps.gain_row) out += advance("gain_row", controller.filters.size() - 1);
-  return out;
+  const std::size_t last_gain_row = controller.filters.empty() ? 0 : controller.filters.size() - 1;
+  return write_body(templates::counters, controller, {{"last_sample", std::to_string(controller.last_sample)},
+                                                      {"last_gain_row", std::to_string(last_gain_row)}});
 }
 
 std::string row_of_law(const Controller& controller) {

@@ -4,6 +4,7 @@
 
 #include "controller/state_fields.hpp"
 #include "emit/c/function_bodies.hpp"
+#include "emit/c/templates.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 
@@ -123,11 +124,7 @@ std::string initial_state(const Controller& controller) {
                                                                            controller.target.is_double);
     values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "\n" : ",\n");
   }
-  return fill(R"(    static const {name}_t initial = {
-{values}    };
-
-    *self = initial;
-)", {{"name", controller.problem.name}, {"values", values}});
+  return write_body(templates::initial_state, controller, {{"values", values}});
 }
 
 FunctionBodies straight_line_bodies(const Controller& controller) {

@@ -11,20 +11,30 @@ Conditions common_conditions(const Controller& controller) {
           {"has.regulator", controller.has.regulator},
           {"has.variance", controller.has.variance},
           {"has.gate", controller.has.gate},
+          {"has.feedthrough", controller.has.feedthrough},
+          {"has.servo", controller.has.servo},
           {"keeps.any", controller.keeps.any},
           {"keeps.sample", controller.keeps.sample},
+          {"keeps.gain_row", controller.keeps.gain_row},
+          {"keeps.innovation", controller.keeps.innovation},
           {"size.nu", controller.size.nu > 0},
           {"size.nr", controller.size.nr > 0},
           {"size.nxi", controller.size.nxi > 0},
-          {"is_predictor", controller.is_predictor}};
+          {"is_predictor", controller.is_predictor},
+          {"is_steady", controller.filter == step::Filter::steady},
+          {"has_law_table", has_law_table(controller)}};
 }
 
 }  // namespace
 
-std::string write_function(const char* text, const Controller& controller, Words words, Conditions conditions) {
+std::string write_body(const char* text, const Controller& controller, Words words, Conditions conditions) {
   words.merge(common_words(controller));
   conditions.merge(common_conditions(controller));
   return fill(keep_lines(text, conditions), words);
+}
+
+std::string write_function(const char* text, const Controller& controller, Words words, Conditions conditions) {
+  return "\n" + write_body(text, controller, std::move(words), std::move(conditions));
 }
 
 }  // namespace lqg::emit

@@ -1,4 +1,4 @@
-// The emitted functions, whole, as they stand in templates/*.c.in: with {words} to fill in, and lines that only some
+// The emitted functions as they stand in templates/*.c.in: with {words} to fill in, and lines that only some
 // controllers have behind a mark, "//? condition".
 #pragma once
 
@@ -13,10 +13,18 @@ extern const char init[], reset[], update[], update_alone[], partial_update[], i
     covariance[], covariance_in_loops[], set_state[], set_input[];
 extern const char linear_filter_form[], linear_predictor_form[], linear_state[];
 
+// Bodies, and parts of them.
+extern const char initial_state[], counters[];
+extern const char compact_init[], compact_update[], compact_update_alone[], compact_predict[], compact_control[], compact_act[],
+    compact_filter_of_sample[], compact_law_of_sample[];
+
 }  // namespace templates
 
 // The template with its lines chosen and its places filled, by common_words, what most templates ask for ("has.filter",
 // "keeps.sample", "size.nu" (is not 0) … as in Controller), and by these.
+std::string write_body(const char* text, const Controller& controller, Words words, Conditions conditions = {});
+
+// The same behind an empty line.
 std::string write_function(const char* text, const Controller& controller, Words words, Conditions conditions = {});
 
 }  // namespace lqg::emit

@@ -36,10 +36,28 @@ void expect_order(const std::string& text, const std::vector<std::string>& parts
   }
 }
 
+// No place is left open, and no mark.
+void expect_no_rest_of_a_template(const std::string& text) {
+  TEST_ASSERT_TRUE(text.find("//?") == std::string::npos);
+  for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1)) {
+    const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_", at + 1);
+    if (end > at + 1 && end < text.size() && text[end] == '}') TEST_FAIL_MESSAGE(text.substr(at, end + 1 - at).c_str());
+  }
+}
+
 const char* const functions[] = {"loop_init(loop_t *self)", "loop_update(loop_t *self, const float y[LOOP_NY])",
                                  "loop_control(const loop_t *self, float u[LOOP_NU])",
                                  "loop_predict(loop_t *self, const float u[LOOP_NU])",
                                  "loop_step(loop_t *self, const float y[LOOP_NY], float u[LOOP_NU])"};
+
+void test_nothing_of_a_template_is_left_in_a_header() {
+  Random random(11);
+  for (int k = 0; k < 12; ++k) {
+    const DesignText design = random_design(random, random.between(1, 3));
+    for (const Style style : {Style::unrolled, Style::compact})
+      expect_no_rest_of_a_template(lqg::emit::header(controller_in(style, design)));
+  }
+}
 
 void test_header_has_its_parts_in_the_order_of_the_contract() {
   for (const Style style : {Style::unrolled, Style::compact}) {
@@ -249,6 +267,7 @@ void test_ram_is_exactly_the_size_of_the_state() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_header_has_its_parts_in_the_order_of_the_contract);
+  RUN_TEST(test_nothing_of_a_template_is_left_in_a_header);
   RUN_TEST(test_every_function_carries_its_contract);
   RUN_TEST(test_step_makes_its_calls_in_the_order_of_the_form);
   RUN_TEST(test_what_a_controller_does_not_have_is_not_written);
