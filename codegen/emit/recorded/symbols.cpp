@@ -1,0 +1,135 @@
+#include "emit/recorded/symbols.hpp"
+
+#include "controller/gains.hpp"
+#include "controller/model_of.hpp"
+#include "design/numeric/linear_algebra.hpp"
+#include "emit/text/wording.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using trace::Expr;
+
+// Symbols for the entries of the pattern, zeros elsewhere. `place` tells row and column of an entry.
+template <class Place>
+std::vector<Expr> load_pattern(trace::Graph& graph, const std::string& array, const std::string& name, int size,
+                               const std::vector<Expr>& initial, const std::vector<bool>& pattern, std::size_t from,
+                               Place place) {
+  std::vector<Expr> symbols;
+  for (std::size_t k = 0; k < initial.size(); ++k) {
+    if (!pattern[from + k]) {
+      symbols.push_back(Expr(0));
+      continue;
+    }
+    const auto [i, j] = place(static_cast<int>(k));
+    symbols.push_back(Expr::of(graph.input(element(array, static_cast<int>(k)), name + index_suffix(i, j, size))));
+  }
+  return symbols;
+}
+
+std::pair<int, int> place_in_triangle(int k) {
+  int i = 0;
+  while ((i + 1) * (i + 2) / 2 <= k) ++i;
+  return {i, k - i * (i + 1) / 2};
+}
+
+std::pair<int, int> place_in_strict_triangle(int k) {
+  int j = 1;
+  while ((j + 1) * j / 2 <= k) ++j;
+  return {k - j * (j - 1) / 2, j};
+}
+
+// Entries that change from sample to sample are read from a row of their table: of those entries alone in straight-line
+// code, of all of K, Nbar or H where the library's loops run over it.
+void read_row(const Controller& controller, const std::vector<Gains>& rows, const char* table,
+              const std::vector<const char*>& names, const std::vector<step::Matrix<Expr>*>& matrices) {
+  const bool compact = controller.style == design::Style::compact;
+  int at = 0;
+  for (const auto& [matrix, i, j] : controller::changing_places(rows, controller.target.is_double)) {
+    step::Matrix<Expr>& gain = *matrices[matrix];
+    const std::string entry = compact ? element(names[matrix], i * static_cast<int>(gain.cols()) + j) : element(table, at++);
+    gain(i, j) = Expr::of(trace::graph().input(entry, names[matrix] + index_suffix(i, j, controller.size.nx)));
+  }
+}
+
+}  // namespace
+
+SymbolicModel symbolic_model(const Controller& controller) {
+  const bool is_double = controller.target.is_double;
+  SymbolicModel model = controller::model_of<Expr>(controller, [&](const design::Real& value) {
+    return Expr(rounded_to_target(value, is_double));
+  });
+  read_row(controller, controller.laws, "law", {"K", "Nbar", "H"}, {&model.K, &model.Nbar, &model.H});
+  step::Matrix<Expr> variance = model.variance;
+  read_row(controller, controller.filters, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance});
+  if (controller.has.gate) model.variance = variance;
+  return model;
+}
+
+SymbolicModel model_of_outputs(const Controller& controller) {
+  SymbolicModel model = symbolic_model(controller);
+  const auto round = [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.target.is_double)); };
+  model.C = controller::convert<Expr>(controller.solution.plant.C, round);
+  if (controller.has.feedthrough) model.D = controller::convert<Expr>(controller.solution.plant.D, round);
+  if (!controller.solution.online) {
+    if (controller.style == design::Style::compact && controller.has.gate && controller.keeps.gain_row)
+      for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
+        model.variance(i) = Expr::of(trace::graph().input(
+            fill("{NAME}_KALMAN_S[self->gain_row * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
+    return model;
+  }
+  const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
+  const design::OnlineSolution& online = *controller.solution.online;
+  const design::RealMatrix inverse = *design::solve(online.E, design::identity(online.E.rows()));
+  model.V = controller::convert<Expr>(design::congruence(inverse, online.V.asDiagonal()).diagonal(), round);
+  return model;
+}
+
+void load_memory(const SymbolicModel& model, SymbolicState& state) {
+  const SymbolicState sizes = step::initial_state(model);
+  const auto load_as = [&](const Symbols& like, const char* array, const char* name) {
+    return load(trace::graph(), std::string("self->") + array, name, static_cast<int>(like.size()));
+  };
+  state.u = load_as(sizes.u, "u_applied", "u_applied");
+  state.innovation = load_as(sizes.innovation, "innovation", "kept");
+  state.r = load_as(sizes.r, "r", "r");
+  state.xi = load_as(sizes.xi, "xi", "integral");
+  state.error = load_as(sizes.error, "error", "error");
+  state.demand = load_as(sizes.demand, "demand", "asked");
+}
+
+SymbolicState load_state(const SymbolicModel& model, const std::vector<bool>& pattern) {
+  trace::Graph& graph = trace::graph();
+  SymbolicState state;
+  state.x = load(graph, model.filter == step::Filter::none ? "x" : "self->x", "x", model.nx);
+  if (!pattern.empty()) {
+    state.P = load_pattern(graph, "self->P", "P", model.nx, model.P0, pattern, 0, place_in_triangle);
+    state.U = load_pattern(graph, "self->U", "U", model.nx, model.U0, pattern, 0, place_in_strict_triangle);
+    state.D = load_pattern(graph, "self->d", "d", model.nx, model.D0, pattern, model.U0.size(),
+                           [](int k) { return std::pair(k, -1); });
+  }
+  load_memory(model, state);
+  return state;
+}
+
+void store_state(TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern) {
+  const auto store_vector = [&](const char* array, const Symbols& values) {
+    for (int i = 0; i < values.size(); ++i) store(function, element(std::string("self->") + array, i), values(i));
+  };
+  const auto store_covariance = [&](const char* array, const std::vector<Expr>& values, std::size_t from) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (pattern[from + k]) store(function, element(array, static_cast<int>(k)), values[k]);
+  };
+  store_vector("x", state.x);
+  store_covariance("self->P", state.P, 0);
+  store_covariance("self->U", state.U, 0);
+  store_covariance("self->d", state.D, state.U.size());
+  store_vector("u_applied", state.u);
+  store_vector("innovation", state.innovation);
+  store_vector("xi", state.xi);
+  store_vector("error", state.error);
+  store_vector("demand", state.demand);
+}
+
+}  // namespace lqg::emit

@@ -1,0 +1,25 @@
+// The model and the state of a controller as symbols: numbers of the target, members of self, entries of tables.
+#pragma once
+
+#include "emit/recorded/trace_listener.hpp"
+
+namespace lqg::emit {
+
+using SymbolicModel = step::Model<trace::Expr>;
+using SymbolicState = step::State<trace::Expr>;
+
+// In the graph in force. Gains that change from sample to sample are inputs, the rest are numbers.
+SymbolicModel symbolic_model(const Controller& controller);
+
+// The same of the outputs as they are, not made uncorrelated: V = E⁻¹ diag(V) E⁻ᵀ.
+SymbolicModel model_of_outputs(const Controller& controller);
+
+// With the entries of the covariance that are in `pattern`; no pattern: without it.
+SymbolicState load_state(const SymbolicModel& model, const std::vector<bool>& pattern);
+
+// All of a state that is neither the estimate nor its covariance.
+void load_memory(const SymbolicModel& model, SymbolicState& state);
+
+void store_state(TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern);
+
+}  // namespace lqg::emit
