@@ -8,6 +8,7 @@
 #include "emit/vectors/linear_vectors.hpp"
 #include "simulate/emitted_controller.hpp"
 #include "simulate/plant.hpp"
+#include "step/covariance.hpp"
 
 namespace lqg::emit {
 
@@ -22,19 +23,11 @@ using step::Vector;
 
 constexpr int bits_to_bound = 8;  // a plant that nobody stabilises leaves: the vectors end 2⁸ before a bound
 
-// P, lower triangle, of either covariance form; empty with a steady gain.
+// P, lower triangle; empty with a steady gain.
 template <class S>
-std::vector<double> covariance(const step::Model<S>& model, const step::State<S>& state) {
+std::vector<double> covariance(const EmittedController<S>& emitted) {
   std::vector<double> out;
-  for (const S& entry : state.P) out.push_back(as_double(entry));
-  if (model.filter != step::Filter::ud) return out;
-  for (int i = 0; i < model.nx; ++i)
-    for (int j = 0; j <= i; ++j) {
-      S sum = i == j ? state.D[i] : S(state.U[step::strict_triangle(j, i)] * state.D[i]);
-      for (int k = i + 1; k < model.nx; ++k)
-        sum = sum + state.U[step::strict_triangle(j, k)] * state.D[k] * state.U[step::strict_triangle(i, k)];
-      out.push_back(as_double(sum));
-    }
+  for (const S& entry : step::covariance(emitted.model(), emitted.state())) out.push_back(as_double(entry));
   return out;
 }
 
@@ -123,7 +116,7 @@ void record_reference(EmittedController<S> emitted, std::vector<Sample>& samples
   std::size_t k = 0;
   replay(emitted, std::vector<Sample>(samples), [&](const EmittedController<S>& now, const Vector<S>& control) {
     samples[k].x = list_of(now.state().x);
-    samples[k].P = covariance(now.model(), now.state());
+    samples[k].P = covariance(now);
     if (now.model().filter == step::Filter::none) samples[k].u = list_of(control);
     u.push_back(list_of(control));
     ++k;
@@ -152,7 +145,7 @@ void compare(const Controller& controller, Vectors& vectors, const std::vector<s
     const Sample& reference = vectors.samples[k];
     of_x.add(list_of(now.state().x), reference.x);
     of_u.add(list_of(control), u[k]);
-    of_P.add(covariance(now.model(), now.state()), reference.P);
+    of_P.add(covariance(now), reference.P);
     add_sample(controller.has.filter, now.state(), control, hash);
     ++k;
   });
