@@ -114,6 +114,7 @@ class Host {
     record_.add_all(lqg::step::covariance(emitted_.model(), emitted_.state()));
     for (int i = 0; i < controller_.size.ny; ++i)
       if (lqg::controller::can_update_alone(controller_, i)) record_.add_status(emitted_.update_alone(i, S(call.late_y(i))));
+    add_state();  // before the updates and predictions behind it write over it
     set_state(call);
     if (lqg::controller::can_set_input(controller_)) set_input(call);
     if (has_partial_update(controller_)) record_.add_status(partial_update(numbers(call.late_y), call.used));
@@ -170,6 +171,13 @@ std::string literals(const VectorXd& values, bool is_double) {
   return "{" + out + "}";
 }
 
+std::string show_state(const Controller& controller) {
+  std::string out;
+  for (const auto& field : lqg::controller::state_fields(controller))
+    if (field.kind == lqg::controller::Kind::reals && field.name != "r") out += "        SHOW(self." + field.name + ");\n";
+  return out;
+}
+
 // The calls of one sample, in C.
 std::string in_c(const Controller& controller, const Calls& call) {
   const bool is_double = controller.target.is_double;
@@ -187,6 +195,7 @@ std::string in_c(const Controller& controller, const Calls& call) {
     for (int i = 0; i < controller.size.ny; ++i)
       if (lqg::controller::can_update_alone(controller, i))
         status("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name + "(&self, late_y[" + std::to_string(i) + "])");
+    out += show_state(controller);
     status("set_state(&self, x)");
     if (lqg::controller::can_set_input(controller)) status("set_input(&self, u)");
     if (has_partial_update(controller)) status("partial_update(&self, late_y, " + std::to_string(call.used) + "ul)");
@@ -197,9 +206,7 @@ std::string in_c(const Controller& controller, const Calls& call) {
     out += "        SHOW(given);\n";
     if (lqg::controller::can_set_input(controller)) status("set_input(&self, x, u)");
   }
-  for (const auto& field : lqg::controller::state_fields(controller))
-    if (field.kind == lqg::controller::Kind::reals && field.name != "r") out += "        SHOW(self." + field.name + ");\n";
-  return out + "    }\n";
+  return out + show_state(controller) + "    }\n";
 }
 
 std::string program(const Controller& controller, const std::vector<Calls>& calls) {
