@@ -139,17 +139,4 @@ auto set_state(const LinearModel<S>& model, LinearState<S>& state, const Vector<
   return bounds.is_within();
 }
 
-// One sample as `NAME_step` takes it; numbers only. `look(state)` is called between control and advance.
-template <class S, class Look>
-unsigned run_sample(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Vector<S>& u, Look look) {
-  Listener listener;
-  u = control(model, state, y, listener);
-  look(state);
-  const Vector<S> heard = model.predictor_form ? heard_outputs(model, state, y, listener) : state.y;
-  if (advance(model, state, heard, listener)) return listener.events;
-  state = initial_state(model);
-  listener.raise(Event::state_reset, true);
-  return listener.events;
-}
-
 }  // namespace lqg::step
