@@ -141,12 +141,14 @@ random() {
   done
 }
 
-# fuzz_one <part> <program> <folder or file to begin with> <option>…
+# fuzz_one <part> <program> <folder or file to begin with> <option>…: a minute or less, a sample, has a seed of its own; a
+# campaign another one each time.
 fuzz_one() {
-  local part=$1 program=$2 seeds=$3
+  local part=$1 program=$2 seeds=$3 seed=()
   shift 3
+  [ "$seconds" -gt 60 ] || seed=(-seed=1)
   mkdir -p "$folder/$part/corpus"
-  start "$part" "$program" "-max_total_time=$seconds" -timeout=10 "$@" corpus "$seeds"
+  start "$part" "$program" "-max_total_time=$seconds" -timeout=10 "${seed[@]}" "$@" corpus "$seeds"
 }
 
 fuzz() {
