@@ -1,6 +1,10 @@
 // The emitted controller at work: the calls of its header for any scalar, with what they keep, count and say.
 #pragma once
 
+#include <algorithm>
+#include <functional>
+#include <vector>
+
 #include "controller/model_of.hpp"
 #include "step/loop.hpp"
 
