@@ -73,9 +73,11 @@ lqg_status lqg_kalman_ud_update_watched(const lqg_kalman_ud_t *kalman, lqg_real 
 
     for (unsigned i = 0; i < plant->ny; i++) {
         const int used = lqg_watch_uses(watch, i);
-        const lqg_status left_out = used ? update_output(kalman, i, x, U, d, u_applied, outputs[i], watch, work) : LQG_OK;
+        const lqg_status left_out =
+            used ? update_output(kalman, i, x, U, d, u_applied, outputs[i], watch, work) : LQG_OK;
         status |= left_out;
-        note_taken(kalman->M, innovation, i, used && !left_out);
+        if (kalman->M)
+            innovation[i] = used && !left_out ? 1 : 0;
     }
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);

@@ -29,7 +29,7 @@ const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E
 /* y'_i of y_i alone: y_i itself, or NaN where row i of E (MAY be NULL) needs other outputs. */
 lqg_real lqg_plant_decorrelate_alone(const lqg_plant_t *plant, const lqg_real E[], unsigned i, lqg_real y_i);
 
-/* innovation_i ← y'_i − C_i x − D_i u where innovation_i is 1 (output i was taken); it stays 0 elsewhere. */
+/* innovation_i ← y'_i − C_i x − D_i u where innovation_i is 1 (output i was used); it stays 0 elsewhere. */
 void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[],
                               const lqg_real y[], lqg_real innovation[]);
 
@@ -43,12 +43,5 @@ int lqg_watch_uses(const lqg_watch_t *watch, unsigned i);
 /* Writes down the innovation of output i, which is 0 if it is not believable, and its variance s. LQG_OUTPUT_GATED when the gate leaves it out,
  * which is counted; an innovation that is not finite passes. */
 lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s);
-
-/* Notes for lqg_plant_keep_residuals, where there is an M, whether output i was taken: innovation_i ← 1 or 0. */
-static inline void note_taken(const lqg_real M[], lqg_real innovation[], unsigned i, int taken)
-{
-    if (M)
-        innovation[i] = taken ? 1 : 0;
-}
 
 #endif
