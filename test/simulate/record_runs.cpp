@@ -85,11 +85,11 @@ std::vector<simulate::SimulationOptions> runs_of(const Controller& controller) {
   return {fair, failing, far};
 }
 
-void write(std::FILE* file, const Eigen::VectorXd& values) {
-  std::fwrite(values.data(), sizeof(double), static_cast<std::size_t>(values.size()), file);
-}
-
 void write(std::FILE* file, double value) { std::fwrite(&value, sizeof value, 1, file); }
+
+void write(std::FILE* file, const Eigen::VectorXd& values) {
+  for (const double value : values) write(file, value);
+}
 
 void record(const Controller& controller, const simulate::SimulationOptions& options, std::FILE* file) {
   const simulate::Trajectory run = simulate::simulate(controller, options);
