@@ -106,26 +106,6 @@ void test_P_of_the_vectors_ends_at_the_posterior_of_the_design() {
 // 5-σ bounds: with a fixed seed the test cannot fail by chance later.
 constexpr double sigmas = 5;
 
-// splitmix64 from 1234567: 6457827717110365317, 3203168211198807973 (the sequence published with the generator).
-void test_noise_is_splitmix64() {
-  lqg::simulate::Noise noise(1234567);
-  TEST_ASSERT_TRUE(noise.uniform() == (3153236189995295 + 0.5) / 9007199254740992.0 - 0.5);
-  TEST_ASSERT_TRUE(noise.uniform() == (1564046978124417 + 0.5) / 9007199254740992.0 - 0.5);
-}
-
-void test_noise_has_mean_zero_and_variance_one() {
-  constexpr int draws = 100000;
-  lqg::simulate::Noise noise(1);
-  double sum = 0, squares = 0;
-  for (int i = 0; i < draws; ++i) {
-    const double value = noise.normal();
-    sum += value;
-    squares += value * value;
-  }
-  TEST_ASSERT_TRUE(std::abs(sum / draws) < sigmas / std::sqrt(draws));
-  TEST_ASSERT_TRUE(std::abs(squares / draws - 1) < sigmas * std::sqrt(2.0 / draws));
-}
-
 // With x0 = 0 and u = 0 the first output is v, and the state after it G w.
 void test_the_simulated_plant_has_the_noise_of_the_design() {
   constexpr int draws = 20000;
@@ -161,8 +141,6 @@ int main() {
   RUN_TEST(test_inputs_and_outputs_are_numbers_of_the_target);
   RUN_TEST(test_the_hash_tells_reals_and_arithmetics_apart);
   RUN_TEST(test_P_of_the_vectors_ends_at_the_posterior_of_the_design);
-  RUN_TEST(test_noise_is_splitmix64);
-  RUN_TEST(test_noise_has_mean_zero_and_variance_one);
   RUN_TEST(test_the_simulated_plant_has_the_noise_of_the_design);
   return UNITY_END();
 }
