@@ -59,15 +59,24 @@ void track_position(Problem& problem, Solution& solution) {
   solution.regulator->Nbar = matrix({{4}});
 }
 
+// The covariance of a state that inputs on their way were added to, which are known.
+RealMatrix with_known_states(const RealMatrix& covariance, Eigen::Index added) {
+  const Eigen::Index known = covariance.rows();
+  RealMatrix out = RealMatrix::Zero(known + added, known + added);
+  out.topLeftCorner(known, known) = covariance;
+  return out;
+}
+
 void delay_input(Problem&, Solution& solution) {
   solution.plant.A = matrix({{1, 0.1, 0.005, 0}, {0, 1, 0.1, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}});
   solution.plant.B = matrix({{0}, {0}, {0}, {1}});
   solution.plant.G = matrix({{0.005}, {0.1}, {0}, {0}});
+  solution.plant.C = matrix({{1, 0, 0, 0}});
   if (solution.regulator) solution.regulator->K = matrix({{0.8, 1.2, 0.12, 0.12}});
   if (!solution.estimator) return;
-  solution.plant.C = matrix({{1, 0, 0, 0}});
   solution.estimator->L = matrix({{0.3}, {0.5}, {0}, {0}});
   solution.estimator->M = matrix({{0}, {0}, {0}, {0}});
+  for (RealMatrix* P : {&solution.estimator->P_prior, &solution.estimator->P_posterior}) *P = with_known_states(*P, 2);
 }
 
 }  // namespace lqg_test
