@@ -7,27 +7,36 @@
 
 LQG_STRICT_BEGIN
 
-void lqg_ekf_init(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_real d[])
+static void begin_covariance(const lqg_ekf_t *ekf, lqg_real U[], lqg_real d[])
 {
-    begin(x, ekf->x0, ekf->nx);
     begin(U, ekf->U0, LQG_STRICT_TRIANGLE(ekf->nx));
     copy(d, ekf->d0, ekf->nx);
 }
 
-/* `factors`: U and d are looked at, too. */
-static lqg_status reset_unless_finite(const lqg_ekf_t *ekf, int factors, lqg_real x[], lqg_real U[],
-                                      lqg_real d[])
+void lqg_ekf_init(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_real d[])
 {
-    bounds_check_t check = {0, 0};
+    begin(x, ekf->x0, ekf->nx);
+    begin_covariance(ekf, U, d);
+}
+
+/* x̂ not finite: all begins anew. U or d not finite, or d no variances: they do, and x̂ stays. `factors`: they are looked
+ * at, too. */
+static lqg_status recover(const lqg_ekf_t *ekf, int factors, lqg_real x[], lqg_real U[], lqg_real d[])
+{
+    bounds_check_t check = {0, 0, 0};
 
     add_finite(&check, x, ekf->nx);
+    if (!is_within_bounds(&check)) {
+        lqg_ekf_init(ekf, x, U, d);
+        return LQG_STATE_RESET;
+    }
     if (factors)
         add_factors(&check, U, d, NULL, ekf->nx);
-    if (is_within_bounds(&check))
-        return LQG_OK;
-
-    lqg_ekf_init(ekf, x, U, d);
-    return LQG_STATE_RESET;
+    if (!is_within_bounds(&check)) {
+        begin_covariance(ekf, U, d);
+        return LQG_COVARIANCE_RESET;
+    }
+    return LQG_OK;
 }
 
 /* innovation = y − expected */
@@ -84,7 +93,7 @@ lqg_status lqg_ekf_update(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_
 
     for (unsigned j = 0; j < nx; j++)
         x[j] += delta[j];
-    return status | reset_unless_finite(ekf, 0, x, U, d);
+    return status | recover(ekf, 0, x, U, d);
 }
 
 lqg_status lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_real d[], const lqg_real u[],
@@ -98,7 +107,7 @@ lqg_status lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg
     copy(x, next, nx);
     lqg_factors_predict(U, d, nx, A, ekf->nq, ekf->G, ekf->w, scratch);
 
-    return reset_unless_finite(ekf, 1, x, U, d);
+    return recover(ekf, 1, x, U, d);
 }
 
 LQG_STRICT_END

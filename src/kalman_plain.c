@@ -12,20 +12,30 @@ void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_r
     copy(P, kalman->P0, LQG_TRIANGLE(kalman->plant.nx));
 }
 
-/* `diagonal`: P is looked at, too. What is beyond its bounds elsewhere is on the diagonal one sample later. */
-static lqg_status reset_unless_bounded(const lqg_kalman_plain_t *kalman, int diagonal, lqg_real x[],
-                                       lqg_real P[], lqg_real u_applied[], lqg_real innovation[])
+/* x̂ not within its bounds: all begins anew. P not within its own, or no covariance: P does, and x̂ stays. */
+static lqg_status recover(const lqg_kalman_plain_t *kalman, int x_is_fit, int P_is_fit, lqg_real x[], lqg_real P[],
+                          lqg_real u_applied[], lqg_real innovation[])
 {
-    bounds_check_t check = {0, 0};
+    if (!x_is_fit) {
+        lqg_kalman_plain_init(kalman, x, P, u_applied, innovation);
+        return LQG_STATE_RESET;
+    }
+    if (!P_is_fit) {
+        copy(P, kalman->P0, LQG_TRIANGLE(kalman->plant.nx));
+        return LQG_COVARIANCE_RESET;
+    }
+    return LQG_OK;
+}
+
+/* After an update: of a covariance the variance of an innovation is V at least. */
+static lqg_status recover_from_update(const lqg_kalman_plain_t *kalman, lqg_status status, lqg_real x[], lqg_real P[],
+                                      lqg_real u_applied[], lqg_real innovation[])
+{
+    bounds_check_t check = {0, 0, 0};
+    const int P_is_fit = !(status & LQG_INNOVATION_NOT_POSITIVE);
 
     lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
-    for (unsigned i = 0; diagonal && i < kalman->plant.nx; i++)
-        add_variance(&check, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
-    if (is_within_bounds(&check))
-        return LQG_OK;
-
-    lqg_kalman_plain_init(kalman, x, P, u_applied, innovation);
-    return LQG_STATE_RESET;
+    return status | recover(kalman, is_within_bounds(&check), P_is_fit, x, P, u_applied, innovation);
 }
 
 /* Σ_k P_jk v_k: along row j of the triangle as far as the diagonal, then down column j. */
@@ -103,7 +113,7 @@ lqg_status lqg_kalman_plain_update_watched(const lqg_kalman_plain_t *kalman, lqg
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);
 
-    return status | reset_unless_bounded(kalman, 0, x, P, u_applied, innovation);
+    return recover_from_update(kalman, status, x, P, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
@@ -116,7 +126,7 @@ lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_
     const lqg_status left_out = update_output(kalman, i, x, P, u_applied, alone, watch, work);
     if (kalman->M)
         innovation[i] = left_out ? 0 : lqg_plant_innovation(plant, i, x, u_applied, alone);
-    return left_out | reset_unless_bounded(kalman, 0, x, P, u_applied, innovation);
+    return recover_from_update(kalman, left_out, x, P, u_applied, innovation);
 }
 
 /* P ← A P Aᵀ + W. AP[nx × nx] is scratch. */
@@ -138,9 +148,16 @@ lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x
                                     lqg_real u_applied[], lqg_real innovation[], const lqg_real u[],
                                     lqg_real work[])
 {
+    bounds_check_t check = {0, 0, 0};
+
     lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
     predict_covariance(kalman, P, work);
-    return reset_unless_bounded(kalman, 1, x, P, u_applied, innovation);
+
+    lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
+    const int x_is_fit = is_within_bounds(&check);
+    for (unsigned i = 0; i < kalman->plant.nx; i++) /* |P_ij| ≤ √(P_ii P_jj) */
+        add_variance(&check, P[LQG_TRIANGLE(i) + i], kalman->x_scale, i);
+    return recover(kalman, x_is_fit, is_within_bounds(&check), x, P, u_applied, innovation);
 }
 
 LQG_STRICT_END

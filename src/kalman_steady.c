@@ -14,7 +14,7 @@ void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg
 static lqg_status reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
                                        lqg_real innovation[])
 {
-    bounds_check_t check = {0, 0};
+    bounds_check_t check = {0, 0, 0};
 
     lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
     if (is_within_bounds(&check))

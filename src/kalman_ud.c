@@ -15,20 +15,29 @@ void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[
     copy(d, kalman->d0, nx);
 }
 
-/* `factors`: U and d are looked at, too. */
-static lqg_status reset_unless_bounded(const lqg_kalman_ud_t *kalman, int factors, lqg_real x[], lqg_real U[],
-                                       lqg_real d[], lqg_real u_applied[], lqg_real innovation[])
+/* x̂ not within its bounds: all begins anew. U or d not within theirs, or d no variances: they do, and x̂ stays. */
+static lqg_status recover(const lqg_kalman_ud_t *kalman, int x_is_fit, int P_is_fit, lqg_real x[], lqg_real U[],
+                          lqg_real d[], lqg_real u_applied[], lqg_real innovation[])
 {
-    bounds_check_t check = {0, 0};
+    if (!x_is_fit) {
+        lqg_kalman_ud_init(kalman, x, U, d, u_applied, innovation);
+        return LQG_STATE_RESET;
+    }
+    if (!P_is_fit) {
+        copy(U, kalman->U0, LQG_STRICT_TRIANGLE(kalman->plant.nx));
+        copy(d, kalman->d0, kalman->plant.nx);
+        return LQG_COVARIANCE_RESET;
+    }
+    return LQG_OK;
+}
+
+static lqg_status recover_from_update(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],
+                                      lqg_real u_applied[], lqg_real innovation[])
+{
+    bounds_check_t check = {0, 0, 0};
 
     lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
-    if (factors)
-        add_factors(&check, U, d, kalman->x_scale, kalman->plant.nx);
-    if (is_within_bounds(&check))
-        return LQG_OK;
-
-    lqg_kalman_ud_init(kalman, x, U, d, u_applied, innovation);
-    return LQG_STATE_RESET;
+    return recover(kalman, is_within_bounds(&check), 1, x, U, d, u_applied, innovation);
 }
 
 /* Takes output i, y_i, into x̂, U and d, or leaves it out and says why. f[nx] is scratch. */
@@ -82,7 +91,7 @@ lqg_status lqg_kalman_ud_update_watched(const lqg_kalman_ud_t *kalman, lqg_real 
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);
 
-    return status | reset_unless_bounded(kalman, 0, x, U, d, u_applied, innovation);
+    return status | recover_from_update(kalman, x, U, d, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[],
@@ -95,7 +104,7 @@ lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x
     const lqg_status left_out = update_output(kalman, i, x, U, d, u_applied, alone, watch, work);
     if (kalman->M)
         innovation[i] = left_out ? 0 : lqg_plant_innovation(plant, i, x, u_applied, alone);
-    return left_out | reset_unless_bounded(kalman, 0, x, U, d, u_applied, innovation);
+    return left_out | recover_from_update(kalman, x, U, d, u_applied, innovation);
 }
 
 lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],
@@ -104,11 +113,15 @@ lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lq
 {
     const unsigned nx = kalman->plant.nx;
     const lqg_real *A = kalman->M ? kalman->A_free : kalman->plant.A;
+    bounds_check_t check = {0, 0, 0};
 
     lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
     lqg_factors_predict(U, d, nx, A, kalman->nq, kalman->G, kalman->w, work);
 
-    return reset_unless_bounded(kalman, 1, x, U, d, u_applied, innovation);
+    lqg_bounds_check_add(&check, x, kalman->x_scale, nx);
+    const int x_is_fit = is_within_bounds(&check);
+    add_factors(&check, U, d, kalman->x_scale, nx);
+    return recover(kalman, x_is_fit, is_within_bounds(&check), x, U, d, u_applied, innovation);
 }
 
 LQG_STRICT_END

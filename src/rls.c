@@ -6,14 +6,19 @@
 
 LQG_STRICT_BEGIN
 
-void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+static void begin_covariance(const lqg_rls_t *rls, lqg_real U[], lqg_real d[])
 {
-    begin(theta, rls->theta0, rls->ntheta);
     begin(U, NULL, LQG_STRICT_TRIANGLE(rls->ntheta));
     for (unsigned i = 0; i < rls->ntheta; i++) {
         const lqg_real wanted = rls->P0_diagonal[i];
         d[i] = rls->P_limits && wanted > rls->P_limits[i] ? rls->P_limits[i] : wanted;
     }
+}
+
+void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+{
+    begin(theta, rls->theta0, rls->ntheta);
+    begin_covariance(rls, U, d);
 }
 
 /* P_ii = d_i + Σ_{j>i} d_j U_ij² */
@@ -45,17 +50,22 @@ static void limit_variances(const lqg_rls_t *rls, lqg_real U[], lqg_real d[], in
     }
 }
 
-static lqg_status reset_unless_finite(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+/* θ not finite: all begins anew. U or d not finite, or d no variances: they do, and θ stays. */
+static lqg_status recover(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
 {
-    bounds_check_t check = {0, 0};
+    bounds_check_t check = {0, 0, 0};
 
     add_finite(&check, theta, rls->ntheta);
+    if (!is_within_bounds(&check)) {
+        lqg_rls_init(rls, theta, U, d);
+        return LQG_STATE_RESET;
+    }
     add_factors(&check, U, d, NULL, rls->ntheta);
-    if (is_within_bounds(&check))
-        return LQG_OK;
-
-    lqg_rls_init(rls, theta, U, d);
-    return LQG_STATE_RESET;
+    if (!is_within_bounds(&check)) {
+        begin_covariance(rls, U, d);
+        return LQG_COVARIANCE_RESET;
+    }
+    return LQG_OK;
 }
 
 lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[],
@@ -82,7 +92,7 @@ lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], 
     if (rls->P_limits)
         limit_variances(rls, U, d, usable, work);
 
-    return (usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) | reset_unless_finite(rls, theta, U, d);
+    return (usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) | recover(rls, theta, U, d);
 }
 
 LQG_STRICT_END

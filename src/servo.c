@@ -90,7 +90,7 @@ lqg_status lqg_servo_control(const lqg_servo_t *servo, const lqg_real x[], const
 static lqg_status reset_unless_bounded(const lqg_servo_t *servo, lqg_real xi[], lqg_real error[],
                                        lqg_real demand[], lqg_real u_applied[], const lqg_real u[])
 {
-    bounds_check_t check = {0, 0};
+    bounds_check_t check = {0, 0, 0};
 
     lqg_bounds_check_add(&check, xi, servo->xi_scale, servo->nxi);
     if (u_applied)

@@ -5,6 +5,8 @@ const char *lqg_status_text(lqg_status status)
 {
     if (status & LQG_STATE_RESET)
         return "the state left its bounds and begins anew";
+    if (status & LQG_COVARIANCE_RESET)
+        return "the covariance was none and begins anew";
     if (status & LQG_INNOVATION_NOT_POSITIVE)
         return "the variance of an innovation was not positive: the output was left out";
     if (status & LQG_REFERENCE_NOT_FINITE)

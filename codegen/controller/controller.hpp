@@ -118,6 +118,11 @@ const FormCost& chosen_form(const FormChoice& forms);
 // "folded"
 std::string name_of(design::Realisation realisation);
 
+// P is carried along.
+inline bool carries_covariance(const Controller& controller) {
+  return controller.filter == step::Filter::plain || controller.filter == step::Filter::ud;
+}
+
 // The law reads a table of gains, row by row.
 inline bool has_law_table(const Controller& controller) { return controller.laws.size() > 1; }
 // control writes to the state, beside a filter.

@@ -65,6 +65,8 @@ std::vector<Field> state_fields(const Controller& controller) {
   if (controller.keeps.gain_row)
     fields.push_back({"gain_row", Kind::counter, 1, "", "the same for the filter's gains; 0 after a reset", {}});
   if (controller.has.filter) fields.push_back(resets);
+  if (controller.solution.online)
+    fields.push_back({"covariance_resets", Kind::total, 1, "", "how often P alone began anew, likewise", {}});
   if (controller.has.gate)
     fields.push_back({"gated", Kind::counters, controller.size.ny, "{NAME}_NY", "how often the gate left an output out", {}});
   return fields;

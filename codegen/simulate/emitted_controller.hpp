@@ -69,6 +69,7 @@ class EmittedController {
   step::State<S>& state() { return state_; }
   const step::State<S>& state() const { return state_; }
   unsigned long resets() const { return resets_; }
+  unsigned long covariance_resets() const { return covariance_resets_; }
   const std::vector<unsigned long>& gated() const { return gated_; }
 
  private:
@@ -87,13 +88,15 @@ class EmittedController {
     load();
   }
 
-  // What NAME_reset does: the time, the references and the counters stay.
+  // What NAME_recover and NAME_reset do: the time, the references and the counters stay.
   unsigned end(bool is_within, step::Listener& listener) {
     if (is_within) return listener.events;
-    step::begin_anew(model_, state_);
-    go_to(sample_, 0);
-    ++resets_;
-    listener.raise(step::Event::state_reset, true);
+    if (step::recover(model_, state_, listener)) {
+      ++covariance_resets_;
+    } else {
+      go_to(sample_, 0);
+      ++resets_;
+    }
     return listener.events;
   }
 
@@ -102,7 +105,7 @@ class EmittedController {
   step::Model<S> model_;
   step::State<S> state_;
   std::size_t sample_ = 0, gain_row_ = 0;
-  unsigned long resets_ = 0;
+  unsigned long resets_ = 0, covariance_resets_ = 0;
   std::vector<unsigned long> gated_;
 };
 

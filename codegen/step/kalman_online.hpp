@@ -13,21 +13,28 @@ auto update_online_output(const Model<S>& model, State<S>& state, const S& y, in
 }
 
 template <class S, class Listener>
-auto has_bounded_estimate(const Model<S>& model, const State<S>& state, Listener& listener) {
+void check_estimate(const Model<S>& model, const State<S>& state, BoundsCheck<S>& check, Listener& listener) {
   listener.section("Σ x̂² in units of a bound");
-  BoundsCheck<S> bounds;
-  for (int j = 0; j < model.nx; ++j) bounds.add(S(state.x(j)), model.x_bound, j, listener);
-  return bounds.is_within();
+  for (int j = 0; j < model.nx; ++j) check.add(S(state.x(j)), model.x_bound, j, listener);
 }
 
-// One output after the other.
+// After an update: x̂ is within its bounds, and no S was found that is not positive. Of a covariance S is V at least.
+template <class S, class Listener>
+auto has_sound_state(const Model<S>& model, const State<S>& state, Listener& listener) {
+  BoundsCheck<S> check;
+  check_estimate(model, state, check, listener);
+  auto within = check.is_within();
+  return model.filter == Filter::plain ? listener.without(Event::innovation_not_positive, within) : within;
+}
+
+// One output after the other. The condition says that x̂ is within its bounds, and that P can be a covariance.
 template <class S, class Listener>
 auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
   const Vector<S> y = decorrelate(model, measured, listener);
   std::vector<decltype(is_finite(y(0)))> usable;
   for (int i = 0; i < model.ny; ++i) usable.push_back(update_online_output(model, state, S(y(i)), i, listener));
   keep_residual(model, state, y, usable, listener);
-  return has_bounded_estimate(model, state, listener);
+  return has_sound_state(model, state, listener);
 }
 
 // The same of output i alone: as if the others were not there.
@@ -35,7 +42,20 @@ template <class S, class Listener>
 auto update_online_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   auto usable = update_online_output(model, state, y, i, listener);
   keep_residual_alone(model, state, y, usable, i, listener);
-  return has_bounded_estimate(model, state, listener);
+  return has_sound_state(model, state, listener);
+}
+
+// P ← P0, x̂ stays: after an update or a prediction whose condition does not hold. The condition says that what stays is
+// within its bounds; if it is not, all begins anew.
+template <class S, class Listener>
+auto begin_covariance_anew(const Model<S>& model, State<S>& state, Listener& listener) {
+  state.P = model.P0;
+  state.U = model.U0;
+  state.D = model.D0;
+  BoundsCheck<S> check;
+  check_estimate(model, state, check, listener);
+  check_memory(model, state, check, listener);
+  return check.is_within();
 }
 
 }  // namespace lqg::step

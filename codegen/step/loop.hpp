@@ -32,23 +32,31 @@ auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listene
   }
 }
 
+// After an update or a prediction whose condition does not hold: P begins anew, and x̂ stays where it is within its bounds;
+// else all begins anew, and the condition is false. Numbers only.
+template <class S>
+bool recover(const Model<S>& model, State<S>& state, Listener& listener) {
+  const bool keeps_estimate = carries_covariance(model) && begin_covariance_anew(model, state, listener);
+  if (!keeps_estimate) begin_anew(model, state);
+  listener.raise(keeps_estimate ? Event::covariance_reset : Event::state_reset, true);
+  return keeps_estimate;
+}
+
 // The three calls of a sample in the order of the form, as `NAME_step` makes them; numbers only. With a regulator `u` is
 // the result, without one it is what was applied. Returns the events.
 template <class S>
 unsigned run_sample(const Model<S>& model, State<S>& state, const Vector<S>& y, Vector<S>& u) {
   Listener listener;
-  const auto reset_unless = [&](bool within) {
-    if (within) return;
-    begin_anew(model, state);
-    listener.raise(Event::state_reset, true);
+  const auto recover_unless = [&](bool within) {
+    if (!within) recover(model, state, listener);
   };
   const auto act = [&] {
     if (model.K.rows()) u = control(model, state, listener);
   };
   if (model.predictor_form) act();
-  reset_unless(update(model, state, y, listener));
+  recover_unless(update(model, state, y, listener));
   if (!model.predictor_form) act();
-  reset_unless(predict(model, state, u, listener));
+  recover_unless(predict(model, state, u, listener));
   return listener.events;
 }
 

@@ -72,6 +72,12 @@ bool continues(const Model<S>& model) {
   return model.gives_change || model.u_step.size() > 0;
 }
 
+// P is carried along.
+template <class S>
+bool carries_covariance(const Model<S>& model) {
+  return model.filter == Filter::plain || model.filter == Filter::ud;
+}
+
 template <class S>
 struct State {
   Vector<S> x;               // nx
@@ -116,7 +122,9 @@ void begin_anew(const Model<S>& model, State<S>& state) {
   state.r = r;
 }
 
-enum class Event { output_not_finite, innovation_not_positive, input_limited, state_reset, reference_not_finite, output_gated };
+enum class Event {
+  output_not_finite, innovation_not_positive, input_limited, state_reset, reference_not_finite, output_gated, covariance_reset
+};
 
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {
@@ -139,6 +147,8 @@ struct Listener {
   bool accept(bool usable, bool believable, Event if_believable, Event if_not) {
     return accept(usable, believable ? if_believable : if_not);
   }
+  // `condition`, and that the event did not happen in this call.
+  bool without(Event event, bool condition) const { return condition && !(events >> static_cast<unsigned>(event) & 1u); }
   // A gate left the output out, which is counted.
   void gate(bool gated, int) { raise(Event::output_gated, gated); }
 };

@@ -33,6 +33,13 @@ S conditioned(const Model<S>& model, const State<S>& state, const Vector<S>& u, 
   return sum;
 }
 
+// Adds ξ and the input that is kept.
+template <class S, class Listener>
+void check_memory(const Model<S>& model, const State<S>& state, BoundsCheck<S>& bounds, Listener& listener) {
+  for (int i = 0; i < state.xi.size(); ++i) bounds.add(S(state.xi(i)), model.xi_bound, i, listener);
+  for (int i = 0; i < model.nu && continues(model); ++i) bounds.add(S(state.u(i)), listener);
+}
+
 // ξ ← ξ + H (u − what the law asked for) + T (r − y) with the u that was applied; that u is kept where it is needed.
 template <class S, class Listener>
 void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, BoundsCheck<S>& bounds, Listener& listener) {
@@ -41,12 +48,11 @@ void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Bounds
   for (int i = 0; i < nxi; ++i) {
     state.xi(i) = multiply_add(model.T, S(state.error(i)), conditioned(model, state, u, state.demand, i));
     listener.name(state.xi(i), "xi", i);
-    bounds.add(S(state.xi(i)), model.xi_bound, i, listener);
     state.error(i) = S(0);
   }
   if (nxi) state.demand = u;
   if (state.u.size()) state.u = u;
-  for (int i = 0; i < model.nu && continues(model); ++i) bounds.add(S(u(i)), listener);
+  check_memory(model, state, bounds, listener);
 }
 
 // A regulator alone: u of the state x that is given, and what it has to remember, for an actuator that applies u.

@@ -127,6 +127,10 @@ std::string Printer::print_operation(int node, int level) const {
   const auto binary = [&](const char* sign, int binds) {
     return bracketed(print(at.a, binds) + sign + print(at.b, binds + 1), binds, level);
   };
+  const auto chained = [&](const char* sign) {  // a && b && c; brackets where && and || meet
+    const bool continues = graph_.nodes()[static_cast<std::size_t>(at.a)].op == at.op;
+    return bracketed(print(at.a, continues ? logical : comparison) + sign + print(at.b, comparison), logical, level);
+  };
   switch (at.op) {
     case Op::add: return binary(" + ", sum);
     case Op::subtract: return binary(" - ", sum);
@@ -144,8 +148,8 @@ std::string Printer::print_operation(int node, int level) const {
     case Op::usable:
       return bracketed(print(at.a, sum) + " - " + print(at.a, product) + " < " + print(at.b, sum), comparison, level);
     case Op::same: return binary(" == ", comparison);
-    case Op::either: return bracketed(print(at.a, comparison) + " || " + print(at.b, comparison), logical, level);
-    case Op::both: return bracketed(print(at.a, comparison) + " && " + print(at.b, comparison), logical, level);
+    case Op::either: return chained(" || ");
+    case Op::both: return chained(" && ");
     case Op::negation: return "!" + print(at.a, unary + 1);
     default: return at.text;
   }

@@ -83,7 +83,8 @@ lqg_status lqg_ekf_update(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_
  *
  * u      in: handed to f, which says how long it is and whether it MAY be NULL
  *
- * Status: LQG_STATE_RESET, when f(x̂, u) or A, and with it U or d, is not finite.
+ * Status: LQG_STATE_RESET, when f(x̂, u) is not finite; LQG_COVARIANCE_RESET, when A, and with it U or d, is not, or when
+ * a d is negative: U and d begin anew, x̂ stays.
  * Cost: f once; (nx − 1)·nx·(nx + 1)/2 + nx·(nx + 1)·(nx + nq) multiply-adds, nx divisions.
  * Source: as above; Thornton (1976). */
 lqg_status lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_real d[], const lqg_real u[],

@@ -18,11 +18,18 @@
  *
  * A reset (LQG_STATE_RESET) is an init: it restores all of them. It happens when, after an update or a prediction,
  *
- *     Σ (x̂_i/b_i)² + Σ |P_ii|/b_i² < 1        (P_ii after a prediction only; of U diag(d) Uᵀ d_i in its place)
+ *     Σ (x̂_i/b_i)² < 1
  *
- * does not hold, or any of these numbers, or of U, is not finite. The bounds b are those of the description, and SHOULD be
+ * does not hold, or any of these numbers is not finite. The bounds b are those of the description, and SHOULD be
  * powers of two. Without them it happens when a number is not finite, or their sum is not. So x̂ is within its bounds,
  * and finite, after every call.
+ *
+ * P alone begins anew (LQG_COVARIANCE_RESET), and x̂ stays, when P cannot be a covariance: when after a prediction a
+ * variance P_ii (of U diag(d) Uᵀ: d_i) is negative, or
+ *
+ *     Σ (x̂_i/b_i)² + Σ P_ii/b_i² < 1
+ *
+ * does not hold, or U is not finite; and when in an update C P Cᵀ + V of an output is not positive.
  *
  * Outputs that are not believable, because the innovation y − C x̂ − D u is NaN, infinite or not below its limit, are
  * left out (LQG_OUTPUT_NOT_FINITE): no state can explain them, so they say nothing, and x̂ is not lost over them.
@@ -172,7 +179,7 @@ void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_r
  *
  * y[ny]  in: what the sensors say; an output that is not believable, or whose s is not positive, is left out
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET.
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET.
  * Cost: ny·(3·nx² + 9·nx)/2 multiply-adds, ny divisions;
  * with D ny·nu more, with M ny·nx (and with D ny·nu) more, with E ny·(ny − 1)/2 more. */
 lqg_status lqg_kalman_plain_update(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
@@ -186,7 +193,7 @@ lqg_status lqg_kalman_plain_update(const lqg_kalman_plain_t *kalman, lqg_real x[
  * watch  MAY be NULL
  *
  * Status: LQG_OUTPUT_NOT_FINITE (also when E asks for an output that is not used), LQG_OUTPUT_GATED,
- * LQG_INNOVATION_NOT_POSITIVE, LQG_STATE_RESET. */
+ * LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
 lqg_status lqg_kalman_plain_update_watched(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
                                            lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
                                            const lqg_watch_t *watch, lqg_real work[]);
@@ -206,7 +213,7 @@ lqg_status lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lqg_
  *
  * u[nu]  in: what was applied; MAY be u_applied itself, or NULL when nu is 0
  *
- * Status: LQG_STATE_RESET, also when P is beyond its bounds.
+ * Status: LQG_STATE_RESET, LQG_COVARIANCE_RESET.
  * Cost: (3·nx³ + nx²)/2 + nx·(nx + nu) multiply-adds, with M nx·ny more. */
 lqg_status lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_real x[], lqg_real P[],
                                     lqg_real u_applied[], lqg_real innovation[], const lqg_real u[],
@@ -283,7 +290,7 @@ lqg_status lqg_kalman_ud_update_output(const lqg_kalman_ud_t *kalman, lqg_real x
  *
  * u[nu]  in: what was applied; MAY be u_applied itself, or NULL when nu is 0
  *
- * Status: LQG_STATE_RESET, also when d is beyond its bounds or U is not finite.
+ * Status: LQG_STATE_RESET, LQG_COVARIANCE_RESET.
  * Cost: (nx − 1)·nx·(nx + 1)/2 + nx·(nx + 1)·(nx + nq) + nx·(nx + nu) multiply-adds, nx divisions;
  * with M nx·ny more. */
 lqg_status lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_real x[], lqg_real U[], lqg_real d[],

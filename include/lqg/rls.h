@@ -12,7 +12,8 @@
  * diag(d) Uᵀ and cannot lose its definiteness.
  *
  * The state is three arrays of the caller: theta[ntheta], U[LQG_RLS_U(ntheta)], d[ntheta]. A reset
- * (LQG_STATE_RESET) is an init.
+ * (LQG_STATE_RESET), when θ is not finite, is an init. Where U or d is not finite, or a d is negative, they begin anew
+ * (LQG_COVARIANCE_RESET), and θ stays.
  */
 #ifndef LQG_RLS_H
 #define LQG_RLS_H
@@ -55,7 +56,7 @@ void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real
  * y            in; where it or φ is not finite, or too large, the sample is left out and nothing changes
  * work         MUST NOT overlap
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET.
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_COVARIANCE_RESET, LQG_STATE_RESET.
  * Cost, n = ntheta: 2 n² + 8 n multiply-adds, 2 n + 1 divisions; with limits n² + n multiply-adds and
  * (n² + n)/2 divisions more.
  * Source: Bierman (1977), chapter V; Åström, Wittenmark: Adaptive Control, 2nd edition (1995), chapter 2. */

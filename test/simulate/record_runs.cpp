@@ -52,6 +52,7 @@ lqg_status status_of(unsigned events) {
   add(Event::input_limited, LQG_INPUT_LIMITED);
   add(Event::state_reset, LQG_STATE_RESET);
   add(Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE);
+  add(Event::covariance_reset, LQG_COVARIANCE_RESET);
   return status;
 }
 

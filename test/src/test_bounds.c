@@ -89,6 +89,16 @@ static void expect_reset(lqg_status status)
         TEST_ASSERT_TRUE(x[i] == x0[i]);
 }
 
+/* x̂ stays. */
+static void expect_P_anew(int filter, lqg_status status)
+{
+    TEST_ASSERT_EQUAL_HEX(LQG_COVARIANCE_RESET, status);
+    for (int i = 0; i < NX; i++)
+        TEST_ASSERT_TRUE(x[i] == 0 && (filter == PLAIN || d[i] == one[i]));
+    for (int i = 0; i < 6; i++)
+        TEST_ASSERT_TRUE(filter == UD || P[i] == P0[i]);
+}
+
 static void test_each_state_stays_just_below_its_bound_and_begins_anew_at_it(void)
 {
     for (int filter = 0; filter < FILTERS; filter++) {
@@ -157,10 +167,11 @@ static void test_each_variance_stays_just_below_the_square_of_its_bound(void)
         for (int i = 0; i < NX; i++) {
             const lqg_real square = bound[i] * bound[i];
             TEST_ASSERT_EQUAL_HEX(LQG_OK, predict_with_variance(filter, i, just_below(square)));
-            expect_reset(predict_with_variance(filter, i, square));
-            expect_reset(predict_with_variance(filter, i, -square));
-            expect_reset(predict_with_variance(filter, i, (lqg_real)NAN));
-            expect_reset(predict_with_variance(filter, i, (lqg_real)INFINITY));
+            expect_P_anew(filter, predict_with_variance(filter, i, square));
+            expect_P_anew(filter, predict_with_variance(filter, i, -square));
+            expect_P_anew(filter, predict_with_variance(filter, i, -FLT_MIN)); /* however small, without noise */
+            expect_P_anew(filter, predict_with_variance(filter, i, (lqg_real)NAN));
+            expect_P_anew(filter, predict_with_variance(filter, i, (lqg_real)INFINITY));
         }
     }
 }
@@ -174,7 +185,7 @@ static void test_factors_have_to_be_finite_only(void)
         TEST_ASSERT_EQUAL_HEX(LQG_OK, predict(UD, none));
         begin(UD);
         U[k] = (lqg_real)NAN;
-        expect_reset(predict(UD, none));
+        expect_P_anew(UD, predict(UD, none));
     }
 }
 

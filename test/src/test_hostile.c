@@ -149,20 +149,42 @@ static void test_update_with_a_state_that_is_no_number_begins_anew(void)
     }
 }
 
-static void test_plain_leaves_an_output_out_whose_innovation_variance_is_not_positive(void)
+static void test_plain_begins_P_anew_when_the_variance_of_an_innovation_is_not_positive(void)
 {
     static loop_t loop;
     const lqg_real y[2] = {1, 2};
     make_loop(&loop, &two_mass, PLAIN, LQG_FILTER_FORM);
+    const state_t begun = loop.state;
     for (unsigned i = 0; i < LQG_TRIANGLE(4); i++)
         loop.state.P[i] = 0;
-    loop.state.P[0] = -1; /* s of the first output = −1 + V */
-    const state_t before = loop.state;
-    TEST_ASSERT_EQUAL_UINT(LQG_INNOVATION_NOT_POSITIVE, loop_update(&loop, y));
-    TEST_ASSERT_TRUE(same_state(&before, &loop.state)); /* the second output has a gain of 0 */
+    loop.state.P[0] = -1; /* s of the first output = −1 + V; the second has a gain of 0 */
+    TEST_ASSERT_EQUAL_UINT(LQG_INNOVATION_NOT_POSITIVE | LQG_COVARIANCE_RESET, loop_update(&loop, y));
+    TEST_ASSERT_TRUE(same_state(&begun, &loop.state));
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&loop, y));
 }
 
-static void test_predict_begins_anew_when_the_covariance_overflows(void)
+/* Process noise that makes up for it heals it, too. */
+static void test_predict_begins_P_anew_when_a_variance_is_negative(void)
+{
+    static loop_t loop;
+    const lqg_real u[1] = {0};
+    for (unsigned filter = PLAIN; filter < FILTERS; filter++)
+        for (unsigned i = 0; i < 4; i++) {
+            make_loop(&loop, &two_mass, filter, LQG_FILTER_FORM);
+            const state_t begun = loop.state;
+            loop.state.x[2] = 0.5f;
+            loop.state.P[LQG_TRIANGLE(i) + i] = -1000;
+            loop.state.d[i] = -1000;
+            TEST_ASSERT_EQUAL_UINT(LQG_COVARIANCE_RESET, loop_predict(&loop, u));
+            TEST_ASSERT_TRUE(loop.state.x[2] > 0.4f);
+            TEST_ASSERT_TRUE(filter != PLAIN || memcmp(begun.P, loop.state.P, sizeof begun.P) == 0);
+            TEST_ASSERT_TRUE(filter != UD || memcmp(begun.d, loop.state.d, sizeof begun.d) == 0);
+            TEST_ASSERT_TRUE(filter != UD || memcmp(begun.U, loop.state.U, sizeof begun.U) == 0);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_predict(&loop, u));
+        }
+}
+
+static void test_predict_begins_P_anew_when_it_overflows(void)
 {
     static loop_t loop;
     const lqg_real u[1] = {0};
@@ -170,8 +192,9 @@ static void test_predict_begins_anew_when_the_covariance_overflows(void)
         make_loop(&loop, &two_mass, filter, LQG_FILTER_FORM);
         const state_t begun = loop.state;
         loop.state.P[0] = loop.state.P[2] = loop.state.d[0] = loop.state.d[1] = LARGEST;
-        TEST_ASSERT_EQUAL_UINT(LQG_STATE_RESET, loop_predict(&loop, u));
-        TEST_ASSERT_TRUE(memcmp(begun.x, loop.state.x, sizeof begun.x) == 0);
+        loop.state.x[0] = 0.5f;
+        TEST_ASSERT_EQUAL_UINT(LQG_COVARIANCE_RESET, loop_predict(&loop, u));
+        TEST_ASSERT_TRUE(loop.state.x[0] > 0.4f);
         TEST_ASSERT_TRUE(filter != PLAIN || memcmp(begun.P, loop.state.P, sizeof begun.P) == 0);
         TEST_ASSERT_TRUE(filter != UD || memcmp(begun.d, loop.state.d, sizeof begun.d) == 0);
     }
@@ -188,7 +211,8 @@ int main(void)
     RUN_TEST(test_zeros_of_E_keep_a_NaN_out_of_the_other_outputs);
     RUN_TEST(test_predict_with_an_input_that_is_no_number_begins_anew);
     RUN_TEST(test_update_with_a_state_that_is_no_number_begins_anew);
-    RUN_TEST(test_plain_leaves_an_output_out_whose_innovation_variance_is_not_positive);
-    RUN_TEST(test_predict_begins_anew_when_the_covariance_overflows);
+    RUN_TEST(test_plain_begins_P_anew_when_the_variance_of_an_innovation_is_not_positive);
+    RUN_TEST(test_predict_begins_P_anew_when_a_variance_is_negative);
+    RUN_TEST(test_predict_begins_P_anew_when_it_overflows);
     return UNITY_END();
 }

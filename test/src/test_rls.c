@@ -247,9 +247,9 @@ static void test_begins_anew_when_forgetting_without_limits_overflows(void)
 
     for (unsigned sample = 0; sample < 3000; sample++) {
         const lqg_status status = update(&rls, &s, none, 1);
-        TEST_ASSERT_TRUE(status == LQG_OK || status == LQG_STATE_RESET);
+        TEST_ASSERT_TRUE(status == LQG_OK || status == LQG_COVARIANCE_RESET);
         TEST_ASSERT_TRUE(status == LQG_OK || memcmp(&first, &s, sizeof s) == 0);
-        resets += status == LQG_STATE_RESET;
+        resets += status == LQG_COVARIANCE_RESET;
     }
     TEST_ASSERT_TRUE(resets > 1);
 }

@@ -49,7 +49,7 @@ Words filter_words(const Controller& controller) {
                  {"u", controller.size.nu ? "u" : "NULL"},
                  {"nq", noises(controller)}};
   if (controller.filter == step::Filter::steady)
-    words["variances"] = fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + self->gain_row * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
+    words["variances"] = fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + {filter_row} * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
   else words["variances"] = "";
   if (controller.has.gate) words["gate"] = trace::literal(controller.problem.estimator->gate, controller.target.is_double);
   if (controller.keeps.gain_row) words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
@@ -61,7 +61,7 @@ std::string law_of_sample(const Controller& controller) {
   const Gains& gains = controller.laws.front();
   const auto size = [&](std::size_t matrix) { return std::to_string(gains[matrix].size()); };
   return lines(templates::compact_law_of_sample, controller,
-               {{"row", row_of_law(controller)}, {"K_size", size(0)}, {"Nbar_size", size(1)}, {"H_size", size(2)}},
+               {{"K_size", size(0)}, {"Nbar_size", size(1)}, {"H_size", size(2)}},
                {{"has_Nbar", controller.has.servo && gains[1].size() > 0}, {"has_H", controller.has.servo && gains[2].size() > 0}});
 }
 
@@ -157,6 +157,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
                     "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   bodies.resets = needs_reset(controller);
   if (controller.keeps.any) bodies.init = init_body(controller);
+  if (carries_covariance(controller)) bodies.recover = write_body(templates::compact_recover, controller, {});
   if (controller.has.filter) {
     bodies.constants = kalman_constants(controller);
     bodies.update = write_body(templates::compact_update, controller, filter_words(controller));

@@ -10,12 +10,6 @@ std::string advance_counters(const Controller& controller) {
                                                       {"last_gain_row", std::to_string(last_gain_row)}});
 }
 
-std::string row_of_law(const Controller& controller) {
-  const std::size_t last = controller.laws.size() - 1;
-  const std::string number = std::to_string(last);
-  return last == controller.last_sample ? "self->sample" : "(self->sample < " + number + " ? self->sample : " + number + ")";
-}
-
 std::string only_update_body(const Controller& controller) {
   return "    return " + controller.problem.name + "_update(self, &y_" + controller.problem.plant.outputs[0].name + ");\n";
 }

@@ -13,16 +13,13 @@ struct FunctionBodies {
   std::string includes;   // #include lines and checks of options
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
-  std::string init, update, control, predict;
+  std::string init, recover, update, control, predict;
   std::vector<std::string> updates_alone;  // of each output that can_update_alone
-  bool resets = false;    // they call NAME_reset
+  bool resets = false;    // they call NAME_reset, or NAME_recover where P is carried
 };
 
 // What predict does to the counters at its end.
 std::string advance_counters(const Controller& controller);
-
-// The row of a table of the law's gains that is in force, as C: one a sample, and the last is held.
-std::string row_of_law(const Controller& controller);
 
 // The update by one output alone where there is no other.
 std::string only_update_body(const Controller& controller);

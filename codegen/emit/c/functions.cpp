@@ -37,6 +37,17 @@ std::string reset_function(const Controller& controller) {
                         {{"anything_stays", !but.empty()}});
 }
 
+std::string recover_function(const Controller& controller, const FunctionBodies& bodies) {
+  if (!carries_covariance(controller)) return "";
+  return write_function(templates::recover, controller,
+                        {{"memory", controller.size.nxi ? ", ξ" : ""}, {"body", bodies.recover}});
+}
+
+// What an update or a prediction may say of P.
+std::string covariance_status(const Controller& controller) {
+  return carries_covariance(controller) ? " LQG_COVARIANCE_RESET," : "";
+}
+
 // What happens to an output that cannot be used, and what an update may say.
 Words update_words(const Controller& controller) {
   const std::string gate = controller.has.gate ? ", or is further than " + decimal(controller.problem.estimator->gate) +
@@ -45,6 +56,7 @@ Words update_words(const Controller& controller) {
           {"left_out", is_steady(controller) ? "is taken as having come as expected" : "is left out of this sample"},
           {"gated", controller.has.gate ? " LQG_OUTPUT_GATED," : ""},
           {"not_positive", controller.filter == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : ""},
+          {"covariance_reset", covariance_status(controller)},
           {"gain", is_steady(controller) ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P"},
           {"law", controller.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)"}};
 }
@@ -110,6 +122,7 @@ std::string predict_function(const Controller& controller, const FunctionBodies&
   return write_function(templates::predict, controller,
                         {{"input", controller.size.nu ? " + B u" : ""},
                          {"covariance", is_steady(controller) ? "" : ",  P ← A P Aᵀ + G W Gᵀ"},
+                         {"covariance_reset", covariance_status(controller)},
                          {"integral", controller.size.nxi ? ",  ξ ← ξ + H (u − what control asked for) + T (r − y)" : ""},
                          {"body", bodies.predict}});
 }
@@ -174,7 +187,7 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
     return init_function(controller, bodies) + reset_function(controller) + linear_functions(controller);
   std::string out;
   if (controller.keeps.any) out += init_function(controller, bodies);
-  if (bodies.resets) out += reset_function(controller);
+  if (bodies.resets) out += reset_function(controller) + recover_function(controller, bodies);
   if (controller.has.filter) out += update_function(controller, bodies);
   if (controller.has.regulator) out += control_function(controller, bodies);
   if (controller.has.filter)

@@ -48,23 +48,26 @@ std::string status(const Controller& controller, const Printed& printed) {
     return "    if (!(" + printer.expression(function.finite) + "))\n        return " + function.recovery + ";\n    return " +
            raised + ";\n";
   return fill(R"({status}
-    if (!({finite}))
-        return {name}_reset(self, status);
+    if (!({finite}){faults})
+        return {name}_{recover}(self, status);
     return status;
-)", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)}, {"finite", printer.expression(function.finite)}, {"name", controller.problem.name}});
+)", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
+     {"finite", printer.expression(function.finite)},
+     {"faults", function.faults.empty() ? "" : " || status & " + function.faults},
+     {"recover", function.checks_covariance ? "recover" : "reset"},
+     {"name", controller.problem.name}});
 }
 
 // The rows of the tables that a body reads.
 std::string rows(const Controller& controller, const Printed& printed) {
   std::string out;
-  if (printed.reads("law[")) out += "    const {real} *const law = {NAME}_LAW[self->sample];\n";
-  if (printed.reads("gains[")) out += "    const {real} *const gains = {NAME}_GAINS[self->gain_row];\n";
+  if (printed.reads("law[")) out += "    const {real} *const law = {NAME}_LAW[{law_row}];\n";
+  if (printed.reads("gains[")) out += "    const {real} *const gains = {NAME}_GAINS[{filter_row}];\n";
   const char* const names[] = {"K", "Nbar", "H"};
   for (std::size_t k = 0; k < 3 && controller.style == design::Style::compact; ++k)
     if (printed.reads(std::string(names[k]) + "["))
-      out += fill("    const {real} *const {matrix} = {NAME}_SERVO_{MATRIX} + {row} * {size};\n",
-                  {{"matrix", names[k]}, {"MATRIX", upper(names[k])}, {"row", row_of_law(controller)},
-                   {"size", std::to_string(controller.laws.front()[k].size())}});
+      out += fill("    const {real} *const {matrix} = {NAME}_SERVO_{MATRIX} + {law_row} * {size};\n",
+                  {{"matrix", names[k]}, {"MATRIX", upper(names[k])}, {"size", std::to_string(controller.laws.front()[k].size())}});
   return fill(out, common_words(controller));
 }
 
@@ -94,6 +97,14 @@ std::string body(const Controller& controller, const TracedFunction& function,
   }
   return "    LQG_STRICT_BODY\n" + unused + tables + printed.printer.statements(function.stores) + count_gated(printed) +
          (end.empty() ? "" : "\n") + end;
+}
+
+std::string recover_body(const Controller& controller) {
+  const TracedFunction traced = trace_begin_covariance(controller);
+  const Printed printed(traced);
+  return write_body(templates::recover_body, controller,
+                    {{"statements", printed.printer.statements(traced.stores)},
+                     {"within", printed.printer.expression(traced.finite)}});
 }
 
 std::string statements(const TracedFunction& function) { return Printed(function).printer.statements(function.stores); }

@@ -12,6 +12,9 @@ namespace lqg::emit {
 std::string body(const Controller& controller, const TracedFunction& function,
                  std::initializer_list<const char*> parameters, const std::string& last = "");
 
+// The body of recover: P begins anew.
+std::string recover_body(const Controller& controller);
+
 // The statements alone, which end with their stores.
 std::string statements(const TracedFunction& function);
 

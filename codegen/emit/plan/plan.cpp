@@ -2,6 +2,7 @@
 
 #include "emit/plan/code_cost.hpp"
 #include "emit/plan/realisation.hpp"
+#include "simulate/drop_outs.hpp"
 
 namespace lqg::emit {
 
@@ -46,6 +47,7 @@ std::optional<Controller> make_controller(design::Problem problem, design::Solut
   if (!chosen) return std::nullopt;
   choose_style(*chosen);
   check_flash(*chosen, findings);
+  simulate::check_drop_outs(*chosen, findings);
   if (design::has_error(findings)) return std::nullopt;
   return chosen;
 }

@@ -76,7 +76,7 @@ SymbolicModel model_of_outputs(const Controller& controller) {
     if (controller.style == design::Style::compact && controller.has.gate && controller.keeps.gain_row)
       for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
         model.variance(i) = Expr::of(trace::graph().input(
-            fill("{NAME}_KALMAN_S[self->gain_row * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
+            fill("{NAME}_KALMAN_S[{filter_row} * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
     return model;
   }
   const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));

@@ -13,6 +13,7 @@ const char* status_name(step::Event event) {
     case step::Event::input_limited: return "LQG_INPUT_LIMITED";
     case step::Event::output_gated: return "LQG_OUTPUT_GATED";
     case step::Event::reference_not_finite: return "LQG_REFERENCE_NOT_FINITE";
+    case step::Event::covariance_reset: return "LQG_COVARIANCE_RESET";
     default: return "LQG_STATE_RESET";
   }
 }
@@ -39,6 +40,12 @@ Condition TraceListener::accept(const Condition& usable, step::Event reason) {
 Condition TraceListener::accept(const Condition& usable, const Condition& finite, step::Event if_finite, step::Event if_not) {
   const int one = function_.graph->flag(status_name(if_finite)), other = function_.graph->flag(status_name(if_not));
   return accept_or(usable, choice(finite, one, other));
+}
+
+// The status knows: no condition has to wait for the end of the function.
+Condition TraceListener::without(step::Event event, const Condition& condition) {
+  function_.faults = status_name(event);
+  return condition;
 }
 
 void TraceListener::gate(const Condition& gated, int output) {

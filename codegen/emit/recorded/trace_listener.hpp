@@ -24,6 +24,7 @@ class TraceListener {
   trace::Condition accept(const trace::Condition& usable, step::Event reason);
   trace::Condition accept(const trace::Condition& usable, const trace::Condition& finite, step::Event if_finite,
                           step::Event if_not);
+  trace::Condition without(step::Event event, const trace::Condition& condition);
   void gate(const trace::Condition& gated, int output);
 
  private:

@@ -24,6 +24,7 @@ TracedFunction trace_step(const Controller& controller, const std::vector<bool>&
   State state = load_state(model, pattern);
   TraceListener listener(controller, function);
   function.finite = step(model, state, listener).node;
+  function.checks_covariance = !pattern.empty();
   store_state(function, state, pattern);
   return function;
 }
@@ -124,6 +125,12 @@ TracedFunction trace_covariance(const Controller& controller) {
   for (std::size_t k = 0; k < P.size(); ++k) store(function, element("P", static_cast<int>(k)), P[k]);
   function.is_void = true;
   return function;
+}
+
+TracedFunction trace_begin_covariance(const Controller& controller) {
+  return trace_step(controller, covariance_pattern(controller), [](const Model& model, State& state, TraceListener& listener) {
+    return step::begin_covariance_anew(model, state, listener);
+  });
 }
 
 TracedFunction trace_observation(const Controller& controller, int output) {

@@ -16,7 +16,9 @@ struct TracedFunction {
   std::vector<trace::Store> stores;
   std::vector<int> statuses;  // joined by |
   int finite = -1;  // condition; −1: cannot become infinite
-  std::string recovery;  // the call that answers where it is not finite; empty: NAME_reset
+  std::string recovery;  // the call that answers where it is not finite; empty: NAME_reset or NAME_recover
+  std::string faults;  // a bit of the status with which it is not finite either
+  bool checks_covariance = false;  // P may be at fault, not x̂: NAME_recover
   bool is_void = false;
   std::vector<std::pair<int, int>> gates;  // output, and the condition that it was gated
   std::vector<int> lost;  // output by output, the condition that a partial update leaves it out
@@ -42,6 +44,9 @@ TracedFunction trace_set_input(const Controller& controller);
 
 // P[] of U and d.
 TracedFunction trace_covariance(const Controller& controller);
+
+// P as at the start; not finite where x̂ has to begin anew, too.
+TracedFunction trace_begin_covariance(const Controller& controller);
 
 // r − y of the integrals of y_OUTPUT; no stores where it has none.
 TracedFunction trace_observation(const Controller& controller, int output);

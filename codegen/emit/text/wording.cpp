@@ -48,6 +48,18 @@ std::string filter_name(step::Filter filter) {
   }
 }
 
+namespace {
+
+// A counter as the index of a table with so many rows: it may have been damaged, or never begun, and is not taken as it is.
+// Empty without a table.
+std::string row(const std::string& counter, std::size_t rows) {
+  if (rows < 2) return "";
+  const std::string last = std::to_string(rows - 1);
+  return "(" + counter + " < " + last + " ? " + counter + " : " + last + ")";
+}
+
+}  // namespace
+
 Words common_words(const Controller& controller) {
   const std::string& name = controller.problem.name;
   return {{"name", name},
@@ -60,7 +72,9 @@ Words common_words(const Controller& controller) {
           {"nr", std::to_string(controller.size.nr)},
           {"nz", std::to_string(controller.size.nz)},
           {"file", controller.source.file},
-          {"filter", filter_name(controller.filter)}};
+          {"filter", filter_name(controller.filter)},
+          {"law_row", row("self->sample", controller.laws.size())},
+          {"filter_row", row("self->gain_row", controller.filters.size())}};
 }
 
 std::string number(const design::Real& value, bool is_double) {

@@ -32,6 +32,7 @@ constexpr int samples = 6;
 struct Calls {
   VectorXd r, y, x, u, late_y;
   unsigned long used = 0;
+  int damaged = -1;  // the number of P (or of d) whose sign is wrong from now on
 };
 
 std::vector<Calls> random_calls(const Controller& controller) {
@@ -77,7 +78,8 @@ class Record {
     const std::pair<Event, lqg_status> bits[] = {
         {Event::output_not_finite, LQG_OUTPUT_NOT_FINITE}, {Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE},
         {Event::input_limited, LQG_INPUT_LIMITED},         {Event::state_reset, LQG_STATE_RESET},
-        {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE}, {Event::output_gated, LQG_OUTPUT_GATED}};
+        {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE}, {Event::output_gated, LQG_OUTPUT_GATED},
+        {Event::covariance_reset, LQG_COVARIANCE_RESET}};
     lqg_status status = LQG_OK;
     for (const auto& [event, bit] : bits)
       if (events >> static_cast<unsigned>(event) & 1) status |= bit;
@@ -89,7 +91,7 @@ class Record {
   std::string text_;
 };
 
-// The calls on the host; the state that they leave never has to begin anew.
+// The calls on the host; x̂ that they leave never has to begin anew.
 template <class S>
 class Host {
  public:
@@ -99,14 +101,20 @@ class Host {
   std::string run(const std::vector<Calls>& calls) {
     for (const Calls& call : calls) {
       emitted_.state().r = numbers(call.r);
+      if (call.damaged >= 0) damage(static_cast<std::size_t>(call.damaged));
       if (controller_.has.filter) use_filter(call);
       else use_regulator(call);
       add_state();
     }
-    return record_.text();
+    record_.add_status(0);
+    return record_.text() + std::to_string(emitted_.resets()) + " " + std::to_string(emitted_.covariance_resets());
   }
 
  private:
+  void damage(std::size_t k) {
+    auto& values = controller_.filter == lqg::step::Filter::ud ? emitted_.state().D : emitted_.state().P;
+    values[k] = S(0) - values[k];
+  }
   static Vector<S> numbers(const VectorXd& values) { return lqg::simulate::numbers_of<S>(values); }
 
   void use_filter(const Calls& call) {
@@ -188,6 +196,10 @@ std::string in_c(const Controller& controller, const Calls& call) {
   const auto status = [&](const std::string& text) { out += "        show_status(loop_" + text + ");\n"; };
   array("r", call.r), array("x", call.x), array("u", call.u), array("y", call.y), array("late_y", call.late_y);
   if (controller.size.nr) out += "        memcpy(self.r, r, sizeof r);\n";
+  if (call.damaged >= 0) {
+    const std::string number = (controller.filter == lqg::step::Filter::ud ? "self.d[" : "self.P[") + std::to_string(call.damaged) + "]";
+    out += "        " + number + " = -" + number + ";\n";
+  }
   if (controller.has.filter) {
     status("update(&self, y)");
     if (controller.filter == lqg::step::Filter::ud) out += "        loop_covariance(&self, P);\n        SHOW(P);\n";
@@ -234,11 +246,13 @@ int main(void)
     loop_init(&self);
 )";
   for (const Calls& call : calls) out += in_c(controller, call);
-  return out + "    return 0;\n}\n";
+  const std::string resets = controller.has.filter ? "self.resets" : "0ul";
+  const std::string covariance_resets = carries_covariance(controller) ? "self.covariance_resets" : "0ul";
+  return out + "    show_status(0);\n    printf(\"%lu %lu\", " + resets + ", " + covariance_resets + ");\n    return 0;\n}\n";
 }
 
-void expect_the_bits_of_the_step(Controller controller) {
-  const std::vector<Calls> calls = random_calls(controller);
+// Returns what both printed.
+std::string expect_the_bits_of_the_step(Controller controller, const std::vector<Calls>& calls) {
   const std::string expected = lqg::simulate::with_scalar_of(controller.target, [&](auto zero) {
     return Host<decltype(zero)>(controller).run(calls);
   });
@@ -246,6 +260,11 @@ void expect_the_bits_of_the_step(Controller controller) {
     controller.style = style;
     TEST_ASSERT_EQUAL_STRING(expected.c_str(), run_with_header(controller, program(controller, calls)).c_str());
   }
+  return expected;
+}
+
+void expect_the_bits_of_the_step(const Controller& controller) {
+  expect_the_bits_of_the_step(controller, random_calls(controller));
 }
 
 // ---- the controllers
@@ -279,6 +298,25 @@ void test_filters_of_every_size_that_carry_factors() {
     design.P0 = MatrixXd::Constant(2 * count, 2 * count, 0.25) + MatrixXd::Identity(2 * count, 2 * count);
     expect_the_bits_of_the_step(changed(design, as_designed));
   }
+}
+
+// Each variance in turn: P begins anew, whether an update or a prediction finds it, and x̂ stays.
+void test_a_covariance_with_a_negative_variance() {
+  for (const char* real : {"float", "double"})
+    for (const char* covariance : {"ud", "plain"})
+      for (const bool are_correlated : {false, true}) {
+        DesignText design = are_correlated ? correlated("online", covariance) : double_integrators(2);
+        design.gain = "online", design.covariance = covariance, design.real = real;
+        const Controller controller = changed(design, as_designed);
+        std::vector<Calls> calls;
+        for (int i = 0; i < controller.size.nx; ++i) {
+          for (const Calls& call : random_calls(controller)) calls.push_back(call);
+          calls.back().damaged = controller.filter == lqg::step::Filter::ud ? i : lqg::step::triangle(i, i);
+        }
+        const std::string printed = expect_the_bits_of_the_step(controller, calls);
+        const std::string resets = printed.substr(printed.size() - 4);  // and those of P: noise may heal one
+        TEST_ASSERT_TRUE(resets == " 0 3" || resets == " 0 4");
+      }
 }
 
 // Each gain of the law is different in each of six samples.
@@ -356,6 +394,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(test_filters_with_everything);
   RUN_TEST(test_filters_of_every_size_that_carry_factors);
+  RUN_TEST(test_a_covariance_with_a_negative_variance);
   RUN_TEST(test_integrals_of_outputs_that_are_updated_alone);
   RUN_TEST(test_laws_that_begin_with_the_last_input);
   RUN_TEST(test_laws_with_feed_forward);

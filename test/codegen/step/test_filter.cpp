@@ -345,7 +345,7 @@ void test_a_zero_of_E_keeps_a_NaN_out_of_the_other_outputs() {
   TEST_ASSERT_TRUE(uncorrelated(2) == y(2));
 }
 
-void test_plain_leaves_an_output_out_whose_S_is_not_positive() {
+void test_plain_finds_that_P_is_none_where_S_is_not_positive() {
   Random random(1);
   Shape shape = {Filter::plain};
   shape.nx = 2;
@@ -354,7 +354,7 @@ void test_plain_leaves_an_output_out_whose_S_is_not_positive() {
   State<double> state = lqg::step::initial_state(model);
   const State<double> before = state;
   Listener listener;
-  TEST_ASSERT_TRUE(lqg::step::update(model, state, random_vector<double>(random, 1), listener));
+  TEST_ASSERT_FALSE(lqg::step::update(model, state, random_vector<double>(random, 1), listener));
   TEST_ASSERT_TRUE(equal(before, state));
   TEST_ASSERT_EQUAL_UINT(1u << static_cast<unsigned>(Event::innovation_not_positive), listener.events);
 }
@@ -379,6 +379,6 @@ int main() {
   RUN_TEST(test_an_output_of_infinite_variance_is_as_one_that_is_left_out);
   RUN_TEST(test_without_any_finite_output_update_changes_no_bit);
   RUN_TEST(test_a_zero_of_E_keeps_a_NaN_out_of_the_other_outputs);
-  RUN_TEST(test_plain_leaves_an_output_out_whose_S_is_not_positive);
+  RUN_TEST(test_plain_finds_that_P_is_none_where_S_is_not_positive);
   return UNITY_END();
 }
