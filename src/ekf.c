@@ -63,7 +63,8 @@ static lqg_status update_output(const lqg_ekf_t *ekf, unsigned i, lqg_real delta
     lqg_status left_out = is_finite(add_all(difference, c, nx)) ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
     if (watch) {
         lqg_factors_project(U, nx, c, !left_out, f);
-        left_out |= lqg_watch_output(watch, i, difference, lqg_factors_variance(d, nx, f, ekf->V[i]));
+        left_out |= lqg_watch_output(watch, i, !left_out, left_out ? 0 : difference,
+                                     lqg_factors_variance(d, nx, f, ekf->V[i]), 0);
     }
     const lqg_real nu = left_out ? 0 : difference;
 

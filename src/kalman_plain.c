@@ -72,7 +72,7 @@ static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lq
     const lqg_status left_out = !believable ? LQG_OUTPUT_NOT_FINITE
                                 : !(s > 0)  ? LQG_INNOVATION_NOT_POSITIVE
                                             : LQG_OK;
-    const lqg_status watched = lqg_watch_output(watch, i, innovation, s);
+    const lqg_status watched = lqg_watch_output(watch, i, !left_out, innovation, s, 0);
     const int usable = !left_out && !watched;
     const lqg_real nu = usable ? innovation : 0;
     const lqg_real inverse = usable ? 1 / s : 0;

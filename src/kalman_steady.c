@@ -33,7 +33,7 @@ static lqg_real innovate(const lqg_kalman_steady_t *kalman, unsigned i, const lq
     const int believable = is_believable(measured, kalman->innovation_limit, i);
     const lqg_real nu = believable ? measured : 0;
     const lqg_status left_out = (believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) |
-                                (s ? lqg_watch_output(watch, i, nu, s[i]) : LQG_OK);
+                                (s ? lqg_watch_output(watch, i, believable, nu, s[i], 1) : LQG_OK);
 
     *status |= left_out;
     return left_out ? 0 : nu;
@@ -53,8 +53,13 @@ lqg_status lqg_kalman_steady_update_watched(const lqg_kalman_steady_t *kalman, l
     lqg_real *nu = kalman->M ? innovation : work; /* predict needs them only for M */
     lqg_status status = LQG_OK;
 
-    for (unsigned i = 0; i < plant->ny; i++)
-        nu[i] = lqg_watch_uses(watch, i) ? innovate(kalman, i, x, u_applied, y[i], s, watch, &status) : 0;
+    for (unsigned i = 0; i < plant->ny; i++) {
+        nu[i] = 0;
+        if (lqg_watch_uses(watch, i))
+            nu[i] = innovate(kalman, i, x, u_applied, y[i], s, watch, &status);
+        else
+            lqg_watch_silence(watch, i);
+    }
 
     /* x̂ ← x̂ + L innovation */
     for (unsigned j = 0; j < plant->nx; j++)

@@ -55,7 +55,7 @@ static lqg_status update_output(const lqg_kalman_ud_t *kalman, unsigned i, lqg_r
     lqg_status left_out = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
     if (watch) {
         lqg_factors_project(U, nx, c, 1, f);
-        left_out |= lqg_watch_output(watch, i, innovation, lqg_factors_variance(d, nx, f, kalman->V[i]));
+        left_out |= lqg_watch_output(watch, i, believable, innovation, lqg_factors_variance(d, nx, f, kalman->V[i]), 0);
     }
     const lqg_real nu = left_out ? 0 : innovation;
 

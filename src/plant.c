@@ -77,22 +77,41 @@ int lqg_watch_uses(const lqg_watch_t *watch, unsigned i)
     return !watch || !watch->used || watch->used[i];
 }
 
-lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s)
+/* w of output i, times the factor of this sample, within its bounds whatever it was. */
+static void move_gate(const lqg_watch_t *watch, unsigned i, lqg_real factor)
+{
+    LQG_STRICT_BODY
+    const lqg_real widest = (lqg_real)1208925819614629174706176.0f; /* 2⁸⁰ */
+    const lqg_real next = factor * watch->widening[i], least = 1 < next ? next : 1;
+
+    watch->widening[i] = least < widest ? least : widest;
+}
+
+lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, int believable, lqg_real innovation, lqg_real s,
+                            int opens)
 {
     LQG_STRICT_BODY
     if (!watch)
         return LQG_OK;
 
-    /* |ν| > gate √s */
-    const lqg_real nu = is_finite(innovation) ? innovation : 0;
-    const int gated = watch->gate > 0 && nu * nu > watch->gate * watch->gate * s;
+    /* |ν| > gate √(s w) */
+    const lqg_real w = watch->widening ? watch->widening[i] : 1;
+    const int gated = believable && watch->gate > 0 && innovation * innovation > watch->gate * watch->gate * s * w;
     if (watch->nu)
-        watch->nu[i] = nu;
+        watch->nu[i] = innovation;
     if (watch->s)
         watch->s[i] = s;
     if (watch->gated)
         watch->gated[i] += gated ? 1 : 0;
+    if (watch->widening)
+        move_gate(watch, i, believable && !gated ? watch->narrow[i] : gated || opens ? watch->widen[i] : 1);
     return gated ? LQG_OUTPUT_GATED : LQG_OK;
+}
+
+void lqg_watch_silence(const lqg_watch_t *watch, unsigned i)
+{
+    if (watch->widening)
+        move_gate(watch, i, watch->widen[i]);
 }
 
 LQG_STRICT_END

@@ -12,6 +12,7 @@
 #define lqg_plant_predict LQG_VARIANT(lqg_plant_predict)
 #define lqg_watch_uses LQG_VARIANT(lqg_watch_uses)
 #define lqg_watch_output LQG_VARIANT(lqg_watch_output)
+#define lqg_watch_silence LQG_VARIANT(lqg_watch_silence)
 
 /* x = x0 (NULL: 0), u_applied = 0, innovation = 0; the latter two where there are any. */
 void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
@@ -40,8 +41,12 @@ void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[
 /* Output i is to be used. */
 int lqg_watch_uses(const lqg_watch_t *watch, unsigned i);
 
-/* Writes down the innovation of output i, which is 0 if it is not believable, and its variance s. LQG_OUTPUT_GATED when the gate leaves it out,
- * which is counted; an innovation that is not finite passes. */
-lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s);
+/* Writes down the innovation of output i, which is 0 if it is not believable, and its variance s. LQG_OUTPUT_GATED when
+ * the gate leaves it out, which is counted and opens the gate. `opens`: one that is not believable does, too. */
+lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, int believable, lqg_real innovation, lqg_real s,
+                            int opens);
+
+/* Output i was not used: with a constant gain that opens the gate. */
+void lqg_watch_silence(const lqg_watch_t *watch, unsigned i);
 
 #endif

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controller/gains.hpp"
+#include "controller/gate.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/finding.hpp"
 #include "design/numeric/linear_algebra.hpp"
@@ -155,6 +156,7 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
   controller.last_sample = std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
   controller.keeps = memory_of(controller);
   controller.bounds = bounds_of(controller);
+  controller.gate = gate_of(controller);
   if (controller.has.filter) check_start(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   return controller;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "controller/bounds.hpp"
+#include "controller/gate.hpp"
 #include "design/finding.hpp"
 #include "design/linear_form.hpp"
 #include "design/solution.hpp"
@@ -98,6 +99,7 @@ struct Controller {
   std::vector<Gains> laws;     // of sample 0, 1, …; the last one is held. One only: it is constant. Empty: no regulator
   std::vector<Gains> filters;  // likewise; empty without a filter of given gains
   Bounds bounds;
+  Gate gate;                   // empty without one
   std::optional<design::LinearForm> linear;   // the controller keeps z of this form; else it keeps x̂
   std::optional<FormChoice> forms;            // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic

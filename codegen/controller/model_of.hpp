@@ -130,7 +130,17 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
     for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
     model.x_bound = controller.bounds.x;
     model.nu_limit = controller.bounds.innovation.template cast<S>();
-    if (controller.has.gate) model.gate = round(design::Real(controller.problem.estimator->gate));
+    if (controller.has.gate) {
+      model.gate = round(design::Real(controller.problem.estimator->gate));
+      const auto in_target = [&](const Eigen::VectorXd& values) {
+        step::Vector<S> out(values.size());
+        for (Eigen::Index i = 0; i < values.size(); ++i) out(i) = round(design::Real(values(i)));
+        return out;
+      };
+      model.gate_start = in_target(controller.gate.start);
+      model.gate_widen = in_target(controller.gate.widen);
+      model.gate_narrow = in_target(controller.gate.narrow);
+    }
     if (solution.online) convert_online(controller, round, sample, model);
     else convert_steady(controller, round, sample, gain_row, model);
   }

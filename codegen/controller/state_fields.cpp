@@ -28,6 +28,12 @@ void add_estimate(const Controller& controller, Fields& fields) {
   add_reals(fields, "d", size(model.D0), "{NAME}_NX", "", model.D0);
 }
 
+// The gate at the start.
+std::vector<double> start_of_gate(const Controller& controller) {
+  const Eigen::VectorXd& start = controller.gate.start;
+  return {start.data(), start.data() + start.size()};
+}
+
 void add_law(const Controller& controller, Fields& fields) {
   const int nxi = controller.size.nxi;
   add_reals(fields, "r", controller.size.nr, "{NAME}_NR", "what the outputs should be: write it at any time");
@@ -57,6 +63,9 @@ std::vector<Field> state_fields(const Controller& controller) {
   if (controller.has.filter) add_estimate(controller, fields);
   if (controller.keeps.input)
     add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU", "the input that acts: of the last predict or control");
+  if (controller.has.gate)
+    add_reals(fields, "widening", controller.size.ny, "{NAME}_NY",
+              "how much wider than its σ the gate is, squared: more while an output is left out", start_of_gate(controller));
   if (controller.keeps.innovation)
     add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY", "what predict has yet to hear of the last outputs");
   if (controller.has.servo) add_law(controller, fields);

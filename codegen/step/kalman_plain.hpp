@@ -32,7 +32,7 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
   if (!is_zero(model.gate)) {
     const S likely = select(usable, nu, S(0));
     listener.name(likely, "finite_innovation");
-    usable = pass_gate(model, likely, variance, usable, i, listener);
+    usable = pass_gate(model, state, likely, variance, usable, i, listener);
   }
   S reciprocal = select(usable, S(1) / variance, S(0));
   listener.name(reciprocal, "reciprocal");

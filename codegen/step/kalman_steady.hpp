@@ -7,7 +7,7 @@ namespace lqg::step {
 
 // The innovation of output i, 0 where it is beyond its limit or the gate: it counts as one that came as expected.
 template <class S, class Listener>
-S innovate(const Model<S>& model, const State<S>& state, const S& y, int i, Listener& listener) {
+S innovate(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const std::string otherwise = is_zero(model.gate) ? ", 0 if it is not believable" : ", 0 if it is not believable or beyond the gate";
   listener.section((model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + otherwise, i);
   S nu = residual(model, state, y, i);
@@ -16,7 +16,7 @@ S innovate(const Model<S>& model, const State<S>& state, const S& y, int i, List
   nu = select(usable, nu, S(0));
   listener.name(nu, "innovation");
   if (is_zero(model.gate)) return nu;
-  auto passed = pass_gate(model, nu, S(model.variance(i)), usable, i, listener);
+  auto passed = pass_gate(model, state, nu, S(model.variance(i)), usable, i, listener);
   nu = select(passed, nu, S(0));
   listener.name(nu, "likely");
   return nu;

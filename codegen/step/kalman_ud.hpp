@@ -38,7 +38,7 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
   }
   if (!is_zero(model.gate)) {
     for (int j = 0; j < nx; ++j) listener.name(f(j), "projected", j);
-    usable = pass_gate(model, nu, variance_ud(model, state, f, i, listener), usable, i, listener);
+    usable = pass_gate(model, state, nu, variance_ud(model, state, f, i, listener), usable, i, listener);
     nu = select(usable, nu, S(0));
     listener.name(nu, "likely");
   }

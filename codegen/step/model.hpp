@@ -29,6 +29,7 @@ struct Model {
   Matrix<S> E;                 // ny × ny unit lower triangular, online
   Vector<S> V;                 // ny, online
   S gate = S(0);               // σ: an innovation beyond it leaves its output out; 0: no gate
+  Vector<S> gate_start, gate_widen, gate_narrow;  // ny, with a gate: how much wider it is, squared, and by what a sample changes that
   Vector<S> variance;          // ny, steady, with a gate: of the innovations
   Matrix<S> A_free, W;         // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
   Matrix<S> G;                 // nx × nq, ud: W = G diag(w) Gᵀ
@@ -53,6 +54,10 @@ struct Model {
   Matrix<S> H;                 // nxi × nu: ξ + H (u − v) makes the law give u, or nearly, where it gave v
   S T = S(0);                  // s, the sample time, of ξ⁺ = ξ + T (r − y)
 };
+
+// No gate is wider, squared: then it lets everything in that is believable.
+constexpr int widest_gate_exponent = 80;
+constexpr double widest_gate = 0x1p80;
 
 // |value| < limit; where there are no limits, value is finite.
 template <class S>
@@ -84,6 +89,7 @@ struct State {
   std::vector<S> P;          // plain
   std::vector<S> U, D;       // ud
   Vector<S> u;               // nu: the input that acts; kept when D ≠ 0, and where the law begins with it
+  Vector<S> widening;        // ny, with a gate: its threshold is this in units of gate² S, 1 at least
   Vector<S> innovation;      // ny: what predict still needs of the last outputs; kept when M ≠ 0
   Vector<S> r;               // nr: what the outputs should be
   Vector<S> xi;              // nxi: ξ, the integral of r − y
@@ -107,6 +113,7 @@ State<S> initial_state(const Model<S>& model) {
   const auto zeros = [](Eigen::Index size) { return Vector<S>(Vector<S>::Constant(size, S(0))); };
   const auto nxi = static_cast<Eigen::Index>(model.integral.size());
   state.u = zeros(has_feedthrough(model) || continues(model) ? model.nu : 0);
+  state.widening = model.gate_start;
   state.innovation = zeros(model.M.cols());
   state.r = zeros(model.nr);
   state.xi = state.error = zeros(nxi);

@@ -14,18 +14,35 @@ S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {
   return nu;
 }
 
-// Of a usable output: whether ν² ≤ gate² s too. ν is 0 for one that is not usable.
+// How wide the gate is in the next sample. It opens for an output that is left out again and again: then x̂ is wrong, not
+// the sensor. With a constant gain it opens, too, while nothing usable comes: P, which is not carried, would grow. Whatever
+// was in it, it is from 1 to the widest.
 template <class S, class Condition, class Listener>
-Condition pass_gate(const Model<S>& model, const S& nu, const S& variance, const Condition& usable, int i,
+void move_gate(const Model<S>& model, State<S>& state, const Condition& passed, const Condition& gated, int i,
+               Listener& listener) {
+  const S unheard = model.filter == Filter::steady ? S(model.gate_widen(i)) : select(gated, S(model.gate_widen(i)), S(1));
+  const S factor = select(passed, S(model.gate_narrow(i)), unheard);
+  const S next = factor * state.widening(i), widest = PowerOfTwo<S>::of(widest_gate_exponent);
+  listener.name(next, "width");
+  const S least = select(is_less(S(1), next), next, S(1));
+  listener.name(least, "wide");
+  state.widening(i) = select(is_less(least, widest), least, widest);
+  listener.name(state.widening(i), "widening");
+}
+
+// Of a usable output: whether ν² ≤ gate² s w too, w how wide the gate is. ν is 0 for one that is not usable.
+template <class S, class Condition, class Listener>
+Condition pass_gate(const Model<S>& model, State<S>& state, const S& nu, const S& variance, const Condition& usable, int i,
                     Listener& listener) {
   if (is_zero(model.gate)) return usable;
   const S square = nu * nu;
-  auto beyond = is_less(S(S(model.gate * model.gate) * variance), square);
+  auto beyond = is_less(S(S(S(model.gate * model.gate) * variance) * state.widening(i)), square);
   auto gated = both(usable, beyond);
   listener.name(gated, "gated");
   listener.gate(gated, i);
   auto passed = both(usable, negation(beyond));
   listener.name(passed, "passed");
+  move_gate(model, state, passed, gated, i, listener);
   return passed;
 }
 

@@ -68,13 +68,22 @@ typedef struct {
     const lqg_real *D;  /* ny × nu; NULL: 0 */
 } lqg_plant_t;
 
-/* What an update is told beyond the outputs, and what it tells. Every field MAY be 0 or NULL. */
+/* What an update is told beyond the outputs, and what it tells. Every field MAY be 0 or NULL.
+ *
+ * The gate opens again for an output that it leaves out in sample after sample: then x̂ is wrong, and not the sensor.
+ * widening_i, w here, begins with 1, or with more where the filter starts from a P0 that its constant gain knows nothing
+ * of. It is multiplied by widen_i (> 1) in a sample in which the output was gated, and with a constant gain in one in which it
+ * was not believable or not used; by narrow_i (< 1) in one in which it was heard; and is kept within [1, 2⁸⁰]. Without
+ * widening the gate stays as it is, and an x̂ that is far off is never put right. */
 typedef struct {
     const unsigned char *used; /* ny, 0: the output is left out, and not reported; NULL: all are used */
-    lqg_real gate;             /* σ, > 0: an output with |ν| > gate √s is left out; 0: no gate */
+    lqg_real gate;             /* σ, > 0: an output with |ν| > gate √(s w) is left out; 0: no gate */
     unsigned long *gated;      /* ny, in and out: how often the gate left the output out */
     lqg_real *nu; /* ny, out: the innovation of each output that is used, 0 when it is not believable */
     lqg_real *s;  /* ny, out: its variance */
+    lqg_real *widening;        /* ny, in and out, with a gate: w of each output; NULL: 1 */
+    const lqg_real *widen;     /* ny: MUST be there with widening */
+    const lqg_real *narrow;    /* ny: likewise */
 } lqg_watch_t;
 
 /* ------------------------------------------------------------------------------------------ constant gain */

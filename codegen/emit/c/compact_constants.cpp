@@ -165,6 +165,15 @@ static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
   }());
 }
 
+void add_gate(const Controller& controller, Tables& tables) {
+  const auto add = [&](const char* suffix, const Eigen::VectorXd& values) {
+    numbers(suffix, {values.data(), values.data() + values.size()}, tables);
+  };
+  add("WIDENING", controller.gate.start);
+  add("WIDEN", controller.gate.widen);
+  add("NARROW", controller.gate.narrow);
+}
+
 }  // namespace
 
 Tables::Tables(const Controller& controller, const char* owner)
@@ -187,6 +196,7 @@ std::string Tables::add_unless_zero(const std::string& suffix, const RealMatrix&
 
 std::string kalman_constants(const Controller& controller) {
   Tables tables(controller, "KALMAN");
+  if (controller.has.gate) add_gate(controller, tables);
   std::vector<std::string> descriptions;
   for (const std::size_t start : controller.stage_starts) {
     const design::SampledPlant& plant = plant_at(controller, start);

@@ -92,6 +92,7 @@ void load_memory(const SymbolicModel& model, SymbolicState& state) {
     return load(trace::graph(), std::string("self->") + array, name, static_cast<int>(like.size()));
   };
   state.u = load_as(sizes.u, "u_applied", "u_applied");
+  state.widening = load_as(sizes.widening, "widening", "widening");
   state.innovation = load_as(sizes.innovation, "innovation", "kept");
   state.r = load_as(sizes.r, "r", "r");
   state.xi = load_as(sizes.xi, "xi", "integral");
@@ -126,6 +127,7 @@ void store_state(TracedFunction& function, const SymbolicState& state, const std
   store_covariance("self->U", state.U, 0);
   store_covariance("self->d", state.D, state.U.size());
   store_vector("u_applied", state.u);
+  store_vector("widening", state.widening);
   store_vector("innovation", state.innovation);
   store_vector("xi", state.xi);
   store_vector("error", state.error);

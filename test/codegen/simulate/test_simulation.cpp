@@ -279,6 +279,61 @@ void test_gate_leaves_out_what_is_far_off() {
   TEST_ASSERT_TRUE((gated.estimate.col(100) - gated.x.col(100)).norm() < 0.5 * moved);
 }
 
+// In every filter: x̂ is wrong, here because the sensor shows another place from one sample to the next and for ever.
+void test_gate_opens_again_when_the_estimate_is_wrong() {
+  for (const auto& [gain, covariance] :
+       {std::pair(Gain::steady, Covariance::ud), std::pair(Gain::online, Covariance::ud), std::pair(Gain::online, Covariance::plain)})
+    for (const double moved : {1.0, 1e3, 1e6}) {
+      Problem problem = two_mass();
+      problem.regulator.reset();
+      problem.estimator->gain = gain, problem.estimator->covariance = covariance;
+      problem.estimator->gate = 6;
+      SimulationOptions options = options_of(2000, 1);
+      options.sensor = [moved](int k, VectorXd& y) {
+        if (k >= 1000) y.array() += moved;
+      };
+      const Trajectory run = simulate(problem, solved(problem), options);
+      const auto gated = [&](int from, int to) {
+        int count = 0;
+        for (int k = from; k < to; ++k) count += run.has(k, lqg::step::Event::output_gated);
+        return count;
+      };
+      TEST_ASSERT_EQUAL_INT(0, gated(0, 1000));
+      TEST_ASSERT_TRUE(gated(1000, 1003) == 3);
+      int first_heard = 1000;
+      while (run.has(first_heard, lqg::step::Event::output_gated)) ++first_heard;
+      TEST_ASSERT_TRUE(first_heard < 1200);
+      TEST_ASSERT_EQUAL_INT(0, gated(1700, 2000));
+    }
+}
+
+// The gate promises that of honest outputs it leaves out 2 Φ(−3), however wrong the start may be and after any silence,
+// though a constant gain knows no S but that of the steady state.
+void test_gate_of_a_constant_gain_keeps_its_promise_from_the_start_and_after_silence() {
+  const double promised = std::erfc(3 / std::sqrt(2.0));
+  const int runs = 500, samples = 60;
+  Problem problem = two_mass();
+  problem.regulator.reset();
+  problem.estimator->gain = Gain::steady;
+  problem.estimator->gate = 3;
+  problem.estimator->P0 = MatrixXd::Identity(4, 4);
+  const Solution found = solved(problem);
+  lqg::simulate::Noise start(99);
+  int gated = 0;
+  for (int run = 0; run < runs; ++run) {
+    SimulationOptions options = options_of(samples, static_cast<std::uint64_t>(run + 1));
+    options.x0 = VectorXd(4);
+    for (double& x : options.x0) x = start.normal();
+    options.sensor = [](int k, VectorXd& y) {
+      if (k >= 30 && k < 40) y.setConstant(std::nan(""));
+    };
+    const Trajectory seen = simulate(problem, found, options);
+    for (int k = 0; k < samples; ++k) gated += seen.has(k, lqg::step::Event::output_gated);
+  }
+  const double most = promised * runs * (samples - 10) * 2;
+  TEST_ASSERT_TRUE(gated < most + sigmas * std::sqrt(most));
+}
+
 // An estimate beyond its bounds, here by an input that no plant could bear.
 void test_estimate_beyond_its_bounds_begins_anew_and_is_counted() {
   Problem problem = in_double(two_mass());
@@ -348,6 +403,8 @@ int main() {
   RUN_TEST(test_integral_brings_the_output_to_r_and_limits_hold);
   RUN_TEST(test_missing_output_is_told_and_left_out);
   RUN_TEST(test_gate_leaves_out_what_is_far_off);
+  RUN_TEST(test_gate_opens_again_when_the_estimate_is_wrong);
+  RUN_TEST(test_gate_of_a_constant_gain_keeps_its_promise_from_the_start_and_after_silence);
   RUN_TEST(test_estimate_beyond_its_bounds_begins_anew_and_is_counted);
   RUN_TEST(test_numbers_are_those_of_the_target);
   RUN_TEST(test_forms_that_keep_z_show_the_same_loop);
