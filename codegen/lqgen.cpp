@@ -9,6 +9,7 @@
 #include "emit/text/wording.hpp"
 #include "emit/report/json.hpp"
 #include "emit/plan/plan.hpp"
+#include "emit/proof/proof.hpp"
 #include "emit/report/report.hpp"
 #include "emit/report/summary.hpp"
 #include "emit/text/files.hpp"
@@ -55,6 +56,7 @@ std::vector<emit::File> files(const Arguments& arguments, const emit::Controller
   if (wants(arguments, "h")) out.push_back({name + ".h", emit::header(controller)});
   if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
   if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
+  if (wants(arguments, "proof")) out.push_back({name + "_proof.h", emit::proof(controller)});
   if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller)});
   return out;
 }
@@ -137,7 +139,7 @@ int main(int argc, char** argv) {
   app.add_option("DESIGN", arguments.design_file, "design file (TOML)")->required()->option_text("DESIGN.toml");
   app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
   app.add_option("--only", arguments.only, "write only these")
-      ->delimiter(',')->check(CLI::IsMember({"h", "test", "json", "html"}))->option_text("h,test,json,html");
+      ->delimiter(',')->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))->option_text("h,test,json,html,proof");
   app.add_option("--style", arguments.style, "instead of code.style of the design")
       ->check(CLI::IsMember({"unrolled", "compact", "auto"}))->option_text("unrolled|compact|auto");
   app.add_option("--real", arguments.real, "instead of code.real of the design")

@@ -23,6 +23,7 @@ struct Source {
 struct Target {
   bool is_double = false;
   bool is_fused = false;
+  bool is_prover = false;  // who reads the code, beside a compiler
 };
 
 struct Dimensions {

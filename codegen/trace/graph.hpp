@@ -36,6 +36,7 @@ struct Node {
 struct Target {
   bool is_double = false;
   bool is_fused = false;
+  bool is_prover = false;  // reads beside each test what follows from it
 };
 
 // Nodes are numbered in the order in which the run made them, so a node stands after all that it uses.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
+
+#include "trace/consequences.hpp"
 
 namespace lqg::trace {
 
@@ -121,9 +124,15 @@ std::string Printer::print_multiply_add(const Node& node, int level) const {
          factor(node.b, second) + ", " + print(node.c, any) + ")";
 }
 
+std::string Printer::print_comparison(const Node& node) const {
+  if (node.op == Op::less) return print(node.a, comparison) + " < " + print(node.b, comparison + 1);
+  const std::string difference = print(node.a, sum) + " - " + print(node.a, product);
+  if (node.op == Op::usable) return difference + " < " + print(node.b, sum);
+  return difference + " == " + literal(0, graph_.target().is_double);
+}
+
 std::string Printer::print_operation(int node, int level) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  const std::string zero = graph_.target().is_double ? "0.0" : "0.0f";
   const auto binary = [&](const char* sign, int binds) {
     return bracketed(print(at.a, binds) + sign + print(at.b, binds + 1), binds, level);
   };
@@ -143,16 +152,57 @@ std::string Printer::print_operation(int node, int level) const {
     case Op::select:
       return bracketed(print(at.a, logical) + " ? " + print(at.b, logical) + " : " + print(at.c, any), any, level);
     case Op::finite:
-      return bracketed(print(at.a, sum) + " - " + print(at.a, product) + " == " + zero, comparison, level);
-    case Op::less: return binary(" < ", comparison);
-    case Op::usable:
-      return bracketed(print(at.a, sum) + " - " + print(at.a, product) + " < " + print(at.b, sum), comparison, level);
+    case Op::less:
+    case Op::usable: {
+      const std::string text = bracketed(print_comparison(at), comparison, level);
+      const std::string told = restated(node, text, nullptr);
+      return told.empty() ? text : told;
+    }
     case Op::same: return binary(" == ", comparison);
     case Op::either: return chained(" || ");
     case Op::both: return chained(" && ");
     case Op::negation: return "!" + print(at.a, unary + 1);
     default: return at.text;
   }
+}
+
+// Where C can read the value: its name and, once all stores are done, where it has been stored or was loaded from.
+std::vector<std::string> Printer::places(int node, const std::vector<Store>* stores) const {
+  std::vector<std::string> out;
+  if (needs(node) && is_declared(node)) out.push_back(name_of(node));
+  if (!stores) return out;
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  bool is_overwritten = false;
+  for (const Store& store : *stores) {
+    if (store.node == node) out.push_back(store.target);
+    if (store.target == at.text) is_overwritten = true;
+  }
+  if (at.op == Op::input && !is_overwritten) out.push_back(at.text);
+  return out;
+}
+
+// "" for a compiler, and where nothing follows.
+std::string Printer::restated(int condition, const std::string& text, const std::vector<Store>* stores) const {
+  if (!graph_.target().is_prover) return "";
+  std::set<std::string> known;
+  std::string facts;
+  for (const Consequence& consequence : consequences(graph_, condition)) {
+    const std::string limit = consequence.limit >= 0 ? operand(consequence.limit) : literal(consequence.bound, true);
+    const bool is_bounded = consequence.limit >= 0 || std::isfinite(consequence.bound);
+    for (const std::string& place : places(consequence.node, stores)) {
+      const std::string fact = is_bounded ? "BELOW(" + place + ", " + limit + ")" : "FINITE(" + place + ")";
+      if (known.insert(fact).second) facts += (facts.empty() ? "" : " && ") + fact;
+    }
+  }
+  return facts.empty() ? "" : "RESTATED(" + text + ", " + facts + ")";
+}
+
+std::string Printer::test(int condition, const std::vector<Store>& stores) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(condition)];
+  const bool is_comparison = at.op == Op::finite || at.op == Op::less || at.op == Op::usable;
+  const std::string text = is_comparison && !is_declared(condition) ? print_comparison(at) : expression(condition);
+  const std::string told = restated(condition, text, &stores);
+  return told.empty() ? text : told;
 }
 
 bool Printer::is_status(int node) const {
@@ -169,7 +219,8 @@ std::string Printer::declaration(int node) const {
 }
 
 std::string Printer::assignment(const Store& store) const {
-  return wrap("    " + store.target + " = " + expression(store.node) + ";", 8) + "\n";
+  const std::string line = wrap("    " + store.target + " = " + expression(store.node) + ";", 8) + "\n";
+  return graph_.target().is_prover && store.target.rfind("u[", 0) == 0 ? line + "    /*@ slevel merge; */ ;\n" : line;
 }
 
 std::string Printer::statements(const std::vector<Store>& stores) const {

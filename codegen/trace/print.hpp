@@ -36,6 +36,9 @@ class Printer {
   std::string statements(const std::vector<Store>& stores) const;
   // A result as an expression: a name or a literal where it has one.
   std::string expression(int node) const { return print(node, 0); }
+  // A condition, for which a prover reads what it says of the values and, all `stores` being done, of their places:
+  // RESTATED(x_0 * x_0 < 4.0f, BELOW(x_0, 2.0) && BELOW(self->x[0], 2.0)).
+  std::string test(int condition, const std::vector<Store>& stores) const;
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
@@ -47,7 +50,10 @@ class Printer {
   std::string name_of(int node) const;
   std::string print(int node, int level) const;
   std::string print_operation(int node, int level) const;
+  std::string print_comparison(const Node& node) const;
   std::string print_multiply_add(const Node& node, int level) const;
+  std::string restated(int condition, const std::string& text, const std::vector<Store>* stores) const;
+  std::vector<std::string> places(int node, const std::vector<Store>* stores) const;
   std::string declaration(int node) const;
   std::string assignment(const Store& store) const;
 

@@ -3,6 +3,8 @@
 #include "emit/c/straight_line.hpp"
 #include "emit/c/templates.hpp"
 #include "emit/recorded/linear_traced.hpp"
+#include "emit/recorded/trace_listener.hpp"
+#include "trace/print.hpp"
 
 namespace lqg::emit {
 
@@ -17,16 +19,26 @@ std::string functions_of_filter_form(const Controller& controller, const TracedL
 
 std::string others(int i) { return "others_" + std::to_string(i); }
 
-// y_0 + y_1 + …, which is finite where each is: its statements, and how they call it.
+// sum − sum = 0, beside which a prover reads that each y is finite.
+std::string all_finite(const Controller& controller, const std::string& sum) {
+  const std::string test = sum + " - " + sum + " == " + trace::literal(0, controller.target.is_double);
+  if (!controller.target.is_prover) return test;
+  std::string facts;
+  for (int i = 0; i < controller.size.ny; ++i) facts += (i ? " && FINITE(" : "FINITE(") + element("y", i) + ")";
+  return "RESTATED(" + test + ", " + facts + ")";
+}
+
+// y_0 + y_1 + …, which is finite where each is: its statements, and the test.
 Words sum_of_outputs(const Controller& controller) {
   const std::string declare = controller.target.is_double ? "    const double " : "    const float ";
-  if (controller.size.ny == 1) return {{"sum_of_outputs", declare + "y_0 = y[0];\n"}, {"sum", "y_0"}};
+  if (controller.size.ny == 1)
+    return {{"sum_of_outputs", declare + "y_0 = y[0];\n"}, {"all_finite", all_finite(controller, "y_0")}};
   std::string statements, sum = "y[0]";
   for (int i = 1; i < controller.size.ny; ++i) {
     statements += declare + others(i) + " = " + sum + " + y[" + std::to_string(i) + "];\n";
     sum = others(i);
   }
-  return {{"sum_of_outputs", statements}, {"sum", sum}};
+  return {{"sum_of_outputs", statements}, {"all_finite", all_finite(controller, sum)}};
 }
 
 std::string functions_of_predictor_form(const Controller& controller, const TracedLinear& traced) {

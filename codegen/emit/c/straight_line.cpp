@@ -45,14 +45,14 @@ std::string status(const Controller& controller, const Printed& printed) {
   if (function.finite < 0 && function.is_void) return "";
   if (function.finite < 0) return "    return " + raised + ";\n";
   if (!function.recovery.empty())
-    return "    if (!(" + printer.expression(function.finite) + "))\n        return " + function.recovery + ";\n    return " +
+    return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery + ";\n    return " +
            raised + ";\n";
   return fill(R"({status}
     if (!({finite}){faults})
         return {name}_{recover}(self, status);
     return status;
 )", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
-     {"finite", printer.expression(function.finite)},
+     {"finite", printer.test(function.finite, function.stores)},
      {"faults", function.faults.empty() ? "" : " || status & " + function.faults},
      {"recover", function.checks_covariance ? "recover" : "reset"},
      {"name", controller.problem.name}});
@@ -104,7 +104,7 @@ std::string recover_body(const Controller& controller) {
   const Printed printed(traced);
   return write_body(templates::recover_body, controller,
                     {{"statements", printed.printer.statements(traced.stores)},
-                     {"within", printed.printer.expression(traced.finite)}});
+                     {"within", printed.printer.test(traced.finite, traced.stores)}});
 }
 
 std::string statements(const TracedFunction& function) { return Printed(function).printer.statements(function.stores); }
