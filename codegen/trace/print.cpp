@@ -166,11 +166,11 @@ std::string Printer::print_operation(int node, int level) const {
   }
 }
 
-// Where C can read the value: its name and, once all stores are done, where it has been stored or was loaded from.
+// Where C reads the value from now on: by its name or, once all stores are done, where it has been stored or was loaded
+// from.
 std::vector<std::string> Printer::places(int node, const std::vector<Store>* stores) const {
+  if (!stores) return needs(node) && is_declared(node) ? std::vector{name_of(node)} : std::vector<std::string>();
   std::vector<std::string> out;
-  if (needs(node) && is_declared(node)) out.push_back(name_of(node));
-  if (!stores) return out;
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   bool is_overwritten = false;
   for (const Store& store : *stores) {

@@ -36,8 +36,8 @@ class Printer {
   std::string statements(const std::vector<Store>& stores) const;
   // A result as an expression: a name or a literal where it has one.
   std::string expression(int node) const { return print(node, 0); }
-  // A condition, for which a prover reads what it says of the values and, all `stores` being done, of their places:
-  // RESTATED(x_0 * x_0 < 4.0f, BELOW(x_0, 2.0) && BELOW(self->x[0], 2.0)).
+  // A condition, beside which a prover reads what it says of the places of the values, all `stores` being done:
+  // RESTATED(x_0 * x_0 < 4.0f, BELOW(self->x[0], 2.0)). Inside of expressions it reads it of their names.
   std::string test(int condition, const std::vector<Store>& stores) const;
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;

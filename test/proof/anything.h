@@ -1,5 +1,4 @@
-/* What a proof of a controller begins with: the controller in HEADER and its names, and anything. To be included by the one
- * file with main(). */
+/* What a proof of a controller begins with: the controller in NAME_proof.h, its names, and anything. */
 #ifndef PROOF_ANYTHING_H
 #define PROOF_ANYTHING_H
 
@@ -10,9 +9,17 @@
 
 #define PASTE(a, b) a##_##b
 #define JOIN(a, b) PASTE(a, b)
-#define OF(part) JOIN(NAME, part)
-#define SIZE(part) JOIN(UPPER_NAME, part)
+#define OF(part) JOIN(PROOF_NAME, part)
+#define SIZE(part) JOIN(PROOF_UPPER_NAME, part)
 
+/* A controller without a memory has no type. */
+#ifdef PROOF_HAS_LOOP
+#define LOOP OF(t) * loop
+#else
+#define LOOP void *loop
+#endif
+
+#ifndef PROOF_TRIED
 volatile int any_int;
 volatile unsigned long any_count;
 volatile lqg_real any_real;
@@ -40,11 +47,17 @@ double fabs(double a)
 {
     return a < 0 ? -a : a;
 }
+#endif
 
 static void say_anything(lqg_real v[], int length)
 {
     for (int i = 0; i < length; i++)
         v[i] = any_real;
 }
+
+/* An array of anything. */
+#define ANYTHING(name, length) \
+    lqg_real name[length]; \
+    say_anything(name, length)
 
 #endif

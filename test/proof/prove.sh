@@ -1,66 +1,119 @@
 #!/usr/bin/env bash
-# Proves of one emitted controller what README.md says, by Frama-C's Eva; fails when it cannot.
+# Proves of the controller of a design file, yours or ours, what README.md says, by Frama-C's Eva; says what it could not
+# prove or does not understand.
 #
-#   test/proof/prove.sh <design.toml> <style> <real> <folder with NAME.h> <folder for scratch> [sed script to break it first]
+#   test/proof/prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER]
+#
+# FOLDER keeps what was proved and the prover's log. LQGEN: the lqgen to take, if not that of build/ or on the PATH.
+# BREAK: a sed script that breaks the controller first. Exit status: 0 proved, 1 not proved, 2 not understood, 3 something is
+# missing, 4 lqgen refuses the design.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd) root=$here/../..
-design=$1 style=$2 real=$3 emitted=$4 scratch=$5 break=${6:-}
-
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd) root=$(cd "$here/../.." && pwd)
 source "$here/restate_library.sh"
-stop() { echo "$*" >&2; exit 1; }
-value() { sed -n "s/^$1 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$design"; }
-numbers() { sed -n "s/^$1 *= *\[\([^]]*\)\].*/{\1}/p" "$design"; }
 
-name=$(value name)
-variant=f32
-rm -rf "$scratch"
-mkdir -p "$scratch"
+stop() { echo "$2" >&2; exit "$1"; }
+usage() { stop 2 "usage: prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER]"; }
+has() { command -v "$1" >/dev/null 2>&1; }
 
-{
-  echo "#define HEADER \"$name.h\""
-  echo "#define NAME $name"
-  echo "#define UPPER_NAME ${name^^}"
-  [ "$real" = float ] || echo "#define LQG_REAL_DOUBLE"
-  [ "$(value arithmetic)" != fused ] || echo "#define LQG_FUSED"
-  for part in NU NR; do ! grep -q "^#define ${name^^}_$part " "$emitted/$name.h" || echo "#define HAS_$part"; done
-  for call in control set_state set_input partial_update; do ! grep -q "^static inline .*${name}_$call(" "$emitted/$name.h" || echo "#define HAS_$call"; done
-  for part in P U d; do ! grep -q "^    \(float\|double\) $part\[" "$emitted/$name.h" || echo "#define HAS_$part"; done
-  rows=$(sed -n 's/^ *if (self->[a-z_]* < \([0-9]*\))$/, \1/p' "$emitted/$name.h" | tr -d '\n')
-  [ -z "$rows" ] || echo "#define LAST_ROWS ${rows#, }"
-  [ -z "$(numbers u_min)" ] || printf '#define U_MIN %s\n#define U_MAX %s\n' "$(numbers u_min)" "$(numbers u_max)"
-} >"$scratch/design.h"
-[ "$real" = float ] || variant=f64
-[ "$(value arithmetic)" != fused ] || variant+=_fused
+design='' folder='' options=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --style | --real) [ $# -gt 1 ] || usage; options+=("$1" "$2"); shift ;;
+    -o) [ $# -gt 1 ] || usage; folder=$2; shift ;;
+    -*) usage ;;
+    *) [ -z "$design" ] || usage; design=$1 ;;
+  esac
+  shift
+done
+[ -n "$design" ] || usage
 
-# One statement a line, then restated.
-sed -z -e 's/\n *\([-+?:] \)/ \1/g' -e 's/,\n */, /g' "$emitted/$name.h" | sed "$break" | awk -f "$here/restate.awk" >"$scratch/$name.h"
-sources=("$here/controller.c") control= state="x within its bounds"
-grep -q "^static inline .*${name}_control(" "$scratch/$name.h" && control=${name}_control
-if grep -q "^static inline .*${name}_advance(" "$scratch/$name.h"; then  # it keeps z
-  sources=("$here/linear_controller.c") control=${name}_control_fault state="z finite"
-  ! grep -q "${name}_control(.* y\\[" "$scratch/$name.h" || echo "#define HEARS_FIRST" >>"$scratch/design.h"
+find_lqgen() {
+  if [ -n "${LQGEN:-}" ]; then echo "$LQGEN"
+  elif [ -x "$root/build/codegen/lqgen" ]; then echo "$root/build/codegen/lqgen"
+  elif has lqgen; then command -v lqgen
+  else stop 3 "lqgen is missing: build it (test/run.sh does), or say where it is in LQGEN"
+  fi
+}
+lqgen=$(find_lqgen)
+has frama-c || stop 3 "frama-c is missing (Debian: frama-c-base)"
+compiler=${CC:-cc}
+has "$compiler" || stop 3 "a C compiler is missing: $compiler"
+if [ -z "$folder" ]; then
+  folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' EXIT
 fi
+mkdir -p "$folder"
+log=$folder/eva.log
+
+# What is proved: NAME_proof.h. It has to be NAME.h but for what follows from the tests.
+rm -f "$folder"/*_proof.h
+"$lqgen" "$design" -o "$folder" --only h,proof --quiet ${options[@]+"${options[@]}"} || stop 4 "lqgen refuses $design"
+proof=$(echo "$folder"/*_proof.h)
+word() { sed -n "s/^#define PROOF_$1 \\(.*\\)/\\1/p" "$proof"; }
+is() { grep -q "^#define PROOF_$1\$" "$proof"; }
+name=$(word NAME) header=$folder/$(word NAME).h
+text() { "$compiler" -E -P -I"$root/include" "${@:2}" - <"$1" | tr -d ' \n'; }
+
+defines=() style=unrolled real=float variant=f32
+! is COMPACT || style=compact
+! is DOUBLE || { defines+=(-DLQG_REAL_DOUBLE) real=double variant=f64; }
+! is FUSED || { defines+=(-DLQG_FUSED) variant+=_fused; }
+sed 's|/\*@ slevel merge; \*/ ;||' "$proof" >"$folder/same.h"
+[ "$(text "$folder/same.h" '-DRESTATED(test,facts)=test' "${defines[@]}")" = "$(text "$header" "${defines[@]}")" ] ||
+  stop 2 "not understood: $proof is not $header"
+[ -z "${BREAK:-}" ] || sed -i "$BREAK" "$proof"
+awk -v name="$name" -f "$here/calls.awk" "$header" >"$folder/calls.h" || stop 2 "prove.sh does not know how to call $header"
+
+# What is said to follow from the tests is tried first.
+flags=(-I"$folder" -I"$here" -I"$root/include" "${defines[@]}" "-DHEADER=\"$(basename "$proof")\"")
+library=()
+[ "$style" = unrolled ] || library=("$root"/src/*.c)
+"$compiler" -std=c99 -O1 -ffp-contract=off "${flags[@]}" -DPROOF_TRIED -include "$here/tried.h" "$here/tried.c" "${library[@]}" -lm \
+  -o "$folder/tried" || stop 2 "not understood: $header does not compile with $here/tried.c"
+"$folder/tried" || stop 1 "not proved: what should follow from a test does not"
+
 if [ "$style" = compact ]; then
-  restate_library "$scratch"
-  for source in "$scratch"/{kalman_plain,kalman_steady,kalman_ud,factors,plant,lqr,servo,bounds_check}.c; do sources+=("$source"); done
-  control=$(grep -o 'lqg_[a-z]*_control' "$scratch/$name.h" | tail -n 1 || true)
-  control=${control:+${control}_$variant}
+  mkdir -p "$folder/library"
+  restate_library "$folder/library" || exit 2
+  library=("$folder"/library/*.c)
+  flags=(-I"$folder/library" "${flags[@]}")
 fi
-
+control=$(grep -o 'lqg_[a-z]*_control(' "$header" | tail -n 1 | tr -d '(' || true)
+control=${control:+${control}_$variant}
+if is GIVES_INPUT; then
+  grep -q "${name}_control_fault(" "$header" && control=${name}_control_fault || control=${control:-${name}_control}
+fi
 # Loops have fixed lengths: all are unrolled. The paths through the limits of several inputs are kept apart.
 frama-c -eva -eva-precision 2 -eva-domains equality -eva-split-return full -eva-auto-loop-unroll 200 -eva-min-loop-unroll 16 \
   ${control:+-eva-slevel-function "$control:10000"} -warn-special-float none -machdep x86_64 \
-  -cpp-extra-args="-I$scratch -I$here -I$root/include -include design.h -include unknown.h" \
-  "${sources[@]}" >"$scratch/eva.log" 2>&1 || stop "$(tail -n 20 "$scratch/eva.log")"
+  -cpp-extra-args="$(printf '%q ' "${flags[@]}") -include unknown.h" "$here/controller.c" "${library[@]}" >"$log" 2>&1 ||
+  stop 2 "not understood: $(tail -n 20 "$log")"
 
-inputs=0
-! grep -q HAS_control "$scratch/design.h" || inputs=1
-! grep -q U_MIN "$scratch/design.h" || inputs=2
-covariance=$(grep -c 'HAS_[PUd]$' "$scratch/design.h" || true)
-checks=$((1 + inputs + covariance))
-grep -A 2 '^\[eva:alarm\]' "$scratch/eva.log" >&2 && stop "not proved; see $scratch/eva.log"
-grep -q "^  0 alarms generated" "$scratch/eva.log" || stop "not proved; see $scratch/eva.log"
-grep -Eq "Assertions +$checks valid +0 unknown +0 invalid +$checks total" "$scratch/eva.log" || stop "not all checks were reached; see $scratch/eva.log"
-said=("" ", u finite" ", u finite and within its limits") carried=""
-[ "$covariance" = 0 ] || carried=", its covariance after every prediction"
-echo "$name, $style, $real: no undefined behaviour, $state$carried${said[inputs]}"
+# What was not proved, with the function it is in.
+not_proved() {
+  awk -v name="$name" '
+    FNR == NR { if (match($0, "^static .*" name "_[a-z0-9_]+\\(")) { at = substr($0, 1, RLENGTH - 1); sub(/.* /, "", at) } within[FNR] = at; next }
+    /^\[/ { shows = 0 }
+    /^\[eva:alarm\]/ {
+      shows = 1
+      if (match($0, name "_proof\\.h:[0-9]+")) { line = substr($0, RSTART, RLENGTH); sub(/.*:/, "", line); print within[line + 0] ":" }
+    }
+    shows { print }
+  ' "$proof" "$log" | grep -v '^ *stack: .*' | head -n 60 >&2
+}
+
+checks=$("$compiler" -E -CC -P "${flags[@]}" -include "$here/unknown.h" "$here/controller.c" | grep -c '/\*@ check')
+functions=$(sed -n "s/.*@ check ${name}_\\(.*\\)_returns.*/\\1/p" "$folder/calls.h" | paste -sd ' ')
+grep -q "^  0 alarms generated" "$log" || { not_proved; stop 1 "$name, $style, $real: not proved"; }
+grep -Eq "Assertions +$checks valid +0 unknown +0 invalid +$checks total" "$log" || {
+  not_proved
+  stop 1 "$name, $style, $real: not proved: not all of $checks checks were reached: $(grep 'Assertions ' "$log" | tr -s ' ')"
+}
+said=''
+! is BOUNDS || said+=', x within its bounds'
+! is KEEPS_z || said+=', z finite'
+! is KEEPS_P && ! is KEEPS_d || said+=', its covariance after every prediction'
+! is GIVES_INPUT || said+=', u finite'
+[ -z "$(word U_MIN)" ] || said+=' and within its limits'
+echo "$name, $style, $real: no undefined behaviour$said"
+echo "  whatever comes in, in any order: $functions"

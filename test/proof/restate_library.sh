@@ -11,5 +11,8 @@ restate_library() {
   sed -i 's/^    if (is_within_bounds(&check))$/    if (perhaps_all_finite(theta, rls->ntheta))/' "$1/rls.c"
   sed -i 's/^    if (is_within_bounds(&check))$/    if (perhaps_all_scaled_below(xi, servo->xi_scale, servo->nxi) \&\& (!u_applied || perhaps_all_finite(u_applied, servo->nu)))/' \
     "$1/servo.c"
-  [ "$(grep -l perhaps_all "$1"/{kalman_*,ekf,rls,servo}.c | wc -l)" = 6 ] && grep -q 'BELOW(a' "$1/kernel.h" || stop "the library's test of its state reads otherwise than it did"
+  [ "$(grep -l perhaps_all "$1"/{kalman_*,ekf,rls,servo}.c | wc -l)" = 6 ] && grep -q 'BELOW(a' "$1/kernel.h" || {
+    echo "not understood: the library's test of its state reads otherwise than it did" >&2
+    return 1
+  }
 }

@@ -10,6 +10,11 @@ extern volatile int any_int; /* each reading may give anything */
 /* Here ends a path that another one stands for. */
 /*@ assigns \nothing; ensures \false; */
 void stop(void);
+/*@ assigns \nothing; ensures \false; */
+int stopped(void);
+
+/* A test of the emitted code, and what follows from it where it passes: so nothing else may be there. */
+#define RESTATED(test, facts) ((test) && ((facts) || stopped()))
 
 /* Every v_i is finite. May say no when they are, but never yes when one is not. */
 static inline int perhaps_all_finite(const lqg_real v[], unsigned long length)
