@@ -36,7 +36,7 @@ function write_call(prototype,   call, list, count, parameter, i) {
   print "    " call "(" passed ");"
   if (gives_input) print "    look_at_input(u);"
   if (call == name "_predict" || call == name "_step") print "    LOOK_AT_COVARIANCE(loop);"
-  print "    /*@ check " call "_returns: \\true; */ ;\n}"
+  print "    /*@ slevel merge; */ ;\n    /*@ check " call "_returns: \\true; */ ;\n}"
   calls++
 }
 
