@@ -9,9 +9,12 @@
 #   STYLE, REAL   instead of the design's own `style` and `real`
 #   OUTPUT_DIR    where NAME.h goes; default: lqg/<target> in the current binary folder
 #
+# <target> is only built if its compiler, with its options, computes as lqg/arithmetic.h says (LqgCheckArithmetic.cmake).
+#
 # lqgen is the target tinylqg::lqgen, built or imported. The variable LQG_LQGEN_EXECUTABLE names another one:
 # needed where the compiler makes code for another machine than the one that builds.
 include_guard(GLOBAL)
+include(${CMAKE_CURRENT_LIST_DIR}/LqgCheckArithmetic.cmake)
 
 function(lqg_add_controller target design)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "STYLE;REAL;OUTPUT_DIR" "")
@@ -60,6 +63,7 @@ function(lqg_add_controller target design)
   endif()
   target_include_directories(${target} ${scope} "$<BUILD_INTERFACE:${folder}>")
   target_link_libraries(${target} ${scope} ${library})
+  lqg_check_arithmetic(${target})
 endfunction()
 
 # Stops with a sentence where the call's arguments make no sense.

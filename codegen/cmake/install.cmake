@@ -46,4 +46,6 @@ write_basic_package_version_file(tinylqgConfigVersion.cmake COMPATIBILITY SameMi
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/tinylqgConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/tinylqgConfigVersion.cmake
               codegen/cmake/LqgAddController.cmake
+        codegen/cmake/LqgCheckArithmetic.cmake
+        codegen/cmake/LqgCompareCode.cmake
         DESTINATION ${package_dir})

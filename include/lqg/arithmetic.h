@@ -22,6 +22,11 @@
 #error "TinyLQG needs its operations in the order in which they are written. Leave out -funsafe-math-optimizations, -fassociative-math and -freciprocal-math for this file."
 #endif
 
+/* 16 is what processors with half precision say: it leaves float and double alone. */
+#if defined __FLT_EVAL_METHOD__ && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
+#error "TinyLQG needs float operations that are rounded to float: here they are more precise (x87, -ffp-eval-method). On x86 use -msse2 -mfpmath=sse."
+#endif
+
 #if defined LQG_REAL_DOUBLE && defined __SIZEOF_DOUBLE__ && __SIZEOF_DOUBLE__ < 8
 #error "TinyLQG: LQG_REAL_DOUBLE asks for a double of 64 bits, and this compiler's has less. Leave it out."
 #endif
@@ -32,11 +37,11 @@ typedef double lqg_real;
 typedef float lqg_real;
 #endif
 
-/* Contraction (turning a*b + c into one fused multiply-add behind our back) is what GCC and clang do unless
- * told otherwise. It is switched off from the inside, and the code around keeps its own options. Only clang's
- * explicit -ffp-contract=fast cannot be overruled from here: use fast-honor-pragmas in its place.
+/* What GCC and clang do to arithmetic unless told otherwise (contraction: a*b + c becomes one fused multiply-add behind our
+ * back), and what the options around allow them (to forget NaNs and signs of zero, to reorder sums, to divide by
+ * multiplying), is switched off from the inside; the code around keeps its own options.
  *
- *     LQG_STRICT_BEGIN                     before the first function (GCC)
+ *     LQG_STRICT_BEGIN                     before the first function
  *     lqg_real f(lqg_real a, lqg_real b)
  *     {
  *         LQG_STRICT_BODY                  first in each function with arithmetic (clang)
@@ -44,15 +49,27 @@ typedef float lqg_real;
  *     }
  *     LQG_STRICT_END                       after the last function
  *
+ * Of clang, two things stay open. An explicit -ffp-contract=fast cannot be overruled: use fast-honor-pragmas in its place.
+ * And where a target has no float_control, as 32-bit Arm, -fno-honor-nans and its like are neither seen nor overruled.
+ * lqg/check.h finds both.
+ *
  * GCC's vectorizer is switched off with it: GCC 12 makes vfmaddsub and vfmsubadd of separate products and sums in
  * spite of fp-contract=off. Such functions must not be always_inline: they would take over the options of their caller.
  */
 #if defined __clang__
-#define LQG_STRICT_BEGIN
+#define LQG_STRICT_BEGIN \
+    _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wignored-pragmas\"") \
+    _Pragma("float_control(push)") _Pragma("float_control(precise, on)") _Pragma("clang diagnostic pop")
 #define LQG_STRICT_BODY _Pragma("clang fp contract(off)")
-#define LQG_STRICT_END
+#define LQG_STRICT_END \
+    _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wignored-pragmas\"") \
+    _Pragma("float_control(pop)") _Pragma("clang diagnostic pop")
 #elif defined __GNUC__
-#define LQG_STRICT_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize (\"fp-contract=off\", \"no-tree-vectorize\")")
+#define LQG_STRICT_BEGIN \
+    _Pragma("GCC push_options") \
+    _Pragma("GCC optimize (\"fp-contract=off\", \"no-tree-vectorize\")") \
+    _Pragma("GCC optimize (\"no-unsafe-math-optimizations\", \"no-associative-math\", \"no-reciprocal-math\")") \
+    _Pragma("GCC optimize (\"signed-zeros\", \"no-finite-math-only\", \"no-single-precision-constant\")")
 #define LQG_STRICT_BODY
 #define LQG_STRICT_END _Pragma("GCC pop_options")
 #else

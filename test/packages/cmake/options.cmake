@@ -1,0 +1,23 @@
+# cmake -DFOLDER=… -DEXPECTED=… -P options.cmake -- <option>…: configures the project `options` with the options and builds it;
+# it has to end in EXPECTED, or to succeed where that is empty.
+set(options)
+set(is_option FALSE)
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(index RANGE ${last})
+  if(is_option)
+    list(APPEND options "${CMAKE_ARGV${index}}")
+  elseif(CMAKE_ARGV${index} STREQUAL "--")
+    set(is_option TRUE)
+  endif()
+endforeach()
+file(REMOVE_RECURSE ${FOLDER})
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/options -B ${FOLDER} ${options}
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${FOLDER} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT EXPECTED AND result EQUAL 0)
+  return()
+endif()
+string(REGEX REPLACE "[ \n]+" " " line "${output}")  # CMake wraps its messages
+if(NOT EXPECTED OR result EQUAL 0 OR NOT line MATCHES "${EXPECTED}")
+  message(FATAL_ERROR "expected ${EXPECTED}, found a build that ended with ${result}:\n${output}")
+endif()
