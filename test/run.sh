@@ -8,10 +8,6 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../codegen/cmake/setup.sh"
 
-# This source distribution on PyPI holds all of Unity 2.7.0 under vendor/unity.
-unity_sdist=pytest-unity==0.1.0
-unity_sdist_sha256=cd3ceb4aeb4f7866f935957f91874999d8ae13ff014684464ade0b7071e28298
-
 # CMake gets Unity itself where its home can be reached.
 upstream_is_reachable() {
   local script reachable=0
@@ -26,17 +22,9 @@ upstream_is_reachable() {
 }
 
 fetch_unity_from_pypi() {
-  local folder=$1 download
   echo "Fetching Unity from PyPI"
   python3 -m pip --version >/dev/null 2>&1 || lqg_install python3-pip
-  download=$(mktemp -d)
-  python3 -m pip download --quiet --no-deps --no-binary pytest-unity --dest "$download" "$unity_sdist" ||
-    lqg_stop "Unity can be had neither from github.com nor from PyPI ($unity_sdist)"
-  echo "$unity_sdist_sha256  $download/pytest_unity-0.1.0.tar.gz" | sha256sum --check --quiet
-  mkdir -p "$folder"
-  tar -xzf "$download/pytest_unity-0.1.0.tar.gz" -C "$folder" --strip-components=3 \
-    pytest_unity-0.1.0/vendor/unity
-  rm -r "$download"
+  "$lqg_root/test/unity.sh" "$1" || lqg_stop "Unity can be had neither from github.com nor from PyPI (test/unity.txt)"
 }
 
 folder=$lqg_root/build${CC:+-$(basename "$CC")}
