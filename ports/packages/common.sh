@@ -7,8 +7,10 @@
 #   copy_library <folder for *.c> <folder for lqg/*.h>
 #   copy_mass <folder for the design> <folder for main.c and the controller>   the example mass.c
 #   make_controller <design> <folder> <option of lqgen>…   NAME.h, by the lqgen that LQGEN names, else one built in build/packages/.lqgen
+#   settle <folder>               its modes and times, at the end
 set -euo pipefail
 source "$1/codegen/cmake/setup.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/reproducible.sh"
 
 root=$(cd "$1" && pwd)
 [ -f "$root/include/lqg/version.h" ] || lqg_stop "$1 is not TinyLQG's source tree: no include/lqg/version.h"

@@ -31,6 +31,8 @@ for design in "$library"/examples/*/*.toml; do
   make_controller "$design" "$(dirname "$design")" --style unrolled --real float
 done
 
+settle "$library"
 if lqg_has_command zip; then
-  (cd "$out" && zip -qrX "TinyLQG-$version.zip" TinyLQG)
+  (cd "$out" && find TinyLQG | sort | zip -qX "TinyLQG-$version.zip" -@)
 fi
+settle "$out"

@@ -10,6 +10,7 @@ root=$(cd "$1" && pwd)
 mkdir -p "$2"
 output=$(cd "$2" && pwd)
 source "$root/codegen/cmake/setup.sh"
+source "$root/ports/packages/reproducible.sh"
 lqg_has_command dpkg-shlibdeps || lqg_install dpkg-dev
 
 build=${LQG_BUILD:-}

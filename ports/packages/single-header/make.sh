@@ -59,3 +59,4 @@ mkdir -p "$out/lqg"
 for name in "${public[@]}"; do
   echo '#include "../tinylqg.h"' >"$out/lqg/$name.h"
 done
+settle "$out"
