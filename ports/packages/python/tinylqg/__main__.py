@@ -21,14 +21,20 @@ def import_mat(arguments):
         if getattr(arguments, key) is not None:
             keys[key] = getattr(arguments, key)
     keys.setdefault("name", Path(arguments.file).stem)
-    text = design_text(**keys)
+    text = design_text(**keys).encode("utf-8")
     if arguments.output == "-":
-        sys.stdout.write(text)
+        sys.stdout.buffer.write(text)
         return
-    output = Path(arguments.output or keys["name"] + ".toml")
-    if output.exists() and not arguments.force:
-        raise expected(output, "a file that is not there yet", "one that somebody may have edited; --force replaces it")
-    output.write_text(text, encoding="utf-8")
+    write(Path(arguments.output or keys["name"] + ".toml"), text, arguments.force)
+
+
+def write(output, text, force):
+    """A new file, and no link's target; `force` writes to what is there."""
+    try:
+        with output.open("wb" if force else "xb") as file:
+            file.write(text)
+    except FileExistsError:
+        raise expected(output, "a file that is not there yet", "one that somebody may have edited; --force replaces it") from None
 
 
 def export_mat(arguments):

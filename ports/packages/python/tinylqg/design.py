@@ -4,6 +4,7 @@ from pathlib import Path
 
 from . import toml
 from .errors import DesignError, expected
+from .names import design_name
 from .plant import plant_table
 
 SECTIONS = ("lqr", "pole_placement", "kalman", "observer", "limits", "stage", "require", "code")
@@ -27,6 +28,7 @@ def design_text(plant, *, name, brief=None,
     for section in sections:
         if section not in SECTIONS:
             raise expected("design", "one of " + ", ".join(SECTIONS), section)
+    sections = {section: table_of(section, value) for section, value in sections.items() if value is not None}
     given = {"domain": domain, "sample_time": sample_time, "G": G, "H": H, "delay": delay,
              "states": states, "inputs": inputs, "outputs": outputs}
     tables = {"plant": plant_table(plant, given)}
@@ -34,7 +36,18 @@ def design_text(plant, *, name, brief=None,
     tables["kalman"] = merged("kalman", sections, {"process_noise": W, "measurement_noise": V, "cross_noise": Swv})
     for section in SECTIONS:
         tables.setdefault(section, sections.get(section))
-    return toml.document({"name": name, "brief": brief}, {key: table for key, table in tables.items() if table})
+    top = {"name": design_name(name), "brief": brief}
+    return toml.document(top, {key: table for key, table in tables.items() if table})
+
+
+def table_of(section, value):
+    """A section as a table; `stage` is several."""
+    if section == "stage":
+        if not isinstance(value, (list, tuple)) or not all(isinstance(item, dict) for item in value):
+            raise expected(section, "a list of dictionaries", f"{type(value).__name__} {value!r}")
+    elif not isinstance(value, dict):
+        raise expected(section, "a dictionary", f"{type(value).__name__} {value!r}")
+    return value
 
 
 def merged(section, sections, given):

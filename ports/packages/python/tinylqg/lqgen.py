@@ -1,12 +1,12 @@
 """Where the generator, the headers and the sources are, and how the generator is run."""
 
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
 
 from .errors import DesignError
+from .names import name_in
 from .result import load
 
 FOLDER = Path(__file__).resolve().parent
@@ -33,19 +33,13 @@ def generate(design, folder=".", *options):
     `options` go to lqgen: "--style", "compact". What lqgen refuses is a DesignError with all its lines; a file that
     cannot be read or written an OSError.
     """
-    command = [str(lqgen_path()), str(design), "-o", str(folder), "--only", "h,test,json", "--quiet", *options]
-    run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    command = [str(lqgen_path()), "-o", str(folder), "--only", "h,test,json", "--quiet", *options, "--", str(design)]
+    run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", errors="backslashreplace", check=False)
     if run.returncode == 3:
         raise OSError(run.stderr.strip())
     if run.returncode != 0:
         raise DesignError(run.stderr.strip() or f"lqgen ended with the status {run.returncode}")
-    return load(Path(folder) / (name_of(design) + ".json"))
-
-
-def name_of(design):
-    """The name of a design that lqgen has accepted."""
-    text = Path(design).read_text(encoding="utf-8-sig")
-    return re.search(r"""^\s*["']?name["']?\s*=\s*["']([a-z][a-z0-9_]*)["']""", text, re.MULTILINE).group(1)
+    return load(Path(folder) / (name_in(design) + ".json"))
 
 
 def main():

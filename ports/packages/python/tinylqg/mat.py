@@ -3,7 +3,7 @@
 from .design import SECTIONS
 from .errors import DesignError, expected
 from .mat_file import variables_of
-from .plant import timed
+from .plant import scalar, timed
 
 MATRICES = ("A", "B", "C", "D", "G", "H", "N", "cross_noise", "structure")
 NUMBERS = ("sample_time", "Ts", "delay", "decay", "settling_time", "horizon", "gate", "rho", "from", "gain_margin_dB",
@@ -76,12 +76,12 @@ def with_time(path, plant, Ts):
     """Ts = 0 says that the plant is continuous, as no Ts does; MATLAB's −1 is a sample time that is not known."""
     if Ts is None:
         return plant
-    period = shaped("Ts", Ts)
+    period = scalar("sample_time", shaped("Ts", Ts))
     if period < 0:
         raise expected(path, "Ts = 0 (continuous) or the sample time in s", period)
     timed_plant = timed({}, period)
     for key, value in timed_plant.items():
-        if plant.get(key, value) != value:
+        if key in plant and scalar(key, plant[key]) != value:
             raise DesignError(f"{path}: Ts = {period:g} says {key} = {value!r}, there is {plant[key]!r}, too")
     return {**plant, **timed_plant}
 

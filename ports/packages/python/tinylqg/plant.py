@@ -4,8 +4,11 @@ import re
 import sys
 
 from .errors import DesignError, expected
+from .toml import LARGEST_INTEGER
 
 NO_SAMPLE_TIME = "the plant is continuous: expected sample_time=…, the loop's period in s"
+
+SCALARS = {"domain": str, "sample_time": (int, float)}
 
 
 def plant_table(system, given):
@@ -25,10 +28,13 @@ def plant_table(system, given):
 
 
 def complete(table, given):
+    table.update({key: scalar(key, table[key]) for key in SCALARS if table.get(key) is not None})
     for key, value in given.items():
         if value is None:
             continue
-        if key in ("sample_time", "domain") and table.get(key, value) != value:
+        if key in SCALARS:
+            value = scalar(key, value)
+        if key in SCALARS and table.get(key, value) != value:
             raise expected(f"plant.{key}", f"{table[key]!r}, as the plant says", repr(value))
         if key in ("G", "H", "delay") and table.get(key) is not None:
             raise DesignError(f"plant.{key}: given twice")
@@ -41,10 +47,22 @@ def complete(table, given):
     return {**{key: table[key] for key in order if key in table}, **table}
 
 
+def scalar(key, value):
+    """A text for the domain, a number for a time; NumPy's and those of one entry as Python's."""
+    if hasattr(value, "item") and getattr(value, "size", 1) == 1:
+        value = value.item()
+    if not isinstance(value, SCALARS[key]) or isinstance(value, bool):
+        raise expected(f"plant.{key}", "a text" if key == "domain" else "a number", f"{type(value).__name__} {value!r}")
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        raise expected(f"plant.{key}", "a number", f"one of {value.bit_length()} bits")
+    return value
+
+
 def timed(matrices, dt):
     """`matrices` with the time base dt: 0 is continuous."""
     if dt is True:
         raise expected("plant.dt", "the sample time in s", "True, a discrete plant of unknown sample time")
+    dt = scalar("sample_time", dt)
     if dt == 0:
         return {"domain": "continuous", **matrices}
     if not dt > 0:

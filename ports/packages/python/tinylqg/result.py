@@ -4,7 +4,8 @@ import json
 from pathlib import Path
 
 from . import loop
-from .errors import DesignError, expected, needs
+from .errors import DesignError, expected, needs, refusing
+from .names import design_name
 
 SHORT = {"K": "lqr", "L": "kalman"}
 NAMES = ("states", "inputs", "outputs")
@@ -72,7 +73,8 @@ class Design(Table):
             from scipy.io import savemat
         except ImportError:
             raise needs("scipy", "save_mat()", "mat") from None
-        savemat(path, mat_variables(self), oned_as="column", appendmat=False)
+        with refusing(self.name, "a design as lqgen writes it"):
+            savemat(path, mat_variables(self), oned_as="column", appendmat=False)
 
 
 def mat_variables(design):
@@ -95,17 +97,53 @@ def mat_variables(design):
 
 def load(path):
     """The design in the file NAME.json that lqgen wrote."""
-    try:
-        tables = json.loads(Path(path).read_text(encoding="utf-8"))
-    except ValueError as problem:
-        raise expected(path, "the JSON file of a design", f"something else ({problem})") from None
-    if not isinstance(tables, dict) or not {"lqgen", "name", "plant"} <= tables.keys():
-        raise DesignError(f"{path}: expected a JSON file that lqgen wrote")
-    design = Design(converted(tables))
-    fix_empty(design.plant)
-    for stage in design.get("stages", []):
-        fix_empty(stage.plant)
-    return design
+    data = Path(path).read_bytes()
+    with refusing(path, "the JSON file of a design"):
+        tables = json.loads(data.decode("utf-8"))
+        if not isinstance(tables, dict) or not {"lqgen", "name", "plant"} <= tables.keys():
+            raise DesignError(f"{path}: expected a JSON file that lqgen wrote")
+        design_name(tables["name"], f"{path}: name")
+        check_tables(path, tables)
+        design = Design(converted(tables))
+        for plant in (design.plant, *(stage.plant for stage in design.get("stages", []))):
+            fix_empty(plant)
+        return design
+
+
+def check_tables(path, tables):
+    """What is a table is one, and plants have matrices that fit each other."""
+    for key in ("plant", "noise", "cost", "lqr", "kalman", "loop"):
+        if not isinstance(tables.get(key, {}), dict):
+            raise expected(path, f"a table {key}", type(tables[key]).__name__)
+    stages = tables.get("stages", [])
+    if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages):
+        raise expected(path, "a list of tables stages", type(stages).__name__)
+    first = tables["plant"]
+    for key in NAMES:
+        if not is_list_of(first.get(key), str):
+            raise expected(path, f"names in plant.{key}", type(first.get(key)).__name__)
+    for plant in (first, *(stage.get("plant") for stage in stages)):
+        check_plant(path, plant)
+
+
+def check_plant(path, plant):
+    """A is nx × nx, B nx × nu, C ny × nx, D ny × nu; without outputs the last two have no rows."""
+    if not isinstance(plant, dict):
+        raise expected(path, "a table plant", type(plant).__name__)
+    for key in "ABCD":
+        if not is_list_of(plant.get(key), list):
+            raise expected(path, f"rows of numbers in plant.{key}", type(plant.get(key)).__name__)
+    nx, ny, nu = len(plant["A"]), len(plant["C"]), len(plant["B"][0]) if plant["B"] else 0
+    if nx == 0:
+        raise expected(path, "states", "a plant without any")
+    for key, rows, columns in (("A", nx, nx), ("B", nx, nu), ("C", ny, nx), ("D", ny, nu)):
+        matrix = plant[key]
+        if len(matrix) != rows or not all(len(row) == columns and is_list_of(row, (int, float)) for row in matrix):
+            raise expected(path, f"{rows} rows of {columns} numbers in plant.{key}", "others")
+
+
+def is_list_of(value, kind):
+    return isinstance(value, list) and all(isinstance(item, kind) for item in value)
 
 
 def converted(value, key=None):
@@ -115,7 +153,7 @@ def converted(value, key=None):
     if not isinstance(value, list) or key in NAMES:
         return value
     if key in ("poles", "full_poles"):
-        return array([complex(*pole) for pole in value])
+        return array([complex(real, imaginary) for real, imaginary in value])
     if any(isinstance(item, dict) for item in value):
         return [converted(item) for item in value]
     return array(value)
