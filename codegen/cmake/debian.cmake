@@ -21,16 +21,32 @@ License: Expat
 
 Files: usr/bin/lqgen
 Copyright: ${holder}
- The Mbed TLS Contributors
-License: Expat and Apache-2.0
-Comment: lqgen has SHA-256 of Mbed TLS inside.
+ and those whom libraries/NAME.copyright beside this file names
+License: Expat and Apache-2.0 and MPL-2.0 and BSL-1.0 and BSD-3-clause
+Comment: lqgen has parts of these libraries inside: Mbed TLS (Apache-2.0),
+ Eigen (MPL-2.0), Boost (BSL-1.0), CLI11 (BSD-3-clause), toml++ and
+ JSON for Modern C++ (Expat). It uses the shared libraries of MPFR and GMP
+ (LGPL-3+), which are in packages of their own. What Debian says of each
+ of them stands in libraries/NAME.copyright beside this file.
 
 License: Expat
  ${license}
 
 License: Apache-2.0
  The full text is in /usr/share/common-licenses/Apache-2.0.
+
+License: MPL-2.0
+ The full text is in /usr/share/common-licenses/MPL-2.0. The source of Eigen
+ is in Debian's package libeigen3-dev.
+
+License: BSL-1.0
+ The full text is in libraries/boost.copyright beside this file.
+
+License: BSD-3-clause
+ The full text is in libraries/cli11.copyright beside this file.
 ")
+include(${CMAKE_CURRENT_LIST_DIR}/licenses.cmake)
+lqg_copy_copyrights(${documents}/libraries)
 
 # A changelog in Debian's form, which has to have a date (SOURCE_DATE_EPOCH can set it); what has changed is TinyLQG's own text.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)

@@ -28,6 +28,14 @@ dpkg-deb -x "$package" "$folder/root"
 usr=$folder/root/usr
 grep -q "Copyright: 2026 TinyLQG contributors" "$usr/share/doc/tinylqg/copyright" || fail "copyright: no holder"
 grep -q "MERCHANTABILITY" "$usr/share/doc/tinylqg/copyright" || fail "copyright: no licence"
+for library in boost cli11 eigen gmp mbedtls mpfr nlohmann-json tomlplusplus; do
+  grep -q -i "copyright" "$usr/share/doc/tinylqg/libraries/$library.copyright" || fail "libraries: no licence of $library"
+done
+grep -q "Boost Software License" "$usr/share/doc/tinylqg/libraries/boost.copyright" || fail "libraries: no licence of Boost"
+
+# Once more, by somebody else: the same bytes.
+(umask 077 && TZ=Pacific/Chatham LC_ALL=C.UTF-8 "$root/ports/packages/debian/make.sh" "$root" "$folder/again")
+cmp "$package" "$folder/again/$(basename "$package")" || fail "The package made again is another"
 
 # The packed lqgen is the build's, and its manual has every option.
 design=$root/codegen/designs/two_mass.toml
