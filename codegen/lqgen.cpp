@@ -17,6 +17,7 @@
 #include "emit/unit_test/unit_test.hpp"
 #include "design/solve.hpp"
 #include "input/design_file.hpp"
+#include "watch.hpp"
 
 namespace {
 
@@ -30,6 +31,7 @@ struct Arguments {
   std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
   bool quiet = false;
+  std::optional<unsigned> time_limit;  // s
 };
 
 bool wants(const Arguments& arguments, const char* what) {
@@ -70,33 +72,8 @@ bool overwrites_design(const Arguments& arguments, const std::vector<emit::File>
   return false;
 }
 
-// What takes long is told on one line of a terminal, which is gone in the end.
-class ProgressLine {
- public:
-  explicit ProgressLine(const Arguments& arguments) : shows_(!arguments.quiet && ::isatty(STDERR_FILENO)) {}
-  ~ProgressLine() {
-    if (has_line_) std::cerr << "\r\033[K" << std::flush;
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const std::string& line) {
-    if (!shows_) return;
-    std::cerr << "\r\033[K" << line << " …" << std::flush;
-    has_line_ = true;
-  }
-
- private:
-  bool shows_, has_line_ = false;
-};
-
-std::optional<design::Solution> solve(const Arguments& arguments, const design::Problem& problem,
-                                      design::Findings& findings) {
-  ProgressLine progress(arguments);
-  return design::solve(problem, findings, [&](const std::string& line) { progress.show(line); });
-}
-
 int generate(const Arguments& arguments) {
+  Watch watch(arguments.design_file, arguments.quiet, arguments.time_limit);
   const input::DesignFile file = input::read_design_file(arguments.design_file);
   report(arguments, file, file.findings);
   if (!file.readable) return unreadable;
@@ -105,18 +82,22 @@ int generate(const Arguments& arguments) {
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
   design::Findings findings;
-  std::optional<design::Solution> solution = solve(arguments, problem, findings);
+  std::optional<design::Solution> solution =
+      design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
   std::optional<emit::Controller> controller;
   if (solution && !design::has_error(findings)) {
     const std::string file_name = std::filesystem::path(arguments.design_file).filename().string();
     controller = emit::make_controller(std::move(problem), std::move(*solution),
                                        {file_name, emit::sha256(file.text)}, findings);
   }
+  watch.clear();
   input::sort_by_place(file, findings);
   report(arguments, file, findings);
   if (!controller) return impossible;
 
+  watch.show("code, test and report");
   const std::vector<emit::File> outputs = files(arguments, *controller);
+  watch.end();
   if (overwrites_design(arguments, outputs)) {
     std::cerr << arguments.design_file << ": expected a design file that is not one of the outputs; rename it, or choose "
               << "another folder with -o\n";
@@ -144,6 +125,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"unrolled", "compact", "auto"}))->option_text("unrolled|compact|auto");
   app.add_option("--real", arguments.real, "instead of code.real of the design")
       ->check(CLI::IsMember({"float", "double"}))->option_text("float|double");
+  app.add_option("--time-limit", arguments.time_limit, "end without a result when so many seconds have passed")
+      ->check(CLI::Range(1u, 1000000u))->option_text("S");
   app.add_flag("--quiet", arguments.quiet, "print nothing but errors");
   try {
     app.parse(argc, argv);

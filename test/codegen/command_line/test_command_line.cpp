@@ -85,6 +85,8 @@ void test_command_line_that_is_wrong() {
   expect_refusal(wrong, run_lqgen({"base.toml", "-o", "out", "--only", "h,exe"}));
   expect_refusal(wrong, run_lqgen({"base.toml", "-o", "out", "--style", "terse"}));
   expect_refusal(wrong, run_lqgen({"base.toml", "-o", "out", "--real", "half"}));
+  for (const char* seconds : {"0", "-1", "0.5", "nan", "soon", "1000001"})
+    expect_refusal(wrong, run_lqgen({"base.toml", "-o", "out", "--time-limit", seconds}));
 }
 
 void test_help_and_version_are_no_errors() {
@@ -131,6 +133,49 @@ void test_output_folder_that_cannot_be_written() {
   const Outcome outcome = run_lqgen({"base.toml", "-o", "out"});
   fs::permissions(folder / "out", fs::perms::owner_all);
   expect_refusal(unreadable, outcome);
+}
+
+// A ring of lags: many states, and no delay among them that would make it quick.
+std::string long_design() {
+  const int states = 240;
+  std::string A, B, C, noise;
+  for (int i = 0; i < states; ++i) {
+    const char* comma = i > 0 ? ", " : "";
+    A += std::string(comma) + "[";
+    for (int j = 0; j < states; ++j) {
+      const int apart = (i - j + states) % states;
+      const bool neighbours = apart == 1 || apart == states - 1;
+      A += std::string(j > 0 ? ", " : "") + (apart == 0 ? "0.5" : neighbours ? "0.2" : "0");
+    }
+    A += "]";
+    B += std::string(comma) + (i == 0 ? "[1]" : "[0]");
+    C += std::string(comma) + (i == 0 ? "1" : "0");
+    noise += std::string(comma) + "1";
+  }
+  return "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [" + A + "]\nB = [" + B + "]\n"
+         + "C = [[" + C + "]]\n[lqr]\nQ_output = [1]\nR = [1]\n[kalman]\nprocess_noise = [" + noise + "]\nmeasurement_noise = [1]\n";
+}
+
+// The design would take minutes.
+void test_time_limit_ends_with_a_reason_and_touches_nothing() {
+  write_file(folder / "long.toml", long_design());
+  const Outcome outcome = run_lqgen({"long.toml", "-o", "out", "--time-limit", "1"});
+  expect_refusal(impossible, outcome);
+  const std::string start = "long.toml: expected the design within 1 s (--time-limit), found it at work: ";
+  const std::string end =
+      "; nothing was written: allow more time, or make the design smaller (states, delay, horizon)\n";
+  TEST_ASSERT_EQUAL_STRING(start.c_str(), outcome.err.substr(0, start.size()).c_str());
+  TEST_ASSERT_TRUE_MESSAGE(outcome.err.size() > start.size() + end.size(), outcome.err.c_str());
+  TEST_ASSERT_EQUAL_STRING(end.c_str(), outcome.err.substr(outcome.err.size() - end.size()).c_str());
+}
+
+void test_time_limit_that_is_not_reached_changes_nothing() {
+  TEST_ASSERT_EQUAL_INT(written, run_lqgen({"base.toml", "-o", "new"}).status);
+  const Outcome outcome = run_lqgen({"base.toml", "-o", "limited", "--time-limit", "100000"});
+  TEST_ASSERT_EQUAL_INT(written, outcome.status);
+  TEST_ASSERT_EQUAL_STRING("", outcome.err.c_str());
+  for (const char* name : {"base.h", "base_test.c", "base.json", "base.html"})
+    TEST_ASSERT_TRUE(read_file(folder / "new" / name) == read_file(folder / "limited" / name));
 }
 
 // Found out only when other files have taken their places already.
@@ -201,6 +246,8 @@ int main(int count, char** arguments) {
   RUN_TEST(test_design_that_may_not_be_read);
   RUN_TEST(test_output_folder_that_is_a_file);
   RUN_TEST(test_output_folder_that_cannot_be_written);
+  RUN_TEST(test_time_limit_ends_with_a_reason_and_touches_nothing);
+  RUN_TEST(test_time_limit_that_is_not_reached_changes_nothing);
   RUN_TEST(test_design_that_an_output_would_overwrite);
   RUN_TEST(test_output_whose_place_a_folder_has);
   RUN_TEST(test_write_that_fails_at_the_last_byte_of_a_file);
