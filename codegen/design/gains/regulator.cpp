@@ -27,13 +27,12 @@ SteadyRegulator solve_postponed(const Problem& problem, const Samples& samples, 
   const RiccatiEquation e = regulator_equation(problem, samples);
   result.riccati.K = multiply(result.riccati.K, prediction.predict);
   result.riccati.closed = e.A - multiply(e.B, result.riccati.K);
-  const std::optional<RealMatrix> X = solve_stein(result.riccati.closed, step_cost(e, result.riccati.K));
-  if (!X) {
-    result.riccati.failure = RiccatiFailure::residual;
-    return result;
-  }
-  result.riccati.X = *X;
   result.poles.resize(static_cast<std::size_t>(e.A.rows()), {Real(0), Real(0)});
+  const std::optional<RealMatrix> X =
+      prediction.is_exact ? cost_after_prediction(problem, e, prediction, result.riccati.X)
+                          : solve_stein(result.riccati.closed, step_cost(e, result.riccati.K));
+  if (!X) result.riccati.failure = RiccatiFailure::residual;
+  if (X) result.riccati.X = *X;
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "design/numeric/response.hpp"
 #include "design/numeric/structured_singular_value.hpp"
+#include "design/progress.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -91,7 +92,10 @@ struct Search {
 
 Search search_with(const Evaluate& evaluate, const std::vector<Real>& angles) {
   Search search = {evaluate, angles, {}};
-  for (const Real& angle : angles) search.responses.push_back(evaluate(angle));
+  for (const Real& angle : angles) {
+    report_progress("margins, search", static_cast<long>(search.responses.size()), static_cast<long>(angles.size()));
+    search.responses.push_back(evaluate(angle));
+  }
   return search;
 }
 
@@ -170,6 +174,7 @@ Outcome least_margin(const Search& search, const Refining& refining, const Input
   if (places.empty()) return outcome;
   const Real bound = std::min_element(places.begin(), places.end(), by_margin)->margin * 1.01;
   for (const Place& place : places) {
+    report_progress("margins, refinement", static_cast<long>(&place - places.data()), static_cast<long>(places.size()));
     if (place.margin > bound) continue;
     const Index input = place.input;
     const Function f = [&, input](const Real& angle) { return value(refining.evaluate(angle), input); };

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "design/numeric/chains.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "design/progress.hpp"
 
@@ -147,6 +148,7 @@ void reflect_columns(RealMatrix& a, Index first, const RealMatrix& v, const Real
 void reduce_to_hessenberg(RealMatrix& A, RealMatrix& B, RealMatrix& C) {
   const Index n = A.rows();
   for (Index k = 0; k + 2 < n; ++k) {
+    report_progress("Hessenberg form", k, n);
     RealMatrix v = A.block(k + 1, k, n - k - 1, 1);
     Real tail;
     for (Index i = 1; i < v.rows(); ++i) tail += v(i, 0) * v(i, 0);
@@ -196,11 +198,21 @@ RealMatrix take_isolated(RealMatrix a, std::vector<ComplexReal>& found) {
   return a;
 }
 
+// Takes out the zeros of differences that vanish: of inputs on their way and the controller's copy of them. The sweeps
+// scatter a zero of k states by 10^(−digits/k); as long as that is less than the rounding of a double, it is theirs.
+RealMatrix take_equal(const RealMatrix& a, std::vector<ComplexReal>& found) {
+  const Merged merged = with_equal_states_merged(a, zeros(a.rows(), 0));
+  const Index zeros_there = a.rows() - merged.A.rows();
+  if (zeros_there == 0 || negligible(1.0 / zeros_there) < std::numeric_limits<double>::epsilon() / 2) return a;
+  found.resize(found.size() + static_cast<std::size_t>(zeros_there), {Real(0), Real(0)});
+  return merged.A;
+}
+
 }  // namespace
 
 std::vector<ComplexReal> eigenvalues(const RealMatrix& a) {
   std::vector<ComplexReal> found;
-  RealMatrix h = take_isolated(a, found), none_left, none_right;
+  RealMatrix h = take_equal(take_isolated(a, found), found), none_left, none_right;
   reduce_to_hessenberg(h, none_left, none_right);
   const Real scale = largest_entry(h);
   const Real rounding = negligible(1);

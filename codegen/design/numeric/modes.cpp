@@ -1,5 +1,7 @@
 #include "design/numeric/modes.hpp"
 
+#include "design/progress.hpp"
+
 namespace lqg::design {
 
 namespace {
@@ -36,8 +38,10 @@ Basis reached(const RealMatrix& A, const RealMatrix& B, const Real& coupling) {
   Basis basis(A.rows());
   const Real least_B = coupling * largest_entry(B), least_A = coupling * largest_entry(A);
   for (Index j = 0; j < B.cols(); ++j) append_if_new(basis, B.col(j), least_B);
-  for (Index j = 0; j < basis.columns().cols(); ++j)
+  for (Index j = 0; j < basis.columns().cols(); ++j) {
+    report_progress("modes that are reached", j, A.rows());
     append_if_new(basis, multiply(A, basis.columns().col(j)), least_A);
+  }
   return basis;
 }
 

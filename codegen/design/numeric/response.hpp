@@ -9,8 +9,9 @@ struct ComplexMatrix {
   RealMatrix re, im;
 };
 
-// T(z) = C (zI − A)⁻¹ B through the Hessenberg form of A, made in the digits in force: nx² complex
-// multiply-adds a point.
+// T(z) = C (zI − A)⁻¹ B, made in the digits in force, in the way that takes fewer complex multiply-adds a point:
+//   A in Hessenberg form: nx² of them
+//   chains of delays folded, A and C polynomials in 1/z over the k states that are more than a delay: k³/3 of them
 class Response {
  public:
   Response(RealMatrix A, RealMatrix B, RealMatrix C);
@@ -22,9 +23,25 @@ class Response {
   ComplexMatrix at(const Real& angle) const;
   ComplexMatrix roughly_at(const Real& angle) const;
 
+  // An entry of a coefficient of z^−ago, ago > 0.
+  template <typename Scalar>
+  struct Late {
+    Index row, column, ago;
+    Scalar value;
+  };
+
+  // zI − A − A_late(z), B, and C + C_late(z). Below the diagonal A has `below` diagonals.
+  template <typename Scalar>
+  struct Terms {
+    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    Matrix A, B, C;
+    std::vector<Late<Scalar>> A_late, C_late;
+    Index below = 1;
+  };
+
  private:
-  RealMatrix A_, B_, C_;
-  Eigen::MatrixXd rough_A_, rough_B_, rough_C_;
+  Terms<Real> exact_;
+  Terms<double> rough_;
 };
 
 }  // namespace lqg::design

@@ -59,7 +59,7 @@ std::optional<SteadyCost> cost_of_loop(const SampledStage& last, const Solution&
   const Compensator controller = compensator(last.problem, solution);
   if ((kalman.gain == Gain::schedule && kalman.horizon > 0) || kalman.structure.size() > 0)
     return steady_cost(last.problem, last.samples, controller);
-  return steady_cost(last.problem, last.samples, controller, *solution.estimator);
+  return steady_cost(last.problem, last.samples, controller, solution);
 }
 
 }  // namespace
