@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
-#include "controller/model_of.hpp"
+#include "controller/model_of_outputs.hpp"
+#include "step/by_hand.hpp"
+#include "step/innovation.hpp"
 #include "step/loop.hpp"
+#include "step/partial_update.hpp"
 
 namespace lqg::simulate {
 
@@ -32,10 +36,16 @@ class EmittedController {
 
   EmittedController(const Controller& controller, Constants constants)
       : controller_(controller), constants_(std::move(constants)), gated_(static_cast<std::size_t>(controller.size.ny), 0) {
+    init();
+  }
+
+  void init() {
+    sample_ = gain_row_ = 0;
+    resets_ = 0;
+    gated_.assign(gated_.size(), 0);
     load();
     state_ = step::initial_state(model_);
   }
-
   unsigned update(const Vector<S>& y) {
     CountingListener listener(gated_);
     return end(step::update(model_, state_, y, listener), listener);
@@ -43,6 +53,38 @@ class EmittedController {
   unsigned update_alone(int output, const S& y) {
     CountingListener listener(gated_);
     return end(step::update_alone(model_, state_, y, output, listener), listener);
+  }
+  // `used` has a bit for each output.
+  unsigned partial_update(const Vector<S>& y, unsigned long used) {
+    const auto is_used = [used](Eigen::Index i) { return (used >> i & 1ul) != 0; };
+    Vector<S> there = y;
+    for (Eigen::Index i = 0; i < there.size(); ++i)
+      if (!is_used(i)) there(i) = S(std::numeric_limits<double>::infinity());
+    step::Listener listener;
+    const auto lost = step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), listener);
+    const unsigned not_finite = 1u << static_cast<unsigned>(step::Event::output_not_finite);
+    const unsigned events = update(there) & ~not_finite;
+    for (Eigen::Index i = 0; i < there.size(); ++i)
+      listener.raise(step::Event::output_not_finite, is_used(i) && lost[static_cast<std::size_t>(i)]);
+    return events | listener.events;
+  }
+  // The variances are empty where the header has none.
+  void innovation(const Vector<S>& y, Vector<S>& nu, Vector<S>& variances) const {
+    const step::Model<S> as_they_are = outputs();
+    step::Listener listener;
+    nu = step::innovations(as_they_are, state_, y, listener);
+    variances.resize(controller_.has.variance ? nu.size() : 0);
+    for (Eigen::Index i = 0; i < variances.size(); ++i)
+      variances(i) = step::innovation_variance(as_they_are, state_, static_cast<int>(i), listener);
+  }
+  unsigned set_state(const Vector<S>& x) {
+    step::Listener listener;
+    return end(step::set_state(model_, state_, x, listener), listener);
+  }
+  // Of a regulator alone at the state that is in state().x.
+  unsigned set_input(const Vector<S>& u) {
+    step::Listener listener;
+    return end(step::set_input(model_, state_, u, listener), listener);
   }
   // Beside a filter, or of a law without a memory: then x is what was put into state().x.
   unsigned control(Vector<S>& u) {
@@ -73,6 +115,12 @@ class EmittedController {
   const std::vector<unsigned long>& gated() const { return gated_; }
 
  private:
+  step::Model<S> outputs() const {
+    step::Model<S> model = model_;
+    controller::take_outputs_as_they_are(controller_, constants_, model);
+    return model;
+  }
+
   // The constants of this sample.
   void load() { model_ = controller::model_of<S>(controller_, constants_, sample_, gain_row_); }
 

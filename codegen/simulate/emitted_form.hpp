@@ -15,6 +15,10 @@ class EmittedForm {
   EmittedForm(const Controller& controller, Constants constants)
       : model_(controller::linear_model_of<S>(controller, constants)), state_(step::initial_state(model_)) {}
 
+  void init() {
+    state_ = step::initial_state(model_);
+    resets_ = 0;
+  }
   // In predictor form y is not looked at.
   unsigned control(const Vector<S>& y, Vector<S>& u) {
     step::Listener listener;
@@ -25,11 +29,11 @@ class EmittedForm {
   unsigned advance(const Vector<S>& y) {
     step::Listener listener;
     const Vector<S> heard = model_.predictor_form ? step::heard_outputs(model_, state_, y, listener) : state_.y;
-    if (step::advance(model_, state_, heard, listener)) return listener.events;
-    state_ = step::initial_state(model_);
-    ++resets_;
-    listener.raise(step::Event::state_reset, true);
-    return listener.events;
+    return end(step::advance(model_, state_, heard, listener), listener);
+  }
+  unsigned set_state(const Vector<S>& x) {
+    step::Listener listener;
+    return end(step::set_state(model_, state_, x, listener), listener);
   }
   // x̂ that u is made of, between the two.
   Vector<S> estimate() const {
@@ -38,10 +42,19 @@ class EmittedForm {
   }
 
   const step::LinearModel<S>& model() const { return model_; }
+  step::LinearState<S>& state() { return state_; }
   const step::LinearState<S>& state() const { return state_; }
   unsigned long resets() const { return resets_; }
 
  private:
+  unsigned end(bool is_finite, step::Listener& listener) {
+    if (is_finite) return listener.events;
+    state_ = step::initial_state(model_);
+    ++resets_;
+    listener.raise(step::Event::state_reset, true);
+    return listener.events;
+  }
+
   step::LinearModel<S> model_;
   step::LinearState<S> state_;
   unsigned long resets_ = 0;

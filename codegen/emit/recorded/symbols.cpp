@@ -1,7 +1,7 @@
 #include "emit/recorded/symbols.hpp"
 
 #include "controller/gains.hpp"
-#include "controller/model_of.hpp"
+#include "controller/model_of_outputs.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "emit/text/wording.hpp"
 
@@ -69,20 +69,12 @@ SymbolicModel symbolic_model(const Controller& controller) {
 
 SymbolicModel model_of_outputs(const Controller& controller) {
   SymbolicModel model = symbolic_model(controller);
-  const auto round = [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.target.is_double)); };
-  model.C = controller::convert<Expr>(controller.solution.plant.C, round);
-  if (controller.has.feedthrough) model.D = controller::convert<Expr>(controller.solution.plant.D, round);
-  if (!controller.solution.online) {
-    if (controller.style == design::Style::compact && controller.has.gate && controller.keeps.gain_row)
-      for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
-        model.variance(i) = Expr::of(trace::graph().input(
-            fill("{NAME}_KALMAN_S[{filter_row} * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
-    return model;
-  }
-  const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
-  const design::OnlineSolution& online = *controller.solution.online;
-  const design::RealMatrix inverse = *design::solve(online.E, design::identity(online.E.rows()));
-  model.V = controller::convert<Expr>(design::congruence(inverse, online.V.asDiagonal()).diagonal(), round);
+  controller::take_outputs_as_they_are(
+      controller, [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.target.is_double)); }, model);
+  if (!controller.solution.online && controller.style == design::Style::compact && controller.has.gate && controller.keeps.gain_row)
+    for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
+      model.variance(i) = Expr::of(trace::graph().input(
+          fill("{NAME}_KALMAN_S[{filter_row} * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
   return model;
 }
 

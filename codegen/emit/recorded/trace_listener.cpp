@@ -2,8 +2,6 @@
 
 namespace lqg::emit {
 
-namespace {
-
 using trace::Condition;
 
 const char* status_name(step::Event event) {
@@ -17,8 +15,6 @@ const char* status_name(step::Event event) {
     default: return "LQG_STATE_RESET";
   }
 }
-
-}  // namespace
 
 void TraceListener::section(const std::string& equation, int output) {
   if (output < 0) return function_.graph->section(equation, "");

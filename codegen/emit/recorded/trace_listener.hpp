@@ -36,6 +36,9 @@ class TraceListener {
   TracedFunction& function_;
 };
 
+// "LQG_STATE_RESET"
+const char* status_name(step::Event event);
+
 // With an empty graph for the target's numbers.
 TracedFunction new_function(const Controller& controller);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "emit/text/wording.hpp"
+#include "emit/unit_test/calls_test.hpp"
 #include "emit/unit_test/linear_unit_test.hpp"
 #include "emit/vectors/vectors.hpp"
 #include "trace/print.hpp"
@@ -208,7 +209,7 @@ static void assert_near(const {real} tolerance[], const {real} expected[], const
         TEST_ASSERT_{REAL}_WITHIN(tolerance[i], expected[i], found[i]);
 }
 
-/* FNV-1a over the bits of the values, least significant byte first; −0 counts as 0. */
+/* FNV-1a over the bits of the values, least significant byte first; −0 counts as 0, each NaN as the same. */
 static uint32_t hash_of(uint32_t hash, const {real} values[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -216,6 +217,8 @@ static uint32_t hash_of(uint32_t hash, const {real} values[], int count)
         {bits_type} bits;
 
         memcpy(&bits, &value, sizeof bits);
+        if ((bits & {magnitude}) > {infinity})
+            bits = {nan};
         for (unsigned shift = 0; shift < 8 * sizeof bits; shift += 8)
             hash = (hash ^ (uint32_t)((bits >> shift) & 0xff)) * 16777619u;
     }
@@ -228,13 +231,22 @@ std::string bound(const char* comparison, double limit, const Controller& contro
   return std::isinf(limit) ? "" : comparison + trace::literal(limit, controller.target.is_double);
 }
 
+std::string hexadecimal(std::uint32_t value) {
+  std::string out = "0x00000000";
+  for (std::size_t i = 0; i < 8; ++i) out[9 - i] = "0123456789abcdef"[value >> (4 * i) & 15];
+  return out;
+}
+
 Words test_words(const Controller& controller, const Vectors& vectors) {
   Words words = common_words(controller);
-  char hash[11] = "0x00000000";
-  for (int i = 0; i < 8; ++i) hash[9 - i] = "0123456789abcdef"[vectors.hash >> (4 * i) & 15];
-  words["hash"] = hash;
+  words["hash"] = hexadecimal(vectors.hash);
   words["REAL"] = upper(words["real"]);
   words["bits_type"] = controller.target.is_double ? "uint64_t" : "uint32_t";
+  words["magnitude"] = controller.target.is_double ? "0x7fffffffffffffffu" : "0x7fffffffu";
+  words["infinity"] = controller.target.is_double ? "0x7ff0000000000000u" : "0x7f800000u";
+  words["nan"] = controller.target.is_double ? "0x7ff8000000000000u" : "0x7fc00000u";
+  words["turns"] = std::to_string(vectors.calls.turns.size());
+  words["hash_of_turns"] = hexadecimal(vectors.calls.hash);
   words["samples"] = std::to_string(vectors.samples.size());
   words["every"] = std::to_string(samples_per_covariance);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
@@ -245,7 +257,8 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   if (const auto& limits = controller.problem.limits; limits && limits->u_min.size() && controller.size.nu == 1)
     words["within"] = bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
-  words["bits"] = "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n";
+  words["bits"] =
+      "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n    RUN_TEST(test_{name}_answers_every_call_as_the_host_does);\n";
   if (controller.target.is_fused)
     words["bits"] = fill("#if defined FP_FAST_{FMA} || defined __FP_FAST_{FMA} || defined __GLIBC__\n",
                          {{"FMA", controller.target.is_double ? "FMA" : "FMAF"}}) +
@@ -260,9 +273,10 @@ std::string unit_test(const Controller& controller) {
   const Vectors vectors = make_vectors(controller);
   const std::string text =
       "\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n#include \"unity.h\"\n\n#include \"{name}.h\"\n\n"
-      "#define SAMPLES {samples}\n#define HASH {hash}u  /* over every bit of all results, on the host */\n\n" +
-      data(controller, vectors) + helpers() + reference_test(controller) + bits_test(controller) +
-      fault_test(controller) + main_function(controller);
+      "#define SAMPLES {samples}\n#define HASH {hash}u  /* over every bit of all results, on the host */\n"
+      "#define TURNS {turns}\n#define HASH_OF_TURNS {hash_of_turns}u\n\n" +
+      data(controller, vectors) + turns_as_data(controller, vectors.calls) + helpers() + reference_test(controller) + bits_test(controller) +
+      calls_test(controller) + fault_test(controller) + main_function(controller);
   return "/* Test of " + controller.problem.name + ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" +
          provenance(controller) + " */\n" + fill(text, test_words(controller, vectors));
 }

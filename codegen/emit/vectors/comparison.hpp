@@ -32,16 +32,16 @@ class Hash {
  public:
   explicit Hash(bool is_double) : is_double_(is_double) {}
   void add(double value) {
-    value += 0.0;  // the sign of a zero does not count
+    value += 0.0;  // the sign of a zero does not count, nor which NaN it is
     if (is_double_) {
       std::uint64_t bits;
       std::memcpy(&bits, &value, sizeof bits);
-      add_bits(bits, 8);
+      add_bits(value == value ? bits : 0x7ff8000000000000u, 8);
     } else {
       const float number = static_cast<float>(value);
       std::uint32_t bits;
       std::memcpy(&bits, &number, sizeof bits);
-      add_bits(bits, 4);
+      add_bits(value == value ? bits : 0x7fc00000u, 4);
     }
   }
   template <class Values>
@@ -49,6 +49,7 @@ class Hash {
     for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(values.size()); ++i)
       add(simulate::as_double(values[static_cast<std::size_t>(i)]));
   }
+  void add_count(unsigned long count) { add_bits(count & 0xffffffffu, 4); }
   std::uint32_t value() const { return hash_; }
 
  private:

@@ -177,14 +177,20 @@ Vectors vectors_of(const Controller& controller, const EmittedController<Referen
   return vectors;
 }
 
-}  // namespace
-
-Vectors make_vectors(const Controller& controller) {
+Vectors samples_of(const Controller& controller) {
   if (controller.linear) return linear_vectors(controller);
   if (!controller.target.is_double)
     return vectors_of(controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); }));
   const design::Digits digits(reference_digits);
   return vectors_of(controller, EmittedController<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }));
+}
+
+}  // namespace
+
+Vectors make_vectors(const Controller& controller) {
+  Vectors vectors = samples_of(controller);
+  vectors.calls = make_calls(controller, vectors.samples);
+  return vectors;
 }
 
 }  // namespace lqg::emit

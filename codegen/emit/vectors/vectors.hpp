@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emit/controller.hpp"
+#include "emit/vectors/calls.hpp"
 
 namespace lqg::emit {
 
@@ -29,6 +30,7 @@ struct Vectors {
   std::vector<Sample> samples;
   Tolerances tolerance;
   std::uint32_t hash = 0;  // FNV-1a over every bit of x, the covariance, ξ and u of the run in the target's precision
+  Calls calls;
 };
 
 Vectors make_vectors(const Controller& controller);
