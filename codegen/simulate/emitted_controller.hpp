@@ -41,7 +41,7 @@ class EmittedController {
 
   void init() {
     sample_ = gain_row_ = 0;
-    resets_ = 0;
+    resets_ = covariance_resets_ = 0;
     gated_.assign(gated_.size(), 0);
     load();
     state_ = step::initial_state(model_);
@@ -79,12 +79,12 @@ class EmittedController {
   }
   unsigned set_state(const Vector<S>& x) {
     step::Listener listener;
-    return end(step::set_state(model_, state_, x, listener), listener);
+    return begin_anew_unless(step::set_state(model_, state_, x, listener), listener);
   }
   // Of a regulator alone at the state that is in state().x.
   unsigned set_input(const Vector<S>& u) {
     step::Listener listener;
-    return end(step::set_input(model_, state_, u, listener), listener);
+    return begin_anew_unless(step::set_input(model_, state_, u, listener), listener);
   }
   // Beside a filter, or of a law without a memory: then x is what was put into state().x.
   unsigned control(Vector<S>& u) {
@@ -136,15 +136,21 @@ class EmittedController {
     load();
   }
 
-  // What NAME_recover and NAME_reset do: the time, the references and the counters stay.
+  // What NAME_recover does: P begins anew, or all.
   unsigned end(bool is_within, step::Listener& listener) {
+    if (is_within || !step::carries_covariance(model_)) return begin_anew_unless(is_within, listener);
+    const bool keeps_estimate = step::begin_covariance_anew(model_, state_, listener);
+    covariance_resets_ += keeps_estimate;
+    listener.raise(step::Event::covariance_reset, keeps_estimate);
+    return begin_anew_unless(keeps_estimate, listener);
+  }
+  // What NAME_reset does: the time, the references and the counters stay.
+  unsigned begin_anew_unless(bool is_within, step::Listener& listener) {
     if (is_within) return listener.events;
-    if (step::recover(model_, state_, listener)) {
-      ++covariance_resets_;
-    } else {
-      go_to(sample_, 0);
-      ++resets_;
-    }
+    step::begin_anew(model_, state_);
+    go_to(sample_, 0);
+    ++resets_;
+    listener.raise(step::Event::state_reset, true);
     return listener.events;
   }
 

@@ -86,7 +86,8 @@ class Script {
   }
   static bool was_reset(const Signature& signature) {
     for (const auto& [events, at_limits] : signature)
-      if (events >> static_cast<unsigned>(step::Event::state_reset) & 1u) return true;
+      for (const step::Event reset : {step::Event::state_reset, step::Event::covariance_reset})
+        if (events >> static_cast<unsigned>(reset) & 1u) return true;
     return false;
   }
 

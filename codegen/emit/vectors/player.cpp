@@ -30,9 +30,10 @@ class PhysicalPlayer : public Player {
     const step::State<S>& state = emitted_.state();
     if (controller_.has.filter) hash.add_all(list_of(state.x));
     hash.add_all(state.P), hash.add_all(state.U), hash.add_all(state.D);
-    for (const auto* values : {&state.u, &state.innovation, &state.r, &state.xi, &state.error, &state.demand})
+    for (const auto* values : {&state.u, &state.widening, &state.innovation, &state.r, &state.xi, &state.error, &state.demand})
       hash.add_all(list_of(*values));
     if (controller_.has.filter) hash.add_count(emitted_.resets());
+    if (carries_covariance(controller_)) hash.add_count(emitted_.covariance_resets());
     for (std::size_t i = 0; controller_.has.gate && i < emitted_.gated().size(); ++i) hash.add_count(emitted_.gated()[i]);
   }
 
