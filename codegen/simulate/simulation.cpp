@@ -137,6 +137,7 @@ Trajectory run_controller(const Controller& controller, Surroundings around) {
     return controller.has.filter ? take_sample(emitted, now) : take_sample_of_state(emitted, now);
   });
   result.resets = emitted.resets();
+  result.covariance_resets = emitted.covariance_resets();
   return result;
 }
 

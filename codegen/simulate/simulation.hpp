@@ -29,6 +29,7 @@ struct Trajectory {
   Eigen::VectorXd cost;          // samples: xᵀQx + uᵀRu + 2xᵀNu of `SampledCost`; 0 without one
   std::vector<unsigned> events;  // samples: a bit for each step::Event that the status told
   unsigned long resets = 0;      // how often the controller began anew
+  unsigned long covariance_resets = 0;  // and P by itself
 
   bool has(int sample, step::Event event) const {
     return events[static_cast<std::size_t>(sample)] >> static_cast<unsigned>(event) & 1u;

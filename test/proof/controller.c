@@ -23,6 +23,9 @@ static void begin_anywhere(LOOP)
 #ifdef PROOF_KEEPS_resets
     loop->resets = any_count;
 #endif
+#ifdef PROOF_KEEPS_covariance_resets
+    loop->covariance_resets = any_count;
+#endif
     (void)loop;
 }
 

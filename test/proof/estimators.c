@@ -91,14 +91,16 @@ static void call_rls(lqg_real theta[], lqg_real U[], lqg_real d[])
 /* One call, on a state of any bits. */
 static void call_any(int which)
 {
-    lqg_real x[NX], U[LQG_KALMAN_UD_U(NX)], d[NX], innovation[NY], nu[NY], s[NY];
+    static const lqg_real widen[NY] = {1.5f, 1.5f}, narrow[NY] = {0.75f, 0.75f};
+    lqg_real x[NX], U[LQG_KALMAN_UD_U(NX)], d[NX], innovation[NY], nu[NY], s[NY], widening[NY];
     unsigned char used[NY];
     unsigned long gated[NY] = {0};
-    const lqg_watch_t watch = {used, any_real, gated, nu, s, NULL, NULL, NULL};
+    const lqg_watch_t watch = {used, any_real, gated, nu, s, widening, widen, narrow};
 
     say_anything(x, NX);
     say_anything(U, LQG_KALMAN_UD_U(NX));
     say_anything(d, NX);
+    say_anything(widening, NY);
     say_anything(innovation, NY);
     for (unsigned i = 0; i < NY; i++)
         used[i] = (unsigned char)any_int;

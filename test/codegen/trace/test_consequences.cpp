@@ -116,6 +116,19 @@ void test_sum_with_a_term_of_any_sign_says_nothing() {
   TEST_ASSERT_TRUE(consequences(graph, graph.make(Op::less, sum, graph.constant(4))).empty());
 }
 
+// The sign is tested beside the sum, and a NaN, which is not below 0 either, fails the sum.
+void test_sum_with_a_term_that_is_tested_not_to_be_negative_bounds_it() {
+  Graph graph({});
+  const int a = graph.input("in[0]", "a"), b = graph.input("in[1]", "b");
+  const int below = graph.make(Op::less, graph.make(Op::multiply_add, a, a, b), graph.constant(4));
+  graph.make(Op::both, below, graph.make(Op::negation, graph.make(Op::less, b, graph.constant(0))));
+  const double numbers[] = {0, -0.0, 1, -1, 1.75, -1.75, 3, 4, 1e30, -1e30, NAN, INFINITY, -INFINITY};
+  int passed = 0;
+  for (const double x : numbers)
+    for (const double y : numbers) passed += check_consequences(graph, {x, y});
+  TEST_ASSERT_GREATER_THAN(20, passed);
+}
+
 void test_prover_reads_what_follows_of_names_and_places_behind_the_stores() {
   Graph graph({false, false, true});
   const int a = graph.input("self->x[0]", "x_0"), b = graph.input("u[0]", "u_0");
@@ -150,6 +163,7 @@ int main() {
   RUN_TEST(test_sum_bounds_each_term_and_others_are_finite);
   RUN_TEST(test_sum_bounds_hold_next_to_the_limit);
   RUN_TEST(test_sum_with_a_term_of_any_sign_says_nothing);
+  RUN_TEST(test_sum_with_a_term_that_is_tested_not_to_be_negative_bounds_it);
   RUN_TEST(test_prover_reads_what_follows_of_names_and_places_behind_the_stores);
   RUN_TEST(test_prover_reads_an_input_that_is_not_stored_in_its_place);
   return UNITY_END();
