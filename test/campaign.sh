@@ -7,6 +7,8 @@
 #                                                the twenty ways of each core
 #   test/campaign.sh <build> random [designs]    random designs, emitted, compiled and compared: default 1000
 #   test/campaign.sh <build> fuzz [seconds]      the library's and the design files' fuzzer: default 3600 each
+#   test/campaign.sh <build> options [compiler]  test/options/options.sh: options of gcc and clang-19 that may change arithmetic,
+#                                                alone and two by two, at four levels
 #
 # <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19 test/run.sh.
 # A campaign has parts, of which as many run side by side as there are processors. It ends at the first part that fails.
@@ -27,6 +29,7 @@ test/campaign.sh <build> <campaign>             on two processors
   bits [core]...    default all nine             7 minutes
   random [designs]  default 1000                10 minutes
   fuzz [seconds]    default 3600, of each        1 hour
+  options [compiler] default both                6 hours
 END
 }
 
@@ -162,6 +165,23 @@ fuzz() {
     "-dict=$lqg_root/test/codegen/input/fuzz_design_file.dict"
 }
 
+options() {
+  local compiler level number=0
+  [ -e "$build/test/bits/controllers/controllers.h" ] || refuse "Not found: $build/test/bits/controllers"
+  [ $# -gt 0 ] || set -- gcc clang-19
+  for compiler in "$@"; do
+    [[ $compiler =~ ^(gcc|clang-19)$ ]] || refuse "no compiler $compiler: expected gcc or clang-19"
+    lqg_has_command "$compiler" || refuse "Not found: $compiler"
+  done
+  count=$(($# * 4))
+  for compiler in "$@"; do
+    for level in "-O0 -mfma" "-O2 -march=native" "-O3 -march=native -flto" "-Os -march=native -x c++"; do
+      number=$((number + 1))
+      start "${compiler}_$number" "$lqg_root/test/options/options.sh" "$build" pairs "$compiler" "$level"
+    done
+  done
+}
+
 # ---- the command line --------------------------------------------------------------------------------------------
 
 # All of the script is read before a campaign begins: bash reads a file as it goes, and this one may change meanwhile.
@@ -175,7 +195,7 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
+    soak | random | fuzz | options) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
     bits) ;;
     *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;
   esac
@@ -190,6 +210,7 @@ main() {
     bits) bits "$@" ;;
     random) random "$@" ;;
     fuzz) fuzz "$@" ;;
+    options) options "$@" ;;
   esac
   finish_all
 }

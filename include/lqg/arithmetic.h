@@ -49,9 +49,9 @@ typedef float lqg_real;
  *     }
  *     LQG_STRICT_END                       after the last function
  *
- * Of clang, two things stay open. An explicit -ffp-contract=fast cannot be overruled: use fast-honor-pragmas in its place.
- * And where a target has no float_control, as 32-bit Arm, -fno-honor-nans and its like are neither seen nor overruled.
- * lqg/check.h finds both.
+ * Of clang, three things stay open, and lqg/check.h finds them. An explicit -ffp-contract=fast cannot be overruled: use
+ * fast-honor-pragmas in its place. ?: and the unary minus keep the options around. And where a target has no float_control,
+ * as 32-bit Arm, all operations keep -fno-honor-nans and its like.
  *
  * GCC's vectorizer is switched off with it: GCC 12 makes vfmaddsub and vfmsubadd of separate products and sums in
  * spite of fp-contract=off. Such functions must not be always_inline: they would take over the options of their caller.

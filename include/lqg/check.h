@@ -1,8 +1,8 @@
 /* TinyLQG: whether this compiler, with the options that it is given here, computes as lqg/arithmetic.h says.
  *
  * That header refuses or overrules most options that would change a bit or let a NaN pass. A few of clang's it can neither
- * see nor overrule: -ffp-contract=fast, and on 32-bit Arm -fno-honor-nans and its like. Others act when the program is
- * linked: on x86 -ffast-math there makes denormal numbers 0. lqg_add_controller (CMake) looks for them by itself. Who
+ * see nor wholly overrule: -ffp-contract=fast; -fno-honor-nans and its like, on 32-bit Arm for all operations, elsewhere for
+ * ?: and the unary minus. Others act when the program is linked: on x86 -ffast-math there makes denormal numbers 0. lqg_add_controller (CMake) looks for them by itself. Who
  * builds otherwise compiles and links this with the options of the firmware, and runs it, on the target where that is
  * possible:
  *
@@ -58,7 +58,7 @@ __attribute__((error(LQG_CHECK_NAN))) void lqg_check_forgets_nans(void);
 #define LQG_CHECK_AT_COMPILE_TIME(x)
 #endif
 
-/* Of each row: its name; an expression; the values of a, b and c, which the compiler does not know; what comes out, to the
+/* Of each row: its name; an expression; the values of a, b and c, which the compiler does not know, chosen being c > b ? a : b; what comes out, to the
  * bit, when all is rounded once, to nearest, as it is written; and what to say if it does not. Of the parameters:
  * 1 − e² is rounded to 1; epsilon is the distance from 1 to the next number. */
 #define LQG_CHECK_ROWS(ROW, real, e, epsilon, max, min) \
@@ -73,6 +73,10 @@ __attribute__((error(LQG_CHECK_NAN))) void lqg_check_forgets_nans(void);
     ROW(real, clipped_above, a > c ? c : a < b ? b : a, infinity, -1, 1, 1, LQG_CHECK_NAN) \
     ROW(real, clipped_below, a > c ? c : a < b ? b : a, -infinity, -1, 1, -1, LQG_CHECK_NAN) \
     ROW(real, overflow, a * b - a * b == 0 ? 1 : 2, max, 2, 0, 2, LQG_CHECK_NAN) \
+    ROW(real, nan_is_chosen, chosen != chosen ? 1 : 2, nan, 0, 1, 1, LQG_CHECK_NAN) \
+    ROW(real, infinity_is_chosen, chosen > max ? 1 : 2, infinity, 0, 1, 1, LQG_CHECK_NAN) \
+    ROW(real, nan_is_negated, -a != -a ? 1 : 2, nan, 0, 0, 1, LQG_CHECK_NAN) \
+    ROW(real, infinity_is_negated, -a < -max ? 1 : 2, infinity, 0, 0, 1, LQG_CHECK_NAN) \
     ROW(real, sum_contracted, a * b + c, 1 + e, 1 - e, -1, 0, LQG_CHECK_CONTRACTION) \
     ROW(real, difference_contracted, a * b - c, 1 + e, 1 - e, 1, 0, LQG_CHECK_CONTRACTION) \
     ROW(real, subtraction_contracted, c - a * b, 1 + e, 1 - e, 1, 0, LQG_CHECK_CONTRACTION) \
@@ -82,6 +86,12 @@ __attribute__((error(LQG_CHECK_NAN))) void lqg_check_forgets_nans(void);
     ROW(real, quotient_cancelled, a * b / b == a ? 1 : 2, max, 2, 0, 2, LQG_CHECK_ORDER) \
     ROW(real, reciprocal_of_constant, a / 3 - b, 5, (real)5 / 3, 0, 0, LQG_CHECK_ORDER) \
     ROW(real, reciprocal_of_variable, a / c - b / c - b / c - (real)5 / 3, 5, 0, 3, 0, LQG_CHECK_ORDER) \
+    ROW(real, negated_product_reordered, -(-(a * 4) * (real)0.25) == a ? 1 : 2, max, 0, 0, 2, LQG_CHECK_ORDER) \
+    ROW(real, negated_product_distributed, -(-(a * b) * c) == a ? 1 : 2, max, 4, (real)0.25, 2, LQG_CHECK_ORDER) \
+    ROW(real, negated_sum_reordered, -(-(a + b) - a), 1, epsilon / 4, 0, 2, LQG_CHECK_ORDER) \
+    ROW(real, reciprocal_negated, -(a / 3), 5, 0, 0, -((real)5 / 3), LQG_CHECK_ORDER) \
+    ROW(real, zero_negated, -(a - b), 1, 1, 0, -(real)0, LQG_CHECK_ZERO) \
+    ROW(real, zero_chosen, chosen + 0, -(real)0, 0, 1, 0, LQG_CHECK_ZERO) \
     ROW(real, zero_added, a + 0, -(real)0, 0, 0, 0, LQG_CHECK_ZERO) \
     ROW(real, zero_subtracted_from, 0 - a, 0, 0, 0, 0, LQG_CHECK_ZERO) \
     ROW(real, zero_selected, a < b ? a : b, 0, -(real)0, 0, -(real)0, LQG_CHECK_ZERO) \
@@ -100,9 +110,11 @@ __attribute__((error(LQG_CHECK_NAN))) void lqg_check_forgets_nans(void);
         volatile real zero = 0; \
         const real infinity = 1 / zero, nan = infinity - infinity; \
         volatile real a_given = a_value, b_given = b_value, c_given = c_value; \
-        const real a = a_given, b = b_given, c = c_given, found = expression, expected = result; \
+        const real a = a_given, b = b_given, c = c_given, chosen = c > b ? a : b; \
+        const real found = expression, expected = result; \
         LQG_CHECK_AT_COMPILE_TIME(a) \
-        (void)nan, (void)b, (void)c; \
+        LQG_CHECK_AT_COMPILE_TIME(chosen) \
+        (void)nan; \
         return memcmp(&found, &expected, sizeof found) == 0; \
     }
 

@@ -6,7 +6,10 @@
 #include <stdint.h>
 
 #include "hashes.h"
+#include "lqg/arithmetic.h"
 #include "lqg/status.h"
+
+LQG_STRICT_BEGIN
 
 typedef struct {
     uint32_t seed;
@@ -16,6 +19,7 @@ typedef struct {
 /* Uniform in [−1, 1), multiples of 2⁻¹⁵, times 2 to the power of −halvings: exact in either scalar. */
 static inline void draw_all(source_t *source, REAL values[], int count)
 {
+    LQG_STRICT_BODY
     for (int i = 0; i < count; i++) {
         source->seed = source->seed * 1664525u + 1013904223u;
         values[i] = ((REAL)(source->seed >> 16) - 32768) / (REAL)(32768ull << source->halvings);
@@ -25,6 +29,7 @@ static inline void draw_all(source_t *source, REAL values[], int count)
 /* One output in 32 becomes a NaN, and one in 64 infinite. */
 static inline void fail_some(source_t *source, REAL y[], int count)
 {
+    LQG_STRICT_BODY
     static volatile const REAL zero = 0;
 
     for (int i = 0; i < count; i++) {
@@ -39,6 +44,7 @@ static inline void fail_some(source_t *source, REAL y[], int count)
 
 static inline hashes_t hash_reals(hashes_t hashes, const REAL *values, size_t size)
 {
+    LQG_STRICT_BODY
     hashes.bits = hash_bytes(hashes.bits, values, size);
     for (size_t i = 0; i < size / sizeof *values; i++) {
         const REAL value = values[i] + 0;
@@ -54,5 +60,7 @@ static inline hashes_t hash_status(hashes_t hashes, lqg_status status)
     hashes.values = hash_bytes(hashes.values, &bits, sizeof bits);
     return hashes;
 }
+
+LQG_STRICT_END
 
 #endif

@@ -38,12 +38,17 @@ typedef struct {
     lqg_real u_applied[NU], innovation[NY], u[NU];
 } state_t;
 
+LQG_STRICT_BEGIN
+
 /* Uniform in [−1, 1), a multiple of 2⁻¹⁵: exact in either scalar. */
 static lqg_real draw(unsigned long *seed)
 {
+    LQG_STRICT_BODY
     *seed = (*seed * 1664525ul + 1013904223ul) & 0xfffffffful;
     return ((lqg_real)(*seed >> 16) - 32768) / 32768;
 }
+
+LQG_STRICT_END
 
 unsigned long long hash_of_all_filters(void)
 {
