@@ -91,6 +91,11 @@ std::string covariance_check(const Controller& controller) {
          "        }\n";
 }
 
+// In predictor form with a D update needs the input that acted on the recorded outputs, not the one that control has made.
+bool is_told_what_acts(const Controller& controller) {
+  return controller.is_predictor && controller.has.feedthrough && controller.has.regulator;
+}
+
 // The calls of one sample in the order of the form; {after_update} and {after_control} are what a test looks at.
 std::string sample(const Controller& controller, const std::string& after_update, const std::string& after_control) {
   if (controller.linear) return linear_sample(controller, after_update + after_control);
@@ -103,7 +108,7 @@ std::string sample(const Controller& controller, const std::string& after_update
       controller.has.regulator ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, u){limited});\n" : "";
   const std::string predict = controller.size.nu ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
                                               : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
-  const std::string recorded = controller.has.feedthrough && controller.has.regulator
+  const std::string recorded = is_told_what_acts(controller)
                                    ? "        memcpy(self.u_applied, u_out[k], sizeof self.u_applied);  /* what acts on these outputs */\n" : "";
   return reference + (controller.is_predictor ? control + recorded + update : update + control) + after_update + after_control +
          predict;
@@ -134,18 +139,21 @@ std::string bits_test(const Controller& controller) {
          "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n}\n";
 }
 
-// What one sample with a hostile number calls and looks at.
+// What one sample with a hostile number calls and looks at. The outputs are recorded, and so is the input that acts: with its
+// own the estimate would run away from them wherever a controller is unstable without its plant.
 std::string hostile_sample(const Controller& controller) {
   if (controller.linear) return linear_hostile_sample(controller);
   const std::string act = controller.has.regulator ? R"(                (void){name}_control(&self, u);
                 for (int i = 0; i < {NAME}_NU; i++)
                     TEST_ASSERT_TRUE(u[i] - u[i] == {zero}{within});
 )" : "";
-  const std::string applied = controller.size.nu ? controller.has.regulator ? ", u" : ", u_out[k]" : "";
-  return R"(                status = {name}_update(&self, y);
+  const std::string recorded = is_told_what_acts(controller) ? "                memcpy(self.u_applied, u_out[k], sizeof self.u_applied);\n" : "";
+  const std::string update = R"(                status = {name}_update(&self, y);
                 if (k % 3 == 1 && what < 5)
                     TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
-)" + act + "                (void){name}_predict(&self" + applied + R"();
+)";
+  return (controller.is_predictor ? act + recorded + update : update + act) + "                (void){name}_predict(&self" +
+         (controller.size.nu ? ", u_out[k]" : "") + R"();
                 for (int i = 0; i < {NAME}_NX; i++)
                     TEST_ASSERT_TRUE(self.x[i] > -bound[i] && self.x[i] < bound[i]);
 )";

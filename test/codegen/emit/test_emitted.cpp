@@ -216,6 +216,16 @@ void test_random_designs() {
   }
 }
 
+// Unstable without their plants: with its own input on recorded outputs each of them left its bounds.
+void test_predictor_forms_that_are_unstable_by_themselves() {
+  for (const int seed : {1011, 1051, 1059}) {
+    Random random(static_cast<std::uint64_t>(seed));
+    DesignText design = random_design(random, 1 + seed % 8);
+    design.name = "unstable_" + std::to_string(seed);
+    expect_emitted_to_pass(controller_of(design), {Language::c});
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -244,5 +254,6 @@ int main(int argc, char** argv) {
   RUN_TEST(test_an_initial_state_that_is_known_exactly);
   RUN_TEST(test_more_than_ten_states);
   RUN_TEST(test_random_designs);
+  RUN_TEST(test_predictor_forms_that_are_unstable_by_themselves);
   return UNITY_END();
 }
