@@ -189,6 +189,36 @@ static void test_factors_have_to_be_finite_only(void)
     }
 }
 
+/* An update makes no variance larger: it is predict that looks at them. */
+static void test_update_by_factors_looks_at_the_estimate_alone(void)
+{
+    const lqg_real missing[3] = {(lqg_real)NAN, (lqg_real)NAN, (lqg_real)NAN};
+    for (int i = 0; i < NX; i++) {
+        begin(UD);
+        d[i] = 2 * bound[i] * bound[i];
+        TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE, update(UD, missing));
+        TEST_ASSERT_TRUE(d[i] == 2 * bound[i] * bound[i]);
+        TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE, lqg_kalman_ud_update_output(&ud, x, U, d, NULL, NULL, 0, missing[0], NULL, work));
+        expect_reset(predict(UD, none));
+    }
+}
+
+/* The noise of the last output is made independent by the first one alone. */
+static void test_an_output_is_not_updated_alone_when_any_other_makes_it_independent(void)
+{
+    static const lqg_real by_first[9] = {1, 0, 0, 0, 1, 0, 0.5f, 0, 1}, by_second[9] = {1, 0, 0, 0, 1, 0, 0, 0.5f, 1};
+    const lqg_real *both[] = {by_first, by_second};
+    for (int k = 0; k < 2; k++) {
+        lqg_kalman_plain_t kalman = plain;
+        kalman.E = both[k];
+        begin(PLAIN);
+        for (unsigned i = 0; i < NX; i++)
+            TEST_ASSERT_EQUAL_HEX(i < 2 ? LQG_OK : LQG_OUTPUT_NOT_FINITE,
+                                  lqg_kalman_plain_update_output(&kalman, x, P, NULL, NULL, i, 1, NULL, work));
+        TEST_ASSERT_TRUE(x[0] != 0 && x[1] != 0 && x[2] == 0);
+    }
+}
+
 /* x̂ and all that an update could touch. */
 static int state_changes(int filter, int i, lqg_real y_i, lqg_status expected)
 {
@@ -253,6 +283,8 @@ int main(void)
     RUN_TEST(test_update_keeps_the_bounds);
     RUN_TEST(test_each_variance_stays_just_below_the_square_of_its_bound);
     RUN_TEST(test_factors_have_to_be_finite_only);
+    RUN_TEST(test_update_by_factors_looks_at_the_estimate_alone);
+    RUN_TEST(test_an_output_is_not_updated_alone_when_any_other_makes_it_independent);
     RUN_TEST(test_an_innovation_at_its_limit_is_left_out_and_one_just_below_is_not);
     RUN_TEST(test_an_innovation_that_is_not_believed_is_not_counted_by_the_gate);
     RUN_TEST(test_without_bounds_finite_is_enough);

@@ -1,6 +1,8 @@
 /* The filter with constant gain. */
 #include <string.h>
 
+#include <math.h>
+
 #include "model.h"
 #include "textbook.h"
 #include "unity.h"
@@ -144,6 +146,45 @@ static void test_update_and_predict_compute_their_equations(void)
     TEST_ASSERT_TRUE(x[0] == 11.75f && x[1] == 13);
 }
 
+static void test_update_by_one_output_takes_its_column_of_L_and_keeps_its_innovation(void)
+{
+    lqg_real x[2], u_applied[1], innovation[2];
+
+    lqg_kalman_steady_init(&exact, x, u_applied, innovation);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_steady_update_output(&exact, x, u_applied, innovation, 1, 3, NULL, NULL));
+    TEST_ASSERT_TRUE(x[0] == 1 + 0.25f * 3 && x[1] == -1 + 2 * 3);
+    TEST_ASSERT_TRUE(innovation[0] == 0 && innovation[1] == 3);
+
+    lqg_kalman_steady_init(&exact, x, u_applied, innovation);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_steady_update_output(&exact, x, u_applied, innovation, 0, 5, NULL, NULL));
+    TEST_ASSERT_TRUE(x[0] == 1 + 0.5f * 4 && x[1] == -1 - 4);
+    TEST_ASSERT_TRUE(innovation[0] == 4 && innovation[1] == 0);
+}
+
+static void test_update_by_one_output_needs_no_innovation_where_w_and_v_are_independent(void)
+{
+    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL}, L, NULL, x0, NULL, NULL};
+    lqg_real x[2];
+
+    lqg_kalman_steady_init(&kalman, x, NULL, NULL);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_steady_update_output(&kalman, x, NULL, NULL, 1, 3, NULL, NULL));
+    TEST_ASSERT_TRUE(x[0] == 1.75f && x[1] == 5);
+}
+
+static void test_update_by_one_output_tells_all_that_happened(void)
+{
+    lqg_real x[2], u_applied[1], innovation[2];
+
+    lqg_kalman_steady_init(&exact, x, u_applied, innovation);
+    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, lqg_kalman_steady_update_output(&exact, x, u_applied, innovation, 1,
+                                                                                  (lqg_real)NAN, NULL, NULL));
+    TEST_ASSERT_TRUE(x[0] == 1 && x[1] == -1 && innovation[1] == 0);
+    x[0] = (lqg_real)NAN;
+    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE | LQG_STATE_RESET,
+                           lqg_kalman_steady_update_output(&exact, x, u_applied, innovation, 1, 3, NULL, NULL));
+    TEST_ASSERT_TRUE(x[0] == 1 && x[1] == -1);
+}
+
 static void test_predict_takes_the_kept_input_itself(void)
 {
     lqg_real x[2], u_applied[1], innovation[2], work[2];
@@ -171,6 +212,9 @@ int main(void)
     RUN_TEST(test_steady_filter_is_the_settled_one_when_w_and_v_are_correlated);
     RUN_TEST(test_steady_filter_is_the_settled_one_with_one_state_and_no_input);
     RUN_TEST(test_update_and_predict_compute_their_equations);
+    RUN_TEST(test_update_by_one_output_takes_its_column_of_L_and_keeps_its_innovation);
+    RUN_TEST(test_update_by_one_output_needs_no_innovation_where_w_and_v_are_independent);
+    RUN_TEST(test_update_by_one_output_tells_all_that_happened);
     RUN_TEST(test_predict_takes_the_kept_input_itself);
     RUN_TEST(test_init_without_x0_begins_at_zero);
     return UNITY_END();
