@@ -17,6 +17,7 @@
 #include "emit/unit_test/unit_test.hpp"
 #include "design/solve.hpp"
 #include "input/design_file.hpp"
+#include "input/text.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -99,12 +100,12 @@ int generate(const Arguments& arguments) {
   const std::vector<emit::File> outputs = files(arguments, *controller);
   watch.end();
   if (overwrites_design(arguments, outputs)) {
-    std::cerr << arguments.design_file << ": expected a design file that is not one of the outputs; rename it, or choose "
+    std::cerr << input::printable(arguments.design_file) << ": expected a design file that is not one of the outputs; rename it, or choose "
               << "another folder with -o\n";
     return wrong;
   }
   if (const auto failure = emit::write_all(arguments.folder, outputs)) {
-    std::cerr << *failure << "\n";
+    std::cerr << input::printable(*failure) << "\n";
     return unreadable;
   }
   if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(*controller);
@@ -136,7 +137,7 @@ int main(int argc, char** argv) {
   try {
     return generate(arguments);
   } catch (const std::exception& error) {
-    std::cerr << arguments.design_file << ": lqgen failed: " << error.what() << "\n";
+    std::cerr << input::printable(arguments.design_file) << ": lqgen failed: " << input::printable(error.what()) << "\n";
     return impossible;
   }
 }

@@ -12,6 +12,7 @@
 #include "input/assemble.hpp"
 #include "input/consistency.hpp"
 #include "input/document.hpp"
+#include "input/names.hpp"
 #include "input/report.hpp"
 #include "input/text.hpp"
 #include "input/values.hpp"
@@ -61,7 +62,13 @@ DesignFile read_design_file(const std::string& path) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) return unreadable("reading it failed");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_design(text);
+  DesignFile file = parse_design(text);
+  if (const Complaint complaint = check_file_name(std::filesystem::path(path).filename().string())) {
+    Report(file).error("@", Location{0, 0}, *complaint);
+    file.problem.reset();
+    sort_by_place(file, file.findings);
+  }
+  return file;
 }
 
 DesignFile parse_design(const std::string& text) {

@@ -92,6 +92,15 @@ Complaint check_comment_text(const std::string& text) {
   return {};
 }
 
+Complaint check_file_name(const std::string& name) {
+  if (const Complaint complaint = check_comment_text(name)) return "file name: " + *complaint + "; rename it";
+  for (const char* sequence : {"\"", "?\?"})
+    if (name.find(sequence) != name.npos)
+      return "file name: expected one that can stand in a string of C, without `" + std::string(sequence) + "`" + found(name) +
+             "; rename it";
+  return {};
+}
+
 Complaint parse_signal(const std::string& text, design::Signal& signal) {
   const std::size_t open = text.find('[');
   signal.name = trimmed(text.substr(0, open));

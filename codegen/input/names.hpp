@@ -18,6 +18,9 @@ Complaint check_design_name(const std::string& name);
 // open one.
 Complaint check_comment_text(const std::string& text);
 
+// The design file's name, which stands in comments of what is emitted and in a string of an #error.
+Complaint check_file_name(const std::string& name);
+
 // "dy1 [m]" into a name, a C identifier, and a unit.
 Complaint parse_signal(const std::string& text, design::Signal& signal);
 

@@ -97,6 +97,30 @@ void test_help_and_version_are_no_errors() {
   }
 }
 
+// Its name stands in comments and in a string of what is emitted.
+void test_design_file_whose_name_is_no_text() {
+  for (const char* name : {"a\n#error b.toml", "a\".toml", "a\\.toml", "a\xff.toml", "a\tb.toml", "a\x1b[2J.toml",
+                           "a\xe2\x80\xae.toml", "a?\?).toml", "\xc0\xaf.toml"}) {
+    write_file(folder / name, base);
+    const Outcome outcome = run_lqgen({name, "-o", "out"});
+    expect_refusal(wrong, outcome);
+    TEST_ASSERT_TRUE_MESSAGE(outcome.err.find("file name: expected ") != std::string::npos, outcome.err.c_str());
+    TEST_ASSERT_TRUE_MESSAGE(outcome.err.find("; rename it") != std::string::npos, outcome.err.c_str());
+    TEST_ASSERT_EQUAL_size_t_MESSAGE(outcome.err.size() - 1, outcome.err.find('\n'), outcome.err.c_str());
+  }
+}
+
+void test_design_file_whose_name_is_odd_and_whose_folder_is_worse() {
+  const fs::path odd = fs::path("a\n\"\xff") / "it's {name} & <b> ?: ä*.toml";
+  fs::create_directory(folder / odd.parent_path());
+  write_file(folder / odd, base);
+  const Outcome outcome = run_lqgen({odd.string(), "-o", "new"});
+  TEST_ASSERT_EQUAL_STRING("", outcome.err.c_str());
+  for (const char* name : {"base.h", "base_test.c", "base.json"})
+    TEST_ASSERT_TRUE_MESSAGE(read_file(folder / "new" / name).find(odd.filename().string()) != std::string::npos, name);
+  TEST_ASSERT_TRUE(read_file(folder / "new/base.html").find("it's {name} &amp; &lt;b&gt; ?: ä*.toml") != std::string::npos);
+}
+
 void test_design_that_is_not_there() {
   expect_line(unreadable, "none.toml: cannot be read: No such file or directory",
               run_lqgen({"none.toml", "-o", "out"}));
@@ -241,6 +265,8 @@ int main(int count, char** arguments) {
   RUN_TEST(test_quiet_leaves_notes_out_and_errors_in);
   RUN_TEST(test_command_line_that_is_wrong);
   RUN_TEST(test_help_and_version_are_no_errors);
+  RUN_TEST(test_design_file_whose_name_is_no_text);
+  RUN_TEST(test_design_file_whose_name_is_odd_and_whose_folder_is_worse);
   RUN_TEST(test_design_that_is_not_there);
   RUN_TEST(test_design_that_is_no_regular_file);
   RUN_TEST(test_design_that_may_not_be_read);

@@ -50,6 +50,21 @@ const char* const functions[] = {"loop_init(loop_t *self)", "loop_update(loop_t 
                                  "loop_predict(loop_t *self, const float u[LOOP_NU])",
                                  "loop_step(loop_t *self, const float y[LOOP_NY], float u[LOOP_NU])"};
 
+// As a user names a file, with all that a check of names lets pass.
+void test_a_file_name_that_looks_like_code_stays_text() {
+  const fs::path folder = empty_folder("file_name");
+  for (const Style style : {Style::unrolled, Style::compact}) {
+    Controller controller = controller_in(style);
+    controller.source.file = "it's {name} ${x} %s <b> & #if 0 ?: ä*.toml";
+    write(folder / "loop.h", lqg::emit::header(controller));
+    write(folder / "loop_test.c", lqg::emit::unit_test(controller));
+    for (const std::string& compiler : {as_c, as_cxx}) {
+      const Outcome outcome = run(compiler + " -fsyntax-only" + options(controller, folder) + " " + (folder / "loop_test.c").string());
+      TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.c_str());
+    }
+  }
+}
+
 void test_nothing_of_a_template_is_left_in_a_header() {
   Random random(11);
   for (int k = 0; k < 12; ++k) {
@@ -267,6 +282,7 @@ void test_ram_is_exactly_the_size_of_the_state() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_header_has_its_parts_in_the_order_of_the_contract);
+  RUN_TEST(test_a_file_name_that_looks_like_code_stays_text);
   RUN_TEST(test_nothing_of_a_template_is_left_in_a_header);
   RUN_TEST(test_every_function_carries_its_contract);
   RUN_TEST(test_step_makes_its_calls_in_the_order_of_the_form);
