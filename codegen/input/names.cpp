@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "input/text.hpp"
 
@@ -23,19 +24,59 @@ constexpr std::string_view keywords[] = {
     "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile",
     "wchar_t", "while", "xor", "xor_eq"};
 
-// NAME.h would stand before the standard's header of that name.
+// NAME.h would stand before the header of that name: of C, of POSIX, of what these include, and of Unity, for the test.
 constexpr std::string_view headers[] = {
-    "assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "math",
-    "memory", "setjmp", "signal", "stdarg", "stdbool", "stddef", "stdint", "stdio", "stdlib", "string",
-    "strings", "tgmath", "threads", "time", "unistd", "wchar", "wctype"};
+    "aio", "alloca", "assert", "byteswap", "complex", "cpio", "ctype", "devctl", "dirent", "dlfcn",
+    "endian", "envlock", "errno", "fcntl", "features", "fenv", "float", "fmtmsg", "fnmatch", "ftw",
+    "getopt", "glob", "grp", "iconv", "ieeefp", "inttypes", "iso646", "langinfo", "libgen", "libintl",
+    "limits", "locale", "malloc", "math", "memory", "monetary", "mqueue", "ndbm", "netdb", "newlib",
+    "nl_types", "picolibc", "poll", "pthread", "pwd", "reent", "regex", "sched", "search", "semaphore",
+    "setjmp", "signal", "spawn", "stdalign", "stdarg", "stdatomic", "stdbit", "stdbool", "stdckdint",
+    "stddef", "stdfix", "stdint", "stdio", "stdlib", "stdnoreturn", "string", "strings", "stropts",
+    "syslimits", "syslog", "tar", "termios", "tgmath", "threads", "time", "trace", "uchar", "ucontext",
+    "ulimit", "unistd", "unity", "unity_config", "unity_internals", "utime", "utmpx", "wchar", "wctype",
+    "wordexp"};
 
-// NAME_t would be a type of C's or POSIX' headers.
+// NAME_t would be a type of C's, POSIX' or a C library's headers.
 constexpr std::string_view types[] = {
-    "blkcnt", "blksize", "char16", "char32", "char8", "clock", "clockid", "dev", "div", "double", "fenv",
-    "fexcept", "float", "fpos", "gid", "id", "imaxdiv", "ino", "int16", "int32", "int64", "int8", "intmax",
-    "intptr", "key", "ldiv", "lldiv", "max_align", "mbstate", "mode", "nlink", "off", "pid", "ptrdiff",
-    "sig_atomic", "sigset", "size", "ssize", "suseconds", "time", "timer", "uid", "uint16", "uint32",
-    "uint64", "uint8", "uintmax", "uintptr", "useconds", "wchar", "wctrans", "wctype", "wint"};
+    "active_reg", "argp_parser", "atomic_char16", "atomic_char32", "atomic_int_fast16",
+    "atomic_int_fast32", "atomic_int_fast64", "atomic_int_fast8", "atomic_int_least16",
+    "atomic_int_least32", "atomic_int_least64", "atomic_int_least8", "atomic_intmax", "atomic_intptr",
+    "atomic_ptrdiff", "atomic_size", "atomic_uint_fast16", "atomic_uint_fast32", "atomic_uint_fast64",
+    "atomic_uint_fast8", "atomic_uint_least16", "atomic_uint_least32", "atomic_uint_least64",
+    "atomic_uint_least8", "atomic_uintmax", "atomic_uintptr", "atomic_wchar", "bfloat16", "blkcnt",
+    "blkcnt64", "blksize", "caddr", "cc", "char16", "char32", "char8", "clock", "clockid", "cnd", "comp",
+    "comparison_fn", "cookie_close_function", "cookie_io_functions", "cookie_read_function",
+    "cookie_seek_function", "cookie_write_function", "cpu_set", "daddr", "dev", "div", "double",
+    "elf_fpregset", "elf_greg", "elf_gregset", "epoll_data", "errno", "error", "femode", "fenv",
+    "fexcept", "fixpt", "float", "float128", "float16", "float32", "float64", "fpos", "fpos64",
+    "fpregset", "fsblkcnt", "fsblkcnt64", "fsfilcnt", "fsfilcnt64", "fsid", "gid", "glob", "glob64",
+    "greg", "gregset", "iconv", "id", "idtype", "imaxdiv", "in_addr", "in_port", "ino", "ino64", "int128",
+    "int16", "int32", "int64", "int8", "int_farptr", "int_fast16", "int_fast32", "int_fast64",
+    "int_fast8", "int_least16", "int_least32", "int_least64", "int_least8", "intmax", "intptr", "key",
+    "ldiv", "lldiv", "locale", "loff", "lwpid", "max_align", "mbstate", "mcontext", "mode", "mqd",
+    "msglen", "msgqnum", "mtx", "nfds", "nlink", "nullptr", "off", "off64", "pid",
+    "posix_spawn_file_actions", "posix_spawnattr", "prfpregset", "prgregset", "prpsinfo", "prstatus",
+    "psaddr", "pthread", "pthread_attr", "pthread_barrier", "pthread_barrierattr", "pthread_cond",
+    "pthread_condattr", "pthread_key", "pthread_mutex", "pthread_mutexattr", "pthread_once",
+    "pthread_rwlock", "pthread_rwlockattr", "pthread_spinlock", "ptrdiff", "q15", "q31", "q63", "q7",
+    "quad", "re_dfa", "reg_errcode", "reg_syntax", "regex", "register", "regmatch", "regoff", "rlim",
+    "rlim64", "rsize", "s_reg", "sa_family", "sbintime", "segsz", "sem", "shmatt", "sig", "sig_atomic",
+    "sigevent", "sighandler", "siginfo", "sigset", "sigval", "size", "socklen", "speed", "ssize", "stack",
+    "suseconds", "swblk", "tcflag", "td_event_msg", "td_eventbuf", "td_notify", "td_ta_stats",
+    "td_thr_events", "td_thragent", "td_thrhandle", "td_thrinfo", "thrd", "thrd_start", "thread",
+    "thread_key", "time", "timer", "tss", "tss_dtor", "u_int16", "u_int32", "u_int64", "u_int8", "u_quad",
+    "u_register", "ucontext", "uid", "uint128", "uint16", "uint32", "uint64", "uint8", "uint_farptr",
+    "uint_fast16", "uint_fast32", "uint_fast64", "uint_fast8", "uint_least16", "uint_least32",
+    "uint_least64", "uint_least8", "uintmax", "uintptr", "useconds", "uuid", "wchar", "wctrans", "wctype",
+    "wint", "wordexp"};
+
+// NAME_init or NAME_reset would be a function of theirs, where NAME_t is none.
+constexpr std::string_view prefixes[] = {
+    "atomic", "fanotify", "inotify", "obstack", "res", "wdt"};
+
+// NAME_X_STATE would be a macro of the header, by the key of the signals; in capitals.
+constexpr std::pair<std::string_view, std::string_view> macros[] = {{"plant.states", "BOUNDS"}};
 
 template <std::size_t n>
 bool contains(const std::string_view (&list)[n], std::string_view word) {
@@ -73,6 +114,8 @@ Complaint check_design_name(const std::string& name) {
   if (contains(headers, name)) return "expected a name that no standard header has" + found(name);
   if (contains(types, name))
     return "expected a name that leaves " + in_quotes(name + "_t") + " to C and POSIX" + found(name);
+  if (contains(prefixes, name))
+    return "expected a name that leaves " + in_quotes(name + "_…") + " to the functions of C libraries" + found(name);
   if (name == "lqg" || name.rfind("lqg_", 0) == 0)
     return "expected a name that does not begin with the library's prefix lqg_" + found(name);
   return {};
@@ -99,6 +142,20 @@ Complaint check_file_name(const std::string& name) {
       return "file name: expected one that can stand in a string of C, without `" + std::string(sequence) + "`" + found(name) +
              "; rename it";
   return {};
+}
+
+Complaint check_signal_name(const std::string& key, const std::string& name) {
+  const std::string capitals = in_capitals(name);
+  for (const auto& [of, reserved] : macros)
+    if (key == of && capitals == reserved)
+      return "expected a name that the header has no macro of" + found(name);
+  return {};
+}
+
+std::string in_capitals(std::string name) {
+  for (char& c : name)
+    if (is_lower(c)) c = static_cast<char>(c - 'a' + 'A');
+  return name;
 }
 
 Complaint parse_signal(const std::string& text, design::Signal& signal) {

@@ -21,6 +21,12 @@ Complaint check_comment_text(const std::string& text);
 // The design file's name, which stands in comments of what is emitted and in a string of an #error.
 Complaint check_file_name(const std::string& name);
 
+// A name as the generated constants have it.
+std::string in_capitals(std::string name);
+
+// The constant NAME_X_STATE, or NAME_U_INPUT, NAME_Y_OUTPUT, of a signal of "plant.states" …: no other has its name.
+Complaint check_signal_name(const std::string& key, const std::string& name);
+
 // "dy1 [m]" into a name, a C identifier, and a unit.
 Complaint parse_signal(const std::string& text, design::Signal& signal);
 

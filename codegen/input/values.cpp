@@ -192,7 +192,7 @@ class ValueReader {
     std::map<std::string, std::size_t> seen;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       design::Signal signal;
-      const Complaint complaint = read_signal(i, node.items[i], seen, signal);
+      const Complaint complaint = read_signal(rule, i, node.items[i], seen, signal);
       if (complaint)
         report_.error(rule.path + "[" + std::to_string(i) + "]", node.items[i].where, *complaint);
       else
@@ -202,14 +202,12 @@ class ValueReader {
   }
 
   // `seen`: names before this one, in capitals as the generated constants have them.
-  static Complaint read_signal(std::size_t index, const Node& node, std::map<std::string, std::size_t>& seen,
-                               design::Signal& signal) {
+  static Complaint read_signal(const KeyRule& rule, std::size_t index, const Node& node,
+                               std::map<std::string, std::size_t>& seen, design::Signal& signal) {
     if (node.kind != Kind::text) return "expected a name in quotes, found " + describe(node);
     if (const Complaint complaint = parse_signal(node.text, signal)) return complaint;
-    std::string capitals = signal.name;
-    for (char& c : capitals)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    const auto [first, is_new] = seen.emplace(capitals, index);
+    if (const Complaint complaint = check_signal_name(rule.path, signal.name)) return complaint;
+    const auto [first, is_new] = seen.emplace(in_capitals(signal.name), index);
     if (is_new) return {};
     return "expected a name of its own, capitals aside, found that of [" + std::to_string(first->second) +
            "], " + in_quotes(signal.name);
