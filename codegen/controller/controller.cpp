@@ -5,6 +5,7 @@
 
 #include "controller/gains.hpp"
 #include "controller/gate.hpp"
+#include "controller/numbers.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/finding.hpp"
 #include "design/numeric/linear_algebra.hpp"
@@ -153,6 +154,8 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
   if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
+  check_numbers(controller, findings);
+  if (design::has_error(findings)) return std::nullopt;
   controller.last_sample = std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
   controller.keeps = memory_of(controller);
   controller.bounds = bounds_of(controller);

@@ -1,6 +1,7 @@
 #include "controller/gains.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "controller/rounding.hpp"
 #include "controller/stage_in_force.hpp"
@@ -49,11 +50,13 @@ RealMatrix feed_forward(const Controller& controller, const RealMatrix& K) {
   return design::feed_forward(controller.problem, K, {regulator.Nx, regulator.Nu});
 }
 
-// C L = I − V S⁻¹ of an optimal gain, hence S = (I − C L)⁻¹ V.
+// C L = I − V S⁻¹ of an optimal gain, hence S = (I − C L)⁻¹ V; infinite where V is nothing beside S in all digits.
 RealMatrix innovation_variances(const Controller& controller, const RealMatrix& L, std::size_t sample) {
   const RealMatrix& C = plant_at(controller, sample).C;
   const RealMatrix left = design::identity(C.rows()) - design::multiply(C, L);
-  return design::solve(left, noise_at(controller, sample)->V)->diagonal();
+  const auto variances = design::solve(left, noise_at(controller, sample)->V);
+  if (!variances) return RealMatrix::Constant(C.rows(), 1, Real(std::numeric_limits<double>::infinity()));
+  return variances->diagonal();
 }
 
 }  // namespace

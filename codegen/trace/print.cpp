@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "trace/consequences.hpp"
 
@@ -55,6 +56,10 @@ std::size_t break_before(const std::string& line, std::size_t start, int width) 
 }  // namespace
 
 std::string literal(double value, bool is_double) {
+  if (!std::isfinite(is_double ? value : static_cast<double>(static_cast<float>(value))))
+    throw std::range_error(std::string("expected numbers that ") + (is_double ? "double" : "float") +
+                           " can hold, found one that is not finite in what is to be printed" +
+                           (is_double ? "" : ": choose larger units, or real = \"double\""));
   char text[40];
   const std::to_chars_result end = is_double ? std::to_chars(text, text + sizeof text, value)
                                              : std::to_chars(text, text + sizeof text, static_cast<float>(value));

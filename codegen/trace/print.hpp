@@ -8,7 +8,8 @@
 
 namespace lqg::trace {
 
-// The shortest decimal that reads back as the same number: "0.01f", "1e-06f", "0.5", "-3.0f".
+// The shortest decimal that reads back as the same number: "0.01f", "1e-06f", "0.5", "-3.0f". C has no literal of what is not
+// finite in the target's numbers: it throws std::range_error.
 std::string literal(double value, bool is_double);
 
 // Breaks a line of C over `width` columns; what follows is indented by `indent` columns.

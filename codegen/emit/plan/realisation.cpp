@@ -1,5 +1,6 @@
 #include "emit/plan/realisation.hpp"
 
+#include "controller/numbers.hpp"
 #include "emit/plan/code_cost.hpp"
 #include "emit/vectors/linear_vectors.hpp"
 #include "simulate/agreement.hpp"
@@ -74,6 +75,8 @@ std::optional<Controller> in_chosen_form(Controller controller, design::Findings
   controller.forms = forms;
   if (forms.chosen == Realisation::physical) return controller;
   const design::LinearForm& form = forms.chosen == Realisation::folded ? *folded.form : *modal.form;
+  controller::check_numbers(form, controller.target.is_double, findings);
+  if (design::has_error(findings)) return std::nullopt;
   design::check_rounded_form(controller.problem, form, controller.solution, findings);
   if (design::has_error(findings)) return std::nullopt;
   return controller::with_form(std::move(controller), form);

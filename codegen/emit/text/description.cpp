@@ -76,7 +76,7 @@ std::string limits(const Controller& controller) {
     const std::string u = "u[" + std::to_string(i) + "]";
     if (limits.u_min.size())
       out += "  " + limit(limits.u_min(i), " ≤ ", true) + u + limit(limits.u_max(i), " ≤ ", false) + "\n";
-    if (controller.has.rate_limit)
+    if (controller.has.rate_limit && std::isfinite(limits.u_rate(i)))
       out += "  |change of " + u + "| ≤ " + trace::literal(limits.u_rate(i), true) + " per second\n";
   }
   return out;

@@ -1,6 +1,7 @@
 #include "emit/text/wording.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lqg/version.h"
 #include "trace/print.hpp"
@@ -78,7 +79,9 @@ Words common_words(const Controller& controller) {
 }
 
 std::string number(const design::Real& value, bool is_double) {
-  std::string text = trace::literal(rounded_to_target(value, is_double), is_double);
+  const double rounded = rounded_to_target(value, is_double);
+  if (!std::isfinite(rounded)) return trace::literal(design::to_double(value), true);
+  std::string text = trace::literal(rounded, is_double);
   if (!is_double) text.pop_back();
   return text;
 }

@@ -235,8 +235,10 @@ static uint32_t hash_of(uint32_t hash, const {real} values[], int count)
 )";
 }
 
+// None where every number of the target is within the limit.
 std::string bound(const char* comparison, double limit, const Controller& controller) {
-  return std::isinf(limit) ? "" : comparison + trace::literal(limit, controller.target.is_double);
+  const bool is_double = controller.target.is_double;
+  return std::isinf(is_double ? limit : static_cast<double>(static_cast<float>(limit))) ? "" : comparison + trace::literal(limit, is_double);
 }
 
 std::string hexadecimal(std::uint32_t value) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 
 #include <unity.h>
 
@@ -70,6 +71,21 @@ void expect_at_the_ends(Expect expect) {
 void test_literal_at_the_ends_of_the_range_reads_back() {
   expect_at_the_ends<double>(expect_double_reads_back);
   expect_at_the_ends<float>(expect_float_reads_back);
+}
+
+// What C has no literal of.
+void expect_no_literal(double value, bool is_double) {
+  try {
+    TEST_FAIL_MESSAGE(literal(value, is_double).c_str());
+  } catch (const std::range_error&) {
+  }
+}
+
+void test_what_is_not_finite_has_no_literal() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()})
+    for (const bool is_double : {false, true}) expect_no_literal(value, is_double);
+  for (const double value : {1e39, -1e39, std::numeric_limits<double>::max()}) expect_no_literal(value, false);
 }
 
 void test_literal_is_the_shortest() {
@@ -281,6 +297,7 @@ int main() {
   RUN_TEST(test_literal_of_any_finite_bits_reads_back);
   RUN_TEST(test_literal_of_subnormal_and_of_honest_numbers_reads_back);
   RUN_TEST(test_literal_at_the_ends_of_the_range_reads_back);
+  RUN_TEST(test_what_is_not_finite_has_no_literal);
   RUN_TEST(test_literal_is_the_shortest);
   RUN_TEST(test_wrap_turns_spaces_into_line_ends_and_changes_nothing_else);
   RUN_TEST(test_wrap_breaks_after_a_comma_or_before_a_sign_or_a_choice_only);
