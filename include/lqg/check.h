@@ -1,10 +1,10 @@
 /* TinyLQG: whether this compiler, with the options that it is given here, computes as lqg/arithmetic.h says.
  *
- * That header refuses or overrules most options that would change a bit or let a NaN pass. A few of clang's it can neither
- * see nor wholly overrule: -ffp-contract=fast; -fno-honor-nans and its like, on 32-bit Arm for all operations, elsewhere for
- * ?: and the unary minus. Others act when the program is linked: on x86 -ffast-math there makes denormal numbers 0. lqg_add_controller (CMake) looks for them by itself. Who
- * builds otherwise compiles and links this with the options of the firmware, and runs it, on the target where that is
- * possible:
+ * That header refuses or overrules most options that would change a bit or let a NaN pass. A few of clang's it can
+ * neither see nor wholly overrule: -ffp-contract=fast; -fno-honor-nans and its like, on 32-bit Arm for all operations,
+ * elsewhere for ?: and the unary minus. Others act when the program is linked: on x86 -ffast-math there makes denormal
+ * numbers 0. lqg_add_controller (CMake) looks for them by itself. Who builds otherwise compiles and links this with the
+ * options of the firmware, and runs it, on the target where that is possible:
  *
  *     #include <stdio.h>
  *
@@ -33,14 +33,18 @@
 #include "lqg/arithmetic.h"
 
 #define LQG_CHECK_NAN \
-    "TinyLQG: the compiler forgets NaNs. Leave out -ffast-math, -ffinite-math-only, -fno-honor-nans, -fno-honor-infinities."
-#define LQG_CHECK_CONTRACTION "TinyLQG: a*b + c is rounded once. Leave out -ffp-contract=fast, or end with -ffp-contract=off."
+    "TinyLQG: the compiler forgets NaNs. Leave out -ffast-math, -ffinite-math-only, -fno-honor-nans, " \
+    "-fno-honor-infinities."
+#define LQG_CHECK_CONTRACTION \
+    "TinyLQG: a*b + c is rounded once. Leave out -ffp-contract=fast, or end with -ffp-contract=off."
 #define LQG_CHECK_ORDER \
     "TinyLQG: operations are not done as they are written. Leave out -ffast-math, -funsafe-math-optimizations, -Ofast."
 #define LQG_CHECK_ZERO "TinyLQG: zeros lose their sign. Leave out -fno-signed-zeros."
 #define LQG_CHECK_DENORMAL \
-    "TinyLQG: small numbers become 0. Leave out -ffast-math, -funsafe-math-optimizations, -Ofast and -mdaz-ftz, at the linker, too."
-#define LQG_CHECK_ROUNDING "TinyLQG: numbers are not rounded to nearest, once. Leave the rounding mode and precision as they are."
+    "TinyLQG: small numbers become 0. Leave out -ffast-math, -funsafe-math-optimizations, -Ofast " \
+    "and -mdaz-ftz, at the linker, too."
+#define LQG_CHECK_ROUNDING \
+    "TinyLQG: numbers are not rounded to nearest, once. Leave the rounding mode and precision as they are."
 
 /* Called where the optimizer takes x != x for false. There is no such function. */
 #if defined __has_attribute
@@ -58,9 +62,9 @@ __attribute__((error(LQG_CHECK_NAN))) void lqg_check_forgets_nans(void);
 #define LQG_CHECK_AT_COMPILE_TIME(x)
 #endif
 
-/* Of each row: its name; an expression; the values of a, b and c, which the compiler does not know, chosen being c > b ? a : b; what comes out, to the
- * bit, when all is rounded once, to nearest, as it is written; and what to say if it does not. Of the parameters:
- * 1 − e² is rounded to 1; epsilon is the distance from 1 to the next number. */
+/* Of each row: its name; an expression; the values of a, b and c, which the compiler does not know (chosen is
+ * c > b ? a : b); what comes out, to the bit, when all is rounded once, to nearest, as it is written; and what to say if
+ * it does not. Of the parameters: 1 − e² is rounded to 1; epsilon is the distance from 1 to the next number. */
 #define LQG_CHECK_ROWS(ROW, real, e, epsilon, max, min) \
     ROW(real, nan_is_not_finite, a - a == 0 ? 1 : 2, nan, 0, 0, 2, LQG_CHECK_NAN) \
     ROW(real, infinity_is_not_finite, a - a == 0 ? 1 : 2, infinity, 0, 0, 2, LQG_CHECK_NAN) \

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 here=$(dirname "${BASH_SOURCE[0]}")
 
 # In the order in which they need each other.
-public=(arithmetic status version kalman lqr ekf rls servo lqg)
+public=(arithmetic status version kalman lqr ekf rls servo lqg check)
 private=(kernel bounds_check factors plant)
 
 check_names() {
