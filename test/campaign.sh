@@ -9,6 +9,8 @@
 #   test/campaign.sh <build> fuzz [seconds]      the library's and the design files' fuzzer: default 3600 each
 #   test/campaign.sh <build> options [compiler]  test/options/options.sh: options of gcc and clang-19 that may change arithmetic,
 #                                                alone and two by two, at four levels
+#   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
+#                                                many of each part; test/mutants
 #
 # <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19 test/run.sh.
 # A campaign has parts, of which as many run side by side as there are processors. It ends at the first part that fails.
@@ -30,6 +32,7 @@ test/campaign.sh <build> <campaign>             on two processors
   random [designs]  default 1000                10 minutes
   fuzz [seconds]    default 3600, of each        1 hour
   options [compiler] default both                6 hours
+  mutants [count]   default all of each part     2 hours
 END
 }
 
@@ -182,6 +185,29 @@ options() {
   done
 }
 
+# A part for each header, another for each file of the library. PARTS: a regular expression of those to take.
+mutants() {
+  local sample=(--sample "$(number 999999 "$@")") parts=() part name run=$lqg_root/test/mutants/mutants.py
+  lqg_has_command python3 || refuse "Not found: python3"
+  for name in two_mass double_integrator balancing_robot oven; do
+    parts+=("$name.unrolled" "$name.compact")
+  done
+  parts+=(folded.unrolled)
+  for name in "$lqg_root"/src/*.c; do
+    parts+=("$(basename "$name")")
+  done
+  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
+  count=${#parts[@]}
+  [ "$count" -gt 0 ] || refuse "no part of mutants is called ${PARTS:-}"
+  for part in "${parts[@]}"; do
+    name=$(compgen -G "$lqg_root/*/designs/${part%.*}.toml" || true)
+    case $part in
+      *.c) start "$part" python3 -B "$run" "$build" src "$part" "${sample[@]}" ;;
+      *) start "$part" python3 -B "$run" "$build" header "$name" "${part#*.}" "${sample[@]}" ;;
+    esac
+  done
+}
+
 # ---- the command line --------------------------------------------------------------------------------------------
 
 # All of the script is read before a campaign begins: bash reads a file as it goes, and this one may change meanwhile.
@@ -195,7 +221,7 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz | options) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
+    soak | random | fuzz | options | mutants) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
     bits) ;;
     *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;
   esac
@@ -211,6 +237,7 @@ main() {
     random) random "$@" ;;
     fuzz) fuzz "$@" ;;
     options) options "$@" ;;
+    mutants) mutants "$@" ;;
   esac
   finish_all
 }
