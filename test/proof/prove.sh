@@ -2,9 +2,9 @@
 # Proves of the controller of a design file, yours or ours, what README.md says, by Frama-C's Eva; says what it could not
 # prove or does not understand.
 #
-#   test/proof/prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER]
+#   test/proof/prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER] [--try]
 #
-# FOLDER keeps what was proved and the prover's log. LQGEN: the lqgen to take, if not that of build/ or on the PATH.
+# --try: the trial before the proof alone, which takes seconds. FOLDER keeps what was proved and the prover's log. LQGEN: the lqgen to take, if not that of build/ or on the PATH.
 # BREAK: a sed script that breaks the controller first. Exit status: 0 proved, 1 not proved, 2 not understood, 3 something is
 # missing, 4 lqgen refuses the design.
 set -euo pipefail
@@ -12,14 +12,15 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd) root=$(cd "$here/../.." && pw
 source "$here/restate_library.sh"
 
 stop() { echo "$2" >&2; exit "$1"; }
-usage() { stop 2 "usage: prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER]"; }
+usage() { stop 2 "usage: prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER] [--try]"; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
-design='' folder='' options=()
+design='' folder='' only_try='' options=()
 while [ $# -gt 0 ]; do
   case $1 in
     --style | --real) [ $# -gt 1 ] || usage; options+=("$1" "$2"); shift ;;
     -o) [ $# -gt 1 ] || usage; folder=$2; shift ;;
+    --try) only_try=1 ;;
     -*) usage ;;
     *) [ -z "$design" ] || usage; design=$1 ;;
   esac
@@ -35,7 +36,7 @@ find_lqgen() {
   fi
 }
 lqgen=$(find_lqgen)
-has frama-c || stop 3 "frama-c is missing (Debian: frama-c-base)"
+[ -n "$only_try" ] || has frama-c || stop 3 "frama-c is missing (Debian: frama-c-base)"
 compiler=${CC:-cc}
 has "$compiler" || stop 3 "a C compiler is missing: $compiler"
 if [ -z "$folder" ]; then
@@ -71,6 +72,7 @@ library=()
 "$compiler" -std=c99 -O1 -ffp-contract=off "${flags[@]}" -DPROOF_TRIED -include "$here/tried.h" "$here/tried.c" "${library[@]}" -lm \
   -o "$folder/tried" || stop 2 "not understood: $header does not compile with $here/tried.c"
 "$folder/tried" || stop 1 "not proved: what should follow from a test does not"
+[ -z "$only_try" ] || { echo "$name, $style, $real: tried"; exit 0; }
 
 if [ "$style" = compact ]; then
   mkdir -p "$folder/library"
