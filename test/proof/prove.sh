@@ -109,7 +109,7 @@ functions=$(sed -n "s/.*@ check ${name}_\\(.*\\)_returns.*/\\1/p" "$folder/calls
 grep -q "^  0 alarms generated" "$log" || { not_proved; stop 1 "$name, $style, $real: not proved"; }
 grep -Eq "Assertions +$checks valid +0 unknown +0 invalid +$checks total" "$log" || {
   not_proved
-  stop 1 "$name, $style, $real: not proved: not all of $checks checks were reached: $(grep 'Assertions ' "$log" | tr -s ' ')"
+  stop 1 "$name, $style, $real: not proved; of $checks checks, those that were reached:$(grep 'Assertions ' "$log" | tr -s ' ')"
 }
 said=''
 ! is BOUNDS || said+=', x within its bounds'
