@@ -192,8 +192,8 @@ std::string Printer::restated(int condition, const std::string& text, const std:
   std::set<std::string> known;
   std::string facts;
   for (const Consequence& consequence : consequences(graph_, condition)) {
-    const std::string limit = consequence.limit >= 0 ? operand(consequence.limit) : literal(consequence.bound, true);
     const bool is_bounded = consequence.limit >= 0 || std::isfinite(consequence.bound);
+    const std::string limit = consequence.limit >= 0 ? operand(consequence.limit) : is_bounded ? literal(consequence.bound, true) : "";
     for (const std::string& place : places(consequence.node, stores)) {
       const std::string fact = is_bounded ? "BELOW(" + place + ", " + limit + ")" : "FINITE(" + place + ")";
       if (known.insert(fact).second) facts += (facts.empty() ? "" : " && ") + fact;

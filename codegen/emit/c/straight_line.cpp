@@ -47,13 +47,13 @@ std::string status(const Controller& controller, const Printed& printed) {
   if (!function.recovery.empty())
     return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery + ";\n    return " +
            raised + ";\n";
+  const std::string faults = function.faults.empty() ? "" : " || status & " + function.faults;
   return fill(R"({status}
-    if (!({finite}){faults})
+{unless_sound}
         return {name}_{recover}(self, status);
     return status;
 )", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
-     {"finite", printer.test(function.finite, function.stores)},
-     {"faults", function.faults.empty() ? "" : " || status & " + function.faults},
+     {"unless_sound", trace::wrap("    if (!(" + printer.test(function.finite, function.stores) + ")" + faults + ")", 8)},
      {"recover", function.checks_covariance ? "recover" : "reset"},
      {"name", controller.problem.name}});
 }

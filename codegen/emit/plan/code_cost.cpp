@@ -159,12 +159,12 @@ long filter_cost(const Controller& controller) {
     case step::Filter::steady: return common + nx * ny;
     case step::Filter::plain:
       return common + online_cost(controller) + ny * (nx * nx + 3 * nx + triangle(nx) + 1) + nx * nx * nx +
-             nx * triangle(nx) + 4 * nx;
+             nx * triangle(nx) + 3 * nx;
     case step::Filter::ud: {
       const long columns = nx + controller.solution.online->G.cols(), strict = triangle(nx - 1);
       const long factors = 3 * strict + 8 * nx + 1;
       return common + online_cost(controller) + ny * factors + nx * strict + 2 * nx * (columns + 1) +
-             strict * (2 * columns + 1) + strict + 4 * nx;
+             strict * (2 * columns + 1) + strict + 3 * nx;
     }
     default: return 0;
   }

@@ -85,6 +85,7 @@ T apply_to(Op op, bool fused, T a, T b, T c) {
     case Op::usable: return T(std::isfinite(a) && b > 0);
     case Op::same: return T(a == b);
     case Op::either: return T(a != 0 || b != 0);
+    case Op::both: return T(a != 0 && b != 0);
     case Op::negation: return T(a == 0);
     default: return std::numeric_limits<T>::quiet_NaN();
   }
