@@ -38,9 +38,10 @@ const char* name_of(Call call) {
 }
 
 constexpr Call every_call[] = {
-    Call::init,      Call::step,      Call::update,     Call::update_alone, Call::partial_without, Call::partial_alone, Call::control,
-    Call::predict,   Call::advance,   Call::estimate,   Call::set_state,    Call::set_input,       Call::innovation,    Call::covariance,
-    Call::write_r,   Call::write_x,   Call::write_covariance, Call::write_xi, Call::write_z};
+    Call::init,    Call::step,    Call::update,   Call::update_alone,     Call::partial_without, Call::partial_alone,
+    Call::control, Call::predict, Call::advance,  Call::estimate,         Call::set_state,       Call::set_input,
+    Call::innovation, Call::covariance,
+    Call::write_r, Call::write_x, Call::write_xi, Call::write_covariance, Call::write_z};
 
 std::string number_of(double value, bool is_double) {
   const std::string cast = is_double ? "(double)" : "(float)";
@@ -86,12 +87,14 @@ std::string update_alone_case(const Controller& controller) {
   for (int i = 0; i < controller.size.ny; ++i)
     if (can_update_alone(controller, i))
       out += "            if (turns[k].entry == " + std::to_string(i) + ")\n    " +
-             answered("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name + "(&self, turns[k].number)");
+             answered("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name +
+                      "(&self, turns[k].number)");
   return out;
 }
 
 std::string innovation_case(const Controller& controller) {
-  if (!controller.has.variance) return given_outputs() + "            {name}_innovation(&self, given, found);\n" + found("{NAME}_NY");
+  if (!controller.has.variance)
+    return given_outputs() + "            {name}_innovation(&self, given, found);\n" + found("{NAME}_NY");
   return given_outputs() + "            {name}_innovation(&self, given, found, found + {NAME}_NY);\n" + found("2 * {NAME}_NY");
 }
 
@@ -120,7 +123,8 @@ std::string body_of(const Controller& controller, Call call) {
     case Call::set_state: return hand_over("given", "x_out[row]", "{NAME}_NX") + answered("set_state(&self, given)");
     case Call::set_input: return set_input_case(controller);
     case Call::innovation: return innovation_case(controller);
-    case Call::covariance: return "            {name}_covariance(&self, found);\n" + found(std::to_string(triangle(controller)));
+    case Call::covariance:
+      return "            {name}_covariance(&self, found);\n" + found(std::to_string(triangle(controller)));
     case Call::write_r: return hand_over("self.r", "r_in[row]", "{NAME}_NR");
     case Call::write_x: return hand_over("self.x", "x_out[row]", "{NAME}_NX");
     case Call::write_covariance: return write_covariance_case(controller);
@@ -139,7 +143,8 @@ std::string state_in_hash(const Controller& controller) {
       reals += "        hash = hash_of(hash, self." + field.name + ", " + size + ");\n";
     if (field.kind == controller::Kind::total) counts += "        hash = hash_of_count(hash, self." + field.name + ");\n";
     if (field.kind == controller::Kind::counters)
-      counts += "        for (int i = 0; i < " + size + "; i++)\n            hash = hash_of_count(hash, self." + field.name + "[i]);\n";
+      counts += "        for (int i = 0; i < " + size + "; i++)\n            hash = hash_of_count(hash, self." + field.name +
+                "[i]);\n";
   }
   return reals + counts;
 }
@@ -158,8 +163,8 @@ std::string turns_as_data(const Controller& controller, const Calls& calls) {
   for (const Call call : every_call)
     if (has_call(controller, call)) names += std::string(names.empty() ? "" : ", ") + name_of(call);
   for (const Turn& turn : calls.turns)
-    data += "    {" + std::string(name_of(turn.call)) + ", " + std::to_string(turn.row) + ", " + std::to_string(turn.entry) + ", " +
-            number_of(turn.number, is_double) + "},\n";
+    data += "    {" + std::string(name_of(turn.call)) + ", " + std::to_string(turn.row) + ", " +
+            std::to_string(turn.entry) + ", " + number_of(turn.number, is_double) + "},\n";
   data.erase(data.size() - 2, 1);
   return "\n" + trace::wrap("enum {" + names + "};", 4) +
          "\n\n/* What is called, turn by turn: with that row of the tables, times `number`, or with `number` in place of one entry,\n"
@@ -173,7 +178,8 @@ std::string calls_test(const Controller& controller) {
     if (has_call(controller, call))
       cases += std::string("        case ") + name_of(call) + ":\n" + body_of(controller, call) + "            break;\n";
   const auto& size = controller.size;
-  const int largest = std::max({size.nx, size.ny, size.nu, 1}), results = std::max({largest, 2 * size.ny, triangle(controller)});
+  const int largest = std::max({size.nx, size.ny, size.nu, 1});
+  const int results = std::max({largest, 2 * size.ny, triangle(controller)});
   const Words words = {{"told", told()},
                        {"cases", cases},
                        {"given", std::to_string(largest)},

@@ -48,7 +48,7 @@ class Script {
     Signature before = signature_of(with(std::ldexp(1.0, first)));
     for (int exponent = first; exponent < last && found < most; exponent += step) {
       const double low = std::ldexp(1.0, exponent), high = std::ldexp(1.0, exponent + step);
-      if (!is_finite(with(high)[varied]) || was_reset(before)) return;
+      if (!is_finite(with(high)[varied]) || (was_reset(before) && !is_heard(turns[varied].call))) return;
       if (signature_of(with(high)) == before) continue;
       ++found;
       for (const bool beyond : {false, true}) {
@@ -83,6 +83,10 @@ class Script {
     unsigned out = 0;
     for (std::size_t i = 0; i < told_events.size(); ++i) out |= (events >> static_cast<unsigned>(told_events[i]) & 1u) << i;
     return out;
+  }
+  // Beyond the output that is too much for the state come those that nobody believes.
+  static bool is_heard(Call call) {
+    return call == Call::update || call == Call::update_alone || call == Call::partial_alone;
   }
   static bool was_reset(const Signature& signature) {
     for (const auto& [events, at_limits] : signature)
@@ -138,7 +142,8 @@ class Script {
 
 class PhysicalScript {
  public:
-  PhysicalScript(const Controller& controller, const std::vector<Sample>& samples) : controller_(controller), script_(controller, samples), samples_(samples) {}
+  PhysicalScript(const Controller& controller, const std::vector<Sample>& samples)
+      : controller_(controller), script_(controller, samples), samples_(samples) {}
 
   Calls calls() {
     add(Call::init);
@@ -228,10 +233,25 @@ class PhysicalScript {
       search({whole(Call::set_input), whole(Call::control)}, 0, sign);
       run(1);
     }
+    forget_a_state();
     for (int i = 0; i < controller_.size.nu; ++i) {
       search({one(Call::predict, i, 0)}, 0);
       search({one(Call::set_input, i, 0)}, 0, -1);
       run(1);
+    }
+  }
+
+  // A state of which every input is made is no number: straight-line code leaves out those that no input needs.
+  void forget_a_state() {
+    for (int i = 0; i < controller_.size.nx && controller_.has.regulator; ++i) {
+      bool acts = true;
+      for (const Gains& law : controller_.laws)
+        for (int j = 0; j < controller_.size.nu; ++j) acts = acts && law[0](j, i) != 0;
+      if (!acts) continue;
+      add(Call::write_x, i, nan);
+      add(Call::control, i, nan);
+      add(Call::set_state);
+      return;
     }
   }
 
@@ -292,7 +312,8 @@ class PhysicalScript {
 
 class FormScript {
  public:
-  FormScript(const Controller& controller, const std::vector<Sample>& samples) : controller_(controller), script_(controller, samples) {}
+  FormScript(const Controller& controller, const std::vector<Sample>& samples)
+      : controller_(controller), script_(controller, samples) {}
 
   Calls calls() {
     script_.add(whole(Call::init));
@@ -358,8 +379,8 @@ bool has_call(const Controller& controller, Call call) {
     case Call::partial_without: case Call::partial_alone:
       return filter && !linear && controller.size.ny > 1 && controller.size.ny <= bits_of_long && !controller.has.stages;
     case Call::innovation: return filter && !linear && !controller.has.stages;
-    case Call::covariance: return controller.filter == step::Filter::ud && !linear;
-    case Call::write_covariance: return (controller.filter == step::Filter::ud || controller.filter == step::Filter::plain) && !linear;
+    case Call::covariance: return controller.filter == step::Filter::ud;
+    case Call::write_covariance: return controller.filter == step::Filter::ud || controller.filter == step::Filter::plain;
     case Call::set_input: return !linear && can_set_input(controller);
     case Call::write_r: return !linear && controller.size.nr > 0;
     case Call::write_xi: return !linear && controller.size.nxi > 0;
