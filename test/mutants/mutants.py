@@ -22,6 +22,7 @@ from mutate import Mutant, mutants
 ROOT = Path(__file__).resolve().parents[2]
 CC = shlex.split(os.environ.get("CC", "cc"))
 SLOW = "test_consistency"
+SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]  # who survives without them is asked with them
 SECONDS = 20  # a mutant that takes longer hangs
 
 
@@ -79,17 +80,16 @@ class Header:
         library = sorted((ROOT / "src").glob("*.c")) if style == "compact" else []
         self.objects = [compiled(file, self.options) for file in [unity(build) / "unity.c", *library]]
 
-    def build(self, file: Path) -> Path | None:
-        built = run(*CC, *self.options, "-O0", self.test, *self.objects, "-lm", "-o", "program")
-        return None if built.returncode else Path("program")
+    def passes(self, *options: str) -> bool | None:
+        built = run(*CC, *self.options, *options, self.test, *self.objects, "-lm", "-o", "program")
+        return None if built.returncode else passes(Path("program"))
 
     def code(self, file: Path) -> bytes:
         run(*CC, *self.options, "-O2", "-c", self.test, "-o", "code.o")
         return Path("code.o").read_bytes()
 
     def survives(self, file: Path) -> bool | None:
-        program = self.build(file)
-        return None if program is None else passes(program)
+        return self.passes("-O0") and self.passes("-O1", *SANITIZERS)  # None: no C
 
 
 class Library:
@@ -118,11 +118,14 @@ class Library:
         return Path("code.o").read_bytes()
 
     def survives(self, file: Path) -> bool | None:
-        if run(*CC, *self.options, "-O1", "-c", file, "-o", "mutant.o").returncode:
+        return self.passes(file, "-O1") and self.passes(file, "-O1", *SANITIZERS)  # None: no C
+
+    def passes(self, file: Path, *options: str) -> bool | None:
+        if run(*CC, *self.options, *options, "-c", file, "-o", "mutant.o").returncode:
             return None
         others = [built for name, built in self.objects.items() if name != file]
         for test in self.tests_for(file):
-            need(*CC, test, "mutant.o", *others, *self.helpers, "-lm", "-o", "program")
+            need(*CC, *options, test, "mutant.o", *others, *self.helpers, "-lm", "-o", "program")
             if not passes(Path("program")):
                 return False
         return True

@@ -321,6 +321,18 @@ static void test_advance_begins_anew_at_the_bound_of_the_integral(void)
     expect_begun_anew(&s);
 }
 
+/* {0.5, −2} + H (u − v) + T (r − y) with u − v = {4, −2} */
+static void test_advance_takes_its_own_row_of_H_for_each_integral(void)
+{
+    static const lqg_real H_two[] = {0.25f, -0.5f, 2, 1};
+    const lqg_servo_t servo = {.nx = NX, .nu = NU, .nr = NR, .nxi = 2, .T = 0.5f, .H = H_two};
+    lqg_real xi[] = {0.5f, -2}, error[] = {0.25f, 8}, demand[] = {-1, 3};
+    const lqg_real u[NU] = {3, 1};
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&servo, xi, error, demand, NULL, u));
+    expect(xi, 2.625f, 8);
+    expect(error, 0, 0);
+}
+
 /* ---- set_input -------------------------------------------------------------------------------------------------- */
 
 /* H for a law that one ξ can lead to any u of one input: −Kξ⁺. */
@@ -414,6 +426,7 @@ int main(void)
     RUN_TEST(test_advance_twice_counts_neither_error_nor_correction_again);
     RUN_TEST(test_advance_without_a_last_input_to_keep);
     RUN_TEST(test_advance_without_integral_keeps_the_input_alone);
+    RUN_TEST(test_advance_takes_its_own_row_of_H_for_each_integral);
     RUN_TEST(test_advance_begins_anew_when_an_input_is_not_finite);
     RUN_TEST(test_advance_begins_anew_at_the_bound_of_the_integral);
     RUN_TEST(test_after_set_input_the_law_goes_on_at_that_input);

@@ -191,8 +191,10 @@ class PhysicalScript {
       add(Call::partial_alone, i, number);
       add(Call::update_alone, i, number);
     }
+    add(Call::step, i, nan);
     add(Call::predict);
     add(Call::partial_without, i, nan);
+    add(Call::partial_without, controller_.size.ny, 0);  // all are there
     add(Call::control);
     add(Call::predict);
     add(Call::partial_alone, i, honest);
@@ -366,7 +368,7 @@ std::vector<double> handed_over(const Turn& turn, std::vector<double> row, const
 }
 
 bool has_call(const Controller& controller, Call call) {
-  constexpr int bits_of_long = 32;
+  constexpr int bits_of_long = 32;  // at least, and ~(1ul << ny) is all outputs
   const bool filter = controller.has.filter, linear = controller.linear.has_value();
   switch (call) {
     case Call::init: return controller.keeps.any;
@@ -377,7 +379,7 @@ bool has_call(const Controller& controller, Call call) {
     case Call::update: case Call::predict: case Call::write_x: return filter && !linear;
     case Call::update_alone: return filter && !linear;
     case Call::partial_without: case Call::partial_alone:
-      return filter && !linear && controller.size.ny > 1 && controller.size.ny <= bits_of_long && !controller.has.stages;
+      return filter && !linear && controller.size.ny > 1 && controller.size.ny < bits_of_long && !controller.has.stages;
     case Call::innovation: return filter && !linear && !controller.has.stages;
     case Call::covariance: return controller.filter == step::Filter::ud;
     case Call::write_covariance: return controller.filter == step::Filter::ud || controller.filter == step::Filter::plain;
