@@ -88,6 +88,7 @@ static void test_every_status_has_its_own_sentence_and_the_gravest_wins(void)
                                  LQG_REFERENCE_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET,
                                  LQG_STATE_RESET};
     lqg_status all = LQG_OK;
+    TEST_ASSERT_EQUAL_STRING("all is well", lqg_status_text(LQG_OK));
     for (unsigned i = 0; i < sizeof rising / sizeof *rising; i++) {
         all |= rising[i];
         TEST_ASSERT_EQUAL_STRING(lqg_status_text(rising[i]), lqg_status_text(all));
