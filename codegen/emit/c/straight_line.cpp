@@ -48,12 +48,13 @@ std::string status(const Controller& controller, const Printed& printed) {
     return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery + ";\n    return " +
            raised + ";\n";
   const std::string faults = function.faults.empty() ? "" : " || status & " + function.faults;
+  const std::string unless_sound = "    if (!(" + printer.test(function.finite, function.stores) + ")" + faults + ")";
   return fill(R"({status}
 {unless_sound}
         return {name}_{recover}(self, status);
     return status;
 )", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
-     {"unless_sound", trace::wrap("    if (!(" + printer.test(function.finite, function.stores) + ")" + faults + ")", 8)},
+     {"unless_sound", controller.target.is_prover ? unless_sound : trace::wrap(unless_sound, 8)},
      {"recover", function.checks_covariance ? "recover" : "reset"},
      {"name", controller.problem.name}});
 }
