@@ -21,7 +21,7 @@ OPERATORS = [
     (" == ", [" != "]), (" != ", [" == "]), (" && ", [" || "]), (" || ", [" && "]), (" & ", [" | "]), (" | ", [" & "]),
     (" |= ", [" = "]), (" += ", [" -= ", " = "]), (" -= ", [" += "]),
 ]
-STATUS = re.compile(r"\bLQG_(?!OK\b)(?:OUTPUT|INNOVATION|INPUT|STATE|REFERENCE)_\w+|\bLQG_OK\b")
+STATUS = re.compile(r"\bLQG_(?!OK\b)(?:OUTPUT|INNOVATION|INPUT|STATE|COVARIANCE|REFERENCE)_\w+|\bLQG_OK\b")
 INTEGER = re.compile(r"(?<![\w.])(\d+)(ul|u)?(?![\w.])")
 REAL = re.compile(r"(?<![\w.])(\d+\.\d+(?:e[+-]?\d+)?)(f?)(?![\w.])")
 NEGATION = re.compile(r"(?<=[ (])[!~](?=[\w(])|(?<=[(=,] )-(?=[\w(])|(?<=return )-(?=[\w(])")
