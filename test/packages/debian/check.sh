@@ -43,7 +43,7 @@ mkdir -p "$folder/packed" "$folder/built"
 "$usr/bin/lqgen" "$design" -o "$folder/packed" --quiet
 "$lqgen" "$design" -o "$folder/built" --quiet
 diff -r "$folder/packed" "$folder/built"
-options=$("$usr/bin/lqgen" --help | grep -oE -- '(^|[ ,])--?[a-z]+' | tr -d ' ,' | sort -u)
+options=$("$usr/bin/lqgen" --help | grep -oE -- '(^|[ ,])--?[a-z]+(-[a-z]+)*' | tr -d ' ,' | sort -u)
 [ "$(echo "$options" | wc -w)" -ge 7 ] || fail "--help: expected at least 7 options, found $options"
 manual=$(gunzip --stdout "$usr/share/man/man1/lqgen.1.gz" | sed 's/\\-/-/g')
 for option in $options; do
