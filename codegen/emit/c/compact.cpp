@@ -157,7 +157,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
                     "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   bodies.resets = needs_reset(controller);
   if (controller.keeps.any) bodies.init = init_body(controller);
-  if (carries_covariance(controller)) bodies.recover = write_body(templates::compact_recover, controller, {});
+  if (carries_covariance(controller)) bodies.recover = write_body(templates::compact_recover, controller, {}, {{"remembers", remembers(controller)}});
   if (controller.has.filter) {
     bodies.constants = kalman_constants(controller);
     bodies.update = write_body(templates::compact_update, controller, filter_words(controller));
