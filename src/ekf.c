@@ -61,7 +61,7 @@ static lqg_status update_output(const lqg_ekf_t *ekf, unsigned i, lqg_real delta
     /* ν = y_i − ŷ_i − c δ */
     const lqg_real difference = subtract_row_product(innovation, c, 0, nx, delta);
     lqg_status left_out = is_finite(add_all(difference, c, nx)) ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
-    if (watch) {
+    if (left_out || !lqg_watch_expects(watch, i, difference, ekf->V[i])) { /* s is V at least */
         lqg_factors_project(U, nx, c, !left_out, f);
         left_out |= lqg_watch_output(watch, i, !left_out, left_out ? 0 : difference,
                                      lqg_factors_variance(d, nx, f, ekf->V[i]), 0);
@@ -91,6 +91,8 @@ lqg_status lqg_ekf_update(const lqg_ekf_t *ekf, lqg_real x[], lqg_real U[], lqg_
     for (unsigned i = 0; i < ny; i++)
         if (lqg_watch_uses(watch, i))
             status |= update_output(ekf, i, delta, U, d, innovation[i], C + i * nx, watch, f);
+        else
+            lqg_watch_silence(watch, i, 0);
 
     for (unsigned j = 0; j < nx; j++)
         x[j] += delta[j];

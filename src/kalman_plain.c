@@ -72,7 +72,9 @@ static lqg_status update_output(const lqg_kalman_plain_t *kalman, unsigned i, lq
     const lqg_status left_out = !believable ? LQG_OUTPUT_NOT_FINITE
                                 : !(s > 0)  ? LQG_INNOVATION_NOT_POSITIVE
                                             : LQG_OK;
-    const lqg_status watched = lqg_watch_output(watch, i, !left_out, innovation, s, 0);
+    const lqg_status watched = !left_out && lqg_watch_expects(watch, i, innovation, s)
+                                   ? LQG_OK
+                                   : lqg_watch_output(watch, i, !left_out, innovation, s, 0);
     const int usable = !left_out && !watched;
     const lqg_real nu = usable ? innovation : 0;
     const lqg_real inverse = usable ? 1 / s : 0;
@@ -99,16 +101,22 @@ lqg_status lqg_kalman_plain_update_watched(const lqg_kalman_plain_t *kalman, lqg
                                            const lqg_watch_t *watch, lqg_real work[])
 {
     const lqg_plant_t *plant = &kalman->plant;
-    const lqg_real *outputs = lqg_plant_decorrelate(plant, kalman->E, y, watch, work + plant->nx);
+    lqg_real *outputs = work + plant->nx;
     lqg_status status = LQG_OK;
 
     for (unsigned i = 0; i < plant->ny; i++) {
         const int used = lqg_watch_uses(watch, i);
+        outputs[i] = lqg_plant_decorrelate(plant, kalman->E, i, y, outputs);
         const lqg_status left_out =
             used ? update_output(kalman, i, x, P, u_applied, outputs[i], watch, work) : LQG_OK;
+        const int heard = used && !left_out;
+        if (!used)
+            lqg_watch_silence(watch, i, 0);
         status |= left_out;
         if (kalman->M)
-            innovation[i] = used && !left_out ? 1 : 0;
+            innovation[i] = heard ? 1 : 0;
+        if (!heard) /* nor by way of another output */
+            outputs[i] = (lqg_real)NAN;
     }
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);

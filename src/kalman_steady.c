@@ -32,8 +32,11 @@ static lqg_real innovate(const lqg_kalman_steady_t *kalman, unsigned i, const lq
     const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
     const int believable = is_believable(measured, kalman->innovation_limit, i);
     const lqg_real nu = believable ? measured : 0;
-    const lqg_status left_out = (believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) |
-                                (s ? lqg_watch_output(watch, i, believable, nu, s[i], 1) : LQG_OK);
+    const lqg_real variance = s ? s[i] : 0;
+    lqg_status left_out = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+
+    if (!believable || !lqg_watch_expects(watch, i, nu, variance))
+        left_out |= lqg_watch_output(watch, i, believable, nu, variance, 1);
 
     *status |= left_out;
     return left_out ? 0 : nu;
@@ -58,7 +61,7 @@ lqg_status lqg_kalman_steady_update_watched(const lqg_kalman_steady_t *kalman, l
         if (lqg_watch_uses(watch, i))
             nu[i] = innovate(kalman, i, x, u_applied, y[i], s, watch, &status);
         else
-            lqg_watch_silence(watch, i);
+            lqg_watch_silence(watch, i, 1);
     }
 
     /* x̂ ← x̂ + L innovation */

@@ -53,7 +53,7 @@ static lqg_status update_output(const lqg_kalman_ud_t *kalman, unsigned i, lqg_r
     const int believable = is_believable(measured, kalman->innovation_limit, i);
     const lqg_real innovation = believable ? measured : 0;
     lqg_status left_out = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
-    if (watch) {
+    if (!believable || !lqg_watch_expects(watch, i, innovation, kalman->V[i])) { /* s is V at least */
         lqg_factors_project(U, nx, c, 1, f);
         left_out |= lqg_watch_output(watch, i, believable, innovation, lqg_factors_variance(d, nx, f, kalman->V[i]), 0);
     }
@@ -77,16 +77,22 @@ lqg_status lqg_kalman_ud_update_watched(const lqg_kalman_ud_t *kalman, lqg_real 
                                         const lqg_real y[], const lqg_watch_t *watch, lqg_real work[])
 {
     const lqg_plant_t *plant = &kalman->plant;
-    const lqg_real *outputs = lqg_plant_decorrelate(plant, kalman->E, y, watch, work + plant->nx);
+    lqg_real *outputs = work + plant->nx;
     lqg_status status = LQG_OK;
 
     for (unsigned i = 0; i < plant->ny; i++) {
         const int used = lqg_watch_uses(watch, i);
+        outputs[i] = lqg_plant_decorrelate(plant, kalman->E, i, y, outputs);
         const lqg_status left_out =
             used ? update_output(kalman, i, x, U, d, u_applied, outputs[i], watch, work) : LQG_OK;
+        const int heard = used && !left_out;
+        if (!used)
+            lqg_watch_silence(watch, i, 0);
         status |= left_out;
         if (kalman->M)
-            innovation[i] = used && !left_out ? 1 : 0;
+            innovation[i] = heard ? 1 : 0;
+        if (!heard) /* nor by way of another output */
+            outputs[i] = (lqg_real)NAN;
     }
     if (kalman->M)
         lqg_plant_keep_residuals(plant, x, u_applied, outputs, innovation);

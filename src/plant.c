@@ -21,21 +21,15 @@ lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_re
     return plant->D ? subtract_row_product(without_x, plant->D, i, plant->nu, u_applied) : without_x;
 }
 
-const lqg_real *lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], const lqg_real y[],
-                                      const lqg_watch_t *watch, lqg_real work[])
+lqg_real lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], unsigned i, const lqg_real y[],
+                               const lqg_real before[])
 {
-    const unsigned ny = plant->ny;
-    if (!E)
-        return y;
+    lqg_real sum = y[i];
 
-    for (unsigned i = 0; i < ny; i++) {
-        work[i] = y[i];
-        for (unsigned j = 0; j < i; j++)
-            if (E[i * ny + j] != 0)
-                work[i] =
-                    multiply_add(E[i * ny + j], lqg_watch_uses(watch, j) ? y[j] : (lqg_real)NAN, work[i]);
-    }
-    return work;
+    for (unsigned j = 0; E && j < i; j++)
+        if (E[i * plant->ny + j] != 0)
+            sum = multiply_add(E[i * plant->ny + j], is_finite(before[j]) ? y[j] : (lqg_real)NAN, sum);
+    return sum;
 }
 
 lqg_real lqg_plant_decorrelate_alone(const lqg_plant_t *plant, const lqg_real E[], unsigned i, lqg_real y_i)
@@ -77,14 +71,14 @@ int lqg_watch_uses(const lqg_watch_t *watch, unsigned i)
     return !watch || !watch->used || watch->used[i];
 }
 
-/* w of output i, times the factor of this sample, within its bounds whatever it was. */
-static void move_gate(const lqg_watch_t *watch, unsigned i, lqg_real factor)
+/* w, from 1 to 2⁸⁰ whatever it was: a NaN is 1. */
+static lqg_real kept_width(lqg_real w)
 {
     LQG_STRICT_BODY
     const lqg_real widest = (lqg_real)1208925819614629174706176.0f; /* 2⁸⁰ */
-    const lqg_real next = factor * watch->widening[i], least = 1 < next ? next : 1;
+    const lqg_real least = 1 < w ? w : 1;
 
-    watch->widening[i] = least < widest ? least : widest;
+    return least < widest ? least : widest;
 }
 
 lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, int believable, lqg_real innovation, lqg_real s,
@@ -95,23 +89,28 @@ lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, int believable
         return LQG_OK;
 
     /* |ν| > gate √(s w) */
-    const lqg_real w = watch->widening ? watch->widening[i] : 1;
-    const int gated = believable && watch->gate > 0 && innovation * innovation > watch->gate * watch->gate * s * w;
+    const lqg_real w = watch->widening ? kept_width(watch->widening[i]) : 1;
+    const int gated = believable && watch->gate > 0 && watch->gate * watch->gate * s * w < innovation * innovation;
     if (watch->nu)
         watch->nu[i] = innovation;
     if (watch->s)
         watch->s[i] = s;
     if (watch->gated)
         watch->gated[i] += gated ? 1 : 0;
+    if (watch->heard)
+        watch->heard[i] = believable && !gated;
     if (watch->widening)
-        move_gate(watch, i, believable && !gated ? watch->narrow[i] : gated || opens ? watch->widen[i] : 1);
+        watch->widening[i] =
+            kept_width((believable && !gated ? watch->narrow[i] : gated || opens ? watch->widen[i] : 1) * w);
     return gated ? LQG_OUTPUT_GATED : LQG_OK;
 }
 
-void lqg_watch_silence(const lqg_watch_t *watch, unsigned i)
+void lqg_watch_silence(const lqg_watch_t *watch, unsigned i, int opens)
 {
-    if (watch->widening)
-        move_gate(watch, i, watch->widen[i]);
+    if (watch->heard)
+        watch->heard[i] = 0;
+    if (watch->widening && opens)
+        watch->widening[i] = kept_width(watch->widen[i] * kept_width(watch->widening[i]));
 }
 
 LQG_STRICT_END

@@ -9,6 +9,7 @@
 #   test/campaign.sh <build> fuzz [seconds]      the library's and the design files' fuzzer: default 3600 each
 #   test/campaign.sh <build> options [compiler]  test/options/options.sh: options of gcc and clang-19 that may change arithmetic,
 #                                                alone and two by two, at four levels
+#   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design: default 10000000 honest samples
 #   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
 #                                                many of each part; test/mutants
 #
@@ -32,6 +33,7 @@ test/campaign.sh <build> <campaign>             on two processors
   random [designs]  default 1000                10 minutes
   fuzz [seconds]    default 3600, of each        1 hour
   options [compiler] default both                6 hours
+  spikes [samples]  default 10000000             1 hour
   mutants [count]   default all of each part     2 hours
 END
 }
@@ -101,6 +103,15 @@ end_all() {
 }
 
 # ---- the campaigns -----------------------------------------------------------------------------------------------
+
+spikes() {
+  local samples design
+  samples=$(number 10000000 "$@")
+  count=$(find "$lqg_root/codegen/designs" -name '*.toml' | wc -l)
+  for design in "$lqg_root"/codegen/designs/*.toml; do
+    start "$(basename "$design" .toml)" "$build/test/simulate/spikes" "$design" "$samples"
+  done
+}
 
 soak() {
   local samples file programs=()
@@ -221,7 +232,7 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz | options | mutants) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
+    soak | random | fuzz | options | spikes | mutants) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
     bits) ;;
     *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;
   esac
@@ -233,6 +244,7 @@ main() {
   trap 'exit 130' INT TERM
   case $campaign in
     soak) soak "$@" ;;
+    spikes) spikes "$@" ;;
     bits) bits "$@" ;;
     random) random "$@" ;;
     fuzz) fuzz "$@" ;;

@@ -46,7 +46,8 @@ Terms terms_of(const Controller& controller) {
   has.filter = problem.estimator.has_value();
   has.regulator = problem.regulator.has_value();
   has.stages = has.filter && !solution.stages.empty();
-  has.gate = has.filter && problem.estimator->gate > 0;
+  has.gate = controller.gate.sigma > 0;
+  has.range = has.filter && problem.estimator->output_min.size() > 0;
   has.variance = solution.online || (solution.estimator && solution.estimator->S.size() > 0);
   has.input_change = has.regulator && problem.regulator->input_rate.size() > 0;
   has.rate_limit = has.regulator && problem.limits && problem.limits->u_rate.size() > 0;
@@ -75,6 +76,11 @@ Eigen::VectorXd start_of(const Controller& controller) {
   return x0;
 }
 
+// Of the innovations of each sample, those of tables of gains included.
+bool has_variances(const Controller& controller) {
+  return controller.has.variance && (controller.solution.online || !controller.has.stages);
+}
+
 // What follows from problem and solution alone.
 Controller described(design::Problem problem, design::Solution solution, Source source) {
   Controller controller;
@@ -87,7 +93,12 @@ Controller described(design::Problem problem, design::Solution solution, Source 
   controller.problem = std::move(problem);
   controller.solution = std::move(solution);
   controller.source = std::move(source);
+  if (controller.problem.estimator) controller.gate.sigma = sigma_of(*controller.problem.estimator);
   controller.has = terms_of(controller);
+  if (controller.has.gate && is_default(*controller.problem.estimator) && !has_variances(controller)) {
+    controller.gate = {};
+    controller.has.gate = false;
+  }
   controller.stage_starts = stage_starts_of(controller);
   controller.has.feedthrough = has_feedthrough(controller);
   controller.x0 = start_of(controller);
@@ -114,17 +125,18 @@ Memory memory_of(const Controller& controller) {
 
 // What the engine can design and the target cannot have.
 void check_emittable(const Controller& controller, design::Findings& findings) {
-  const auto refuse = [&](const char* key, const char* why) {
+  const auto refuse = [&](const std::string& key, const std::string& why) {
     findings.push_back({design::Severity::error, key, why});
   };
   if (controller.has.stages && controller.problem.code.style == design::Style::unrolled)
     refuse("code.style", "expected \"compact\" or \"auto\": straight-line code is of one plant, the stages are of several");
   if (!controller.has.filter && controller.size.nxi && !controller.solution.stages.empty())
     refuse("lqr.integral", "expected a [kalman]: without one the outputs are made of the states, by one C for all stages");
-  if (controller.has.gate && controller.has.stages && !controller.solution.online)
-    refuse("kalman.gate", "expected 0, or gain = \"online\": tables of gains for several stages come without variances");
-  if (controller.has.gate && !controller.has.variance)
-    refuse("kalman.gate", "expected 0: there is no variance of the innovations to compare with");
+  if (!controller.has.gate || has_variances(controller)) return;
+  const std::string key = key_of_sigma(*controller.problem.estimator), none = key == "kalman.gate" ? "0" : "inf";
+  refuse(key, controller.has.variance
+                  ? "expected " + none + ", or gain = \"online\": tables of gains for several stages come without variances"
+                  : "expected " + none + ": there is no variance of the innovations to compare with");
 }
 
 // A start that the bounds, which cannot be wider than the target's squares, would not let be.
@@ -154,6 +166,10 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
   if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
+  if (controller.has.gate && is_default(*controller.problem.estimator) && !fit_variances(controller)) {
+    controller.has.gate = false;
+    controller.filters = filter_gains(controller);
+  }
   check_numbers(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   controller.last_sample = std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
@@ -167,6 +183,8 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
 
 Controller with_form(Controller controller, const design::LinearForm& form) {
   controller.linear = form;
+  controller.gate = {};
+  controller.has.gate = false;
   controller.size.nz = static_cast<int>(form.A.rows());
   controller.bounds = {};
   return controller;

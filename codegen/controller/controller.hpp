@@ -41,6 +41,7 @@ struct Terms {
   bool filter = false, regulator = false;
   bool feedthrough = false;  // D u needs the last input in every update
   bool gate = false;
+  bool range = false;  // of what a sensor can say
   bool variance = false;     // of the innovations
   bool stages = false;       // the filter is told of changes of the plant
   bool input_change = false; // the law gives u[k] − u[k−1]

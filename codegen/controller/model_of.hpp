@@ -130,8 +130,12 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
     for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
     model.x_bound = controller.bounds.x;
     model.nu_limit = controller.bounds.innovation.template cast<S>();
+    if (const design::Estimator& estimator = *controller.problem.estimator; estimator.output_min.size()) {
+      model.y_min = convert_limits<S>(estimator.output_min, +1, controller.target.is_double);
+      model.y_max = convert_limits<S>(estimator.output_max, -1, controller.target.is_double);
+    }
     if (controller.has.gate) {
-      model.gate = round(design::Real(controller.problem.estimator->gate));
+      model.gate = round(design::Real(controller.gate.sigma));
       const auto in_target = [&](const Eigen::VectorXd& values) {
         step::Vector<S> out(values.size());
         for (Eigen::Index i = 0; i < values.size(); ++i) out(i) = round(design::Real(values(i)));

@@ -103,7 +103,7 @@ void check_limits(const Controller& controller, NumberCheck& check) {
 }
 
 void check_filter(const Controller& controller, NumberCheck& check) {
-  if (controller.has.gate) check.keep_square("kalman.gate", controller.problem.estimator->gate);
+  if (controller.has.gate) check.keep_square(key_of_sigma(*controller.problem.estimator), controller.gate.sigma);
   check.note_start(controller.x0);
   const bool may_vanish = !controller.has.gate;  // a gate would leave out all
   const char *noise = "kalman.measurement_noise", *variance = "the variance of the innovations";
@@ -114,6 +114,21 @@ void check_filter(const Controller& controller, NumberCheck& check) {
 }
 
 }  // namespace
+
+bool fit_variances(const Controller& controller) {
+  const double square = controller.gate.sigma * controller.gate.sigma;
+  const auto fits = [&](const Real& variance) {
+    for (const Real& each : {variance, Real(square * variance)}) {
+      const double rounded = rounded_to_target(each, controller.target.is_double);
+      if (!std::isfinite(rounded) || rounded == 0) return false;
+    }
+    return true;
+  };
+  for (const Gains& row : controller.filters)
+    for (Eigen::Index i = 0; row.size() > 2 && i < row[2].size(); ++i)
+      if (!fits(row[2].data()[i])) return false;
+  return true;
+}
 
 void check_numbers(const Controller& controller, design::Findings& findings) {
   NumberCheck check(controller.target.is_double, findings);

@@ -186,7 +186,8 @@ std::string no_linear_form(const Problem& problem, const Solution& solution) {
   if (problem.limits) return "with [limits] x̂ has to hear of the input that was applied";
   if (!problem.stages.empty()) return "its numbers change from stage to stage";
   if (estimator.gain != Gain::steady) return "the filter's gain is not constant";
-  if (estimator.gate > 0) return "the gate compares with x̂";
+  if (estimator.gate > 0 || (estimator.spike && std::isfinite(*estimator.spike))) return "the gate compares with x̂";
+  if (estimator.output_min.size()) return "the range of each output is asked for in every sample";
   if (regulator.horizon > 0) return "the regulator's gain is not constant";
   if (!reference_outputs(problem).empty()) return "the law follows a reference";
   if (regulator.input_rate.size() > 0) return "the law goes on from the input that was applied";

@@ -94,6 +94,8 @@ struct Estimator {
   Eigen::VectorXd x0;
   Eigen::MatrixXd P0;
   double gate = 0;                  // σ; 0: none
+  Eigen::VectorXd output_min, output_max;  // what a sensor can say at all, or empty; infinite: anything
+  std::optional<double> spike;      // σ, or infinite for none; not given: that of the default where there can be one
   Eigen::MatrixXd structure;        // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
   std::optional<WantedPoles> poles; // [observer]: L has these poles; no noise is there then
 };

@@ -135,6 +135,16 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
   result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");
   result.gate = values.number("kalman.gate", 0);
+  if (values.has("kalman.output_min") || values.has("kalman.output_max")) {
+    const auto bounds = [&](const char* key, double none) {
+      const Eigen::VectorXd given = vector_or_empty(values, key);
+      return given.size() ? given : Eigen::VectorXd(Eigen::VectorXd::Constant(plant.C.rows(), none));
+    };
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    result.output_min = bounds("kalman.output_min", -infinity);
+    result.output_max = bounds("kalman.output_max", infinity);
+  }
+  if (values.has("kalman.spike")) result.spike = values.number("kalman.spike", 0);
   result.structure = empty_or(values, "kalman.structure");
   result.form = says("kalman.form", "predictor") ? design::Form::predictor : design::Form::filter;
   result.covariance = says("kalman.covariance", "plain") ? design::Covariance::plain : design::Covariance::ud;

@@ -234,26 +234,32 @@ void check_definiteness(Values& values, Report& report) {
   }
 }
 
-// u_min < u_max in every entry, with −∞ and +∞ for a list that is absent; u_rate > 0.
+// min < max in every entry, with −∞ and +∞ for a list that is absent.
+void check_range(const Values& values, const std::string& table, const std::string& low, const std::string& high,
+                 const std::string& signal, Report& report) {
+  const Eigen::MatrixXd* lower = values.matrix(table + low);
+  const Eigen::MatrixXd* upper = values.matrix(table + high);
+  const long count = lower != nullptr ? lower->rows() : upper != nullptr ? upper->rows() : 0;
+  if (lower != nullptr && upper != nullptr && lower->rows() != upper->rows()) return;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (long i = 0; i < count; ++i) {
+    const double least = lower != nullptr ? (*lower)(i, 0) : -infinity;
+    const double most = upper != nullptr ? (*upper)(i, 0) : infinity;
+    if (least < most) continue;
+    report.error(table + (upper != nullptr ? high : low), "expected " + low + " < " + high + ", found " + shown(least) + " and " +
+                                                              shown(most) + " for " + signal + " " + std::to_string(i));
+  }
+}
+
+// u_rate > 0, and what is between two limits is something.
 void check_limits(const Values& values, Report& report) {
   if (const Eigen::MatrixXd* rate = values.matrix("limits.u_rate"))
     for (int i = 0; i < rate->rows(); ++i)
       if (!((*rate)(i, 0) > 0))
         report.error("limits.u_rate", "expected numbers > 0, found " + shown((*rate)(i, 0)) + " for input " +
                                           std::to_string(i));
-  const Eigen::MatrixXd* lower = values.matrix("limits.u_min");
-  const Eigen::MatrixXd* upper = values.matrix("limits.u_max");
-  const long count = lower != nullptr ? lower->rows() : upper != nullptr ? upper->rows() : 0;
-  if (lower != nullptr && upper != nullptr && lower->rows() != upper->rows()) return;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (long i = 0; i < count; ++i) {
-    const double u_min = lower != nullptr ? (*lower)(i, 0) : -infinity;
-    const double u_max = upper != nullptr ? (*upper)(i, 0) : infinity;
-    if (u_min < u_max) continue;
-    const std::string key = upper != nullptr ? "limits.u_max" : "limits.u_min";
-    report.error(key, "expected u_min < u_max, found " + shown(u_min) + " and " + shown(u_max) +
-                          " for input " + std::to_string(i));
-  }
+  check_range(values, "limits.", "u_min", "u_max", "input", report);
+  check_range(values, "kalman.", "output_min", "output_max", "output", report);
 }
 
 }  // namespace

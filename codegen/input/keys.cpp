@@ -70,6 +70,9 @@ const std::vector<KeyRule> rules = {
     {"kalman.horizon", Type::steps},
     {"kalman.structure", Type::mask, nx, ny},
     {"kalman.gate", Type::not_negative},
+    {"kalman.spike", Type::threshold},
+    {"kalman.output_min", Type::bounds, ny},
+    {"kalman.output_max", Type::bounds, ny},
 
     {"observer", Type::table},
     {"observer.poles", Type::poles},

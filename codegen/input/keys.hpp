@@ -14,6 +14,7 @@ enum class Type {
   word,        // one of `words`
   positive,    // a number > 0
   not_negative,
+  threshold,   // a number > 0, or inf
   whole,       // a whole number ≥ 1
   steps,       // a number of samples that have gains of their own, 0 to most_steps
   step,        // the number of such a sample, ≥ 1

@@ -116,6 +116,7 @@ class ValueReader {
       case Type::word: read_word(rule, node); break;
       case Type::positive: read_number(rule, node, "a number > 0", [](double x) { return x > 0; }); break;
       case Type::not_negative: read_number(rule, node, "a number ≥ 0", [](double x) { return x >= 0; }); break;
+      case Type::threshold: read_threshold(rule, node); break;
       case Type::whole: read_whole(rule, node, 1, std::numeric_limits<int>::max()); break;
       case Type::steps: read_whole(rule, node, 0, design::most_steps); break;
       case Type::step: read_whole(rule, node, 1, design::most_steps); break;
@@ -171,6 +172,13 @@ class ValueReader {
   void read_number(const KeyRule& rule, const Node& node, const char* wanted, bool (*is_good)(double)) {
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
     if (!is_good(node.number) || std::isinf(node.number)) return expected(rule, wanted, shown(node.number));
+    values_.numbers[rule.path] = node.number;
+  }
+
+  void read_threshold(const KeyRule& rule, const Node& node) {
+    const char* const wanted = "a number > 0, or inf";
+    if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
+    if (!(node.number > 0)) return expected(rule, wanted, shown(node.number));
     values_.numbers[rule.path] = node.number;
   }
 

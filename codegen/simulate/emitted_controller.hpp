@@ -61,7 +61,7 @@ class EmittedController {
     for (Eigen::Index i = 0; i < there.size(); ++i)
       if (!is_used(i)) there(i) = S(std::numeric_limits<double>::infinity());
     step::Listener listener;
-    const auto lost = step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), listener);
+    const auto lost = step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), there, listener);
     const unsigned not_finite = 1u << static_cast<unsigned>(step::Event::output_not_finite);
     const unsigned events = update(there) & ~not_finite;
     for (Eigen::Index i = 0; i < there.size(); ++i)

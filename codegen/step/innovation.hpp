@@ -20,7 +20,11 @@ Vector<S> projection(const Model<S>& model, const State<S>& state, int i) {
 template <class S, class Listener>
 S innovation_variance(const Model<S>& model, const State<S>& state, int i, Listener& listener) {
   if (model.filter == Filter::steady) return model.variance(i);
-  if (model.filter == Filter::ud) return variance_ud(model, state, projection(model, state, i), i, listener);
+  if (model.filter == Filter::ud) {
+    const S variance = variance_ud(model, state, projection(model, state, i), i);
+    listener.name(variance, "S");
+    return variance;
+  }
   S variance = model.V(i);
   for (int j = 0; j < model.nx; ++j) {
     S sum = S(0);

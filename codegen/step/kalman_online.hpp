@@ -30,9 +30,16 @@ auto has_sound_state(const Model<S>& model, const State<S>& state, Listener& lis
 // One output after the other. The condition says that x̂ is within its bounds, and that P can be a covariance.
 template <class S, class Listener>
 auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
-  const Vector<S> y = decorrelate(model, measured, listener);
-  std::vector<decltype(is_finite(y(0)))> usable;
-  for (int i = 0; i < model.ny; ++i) usable.push_back(update_online_output(model, state, S(y(i)), i, listener));
+  Vector<S> heard = measured, y = measured;
+  std::vector<decltype(is_less(S(), S()))> usable;
+  for (int i = 0; i < model.ny; ++i) {
+    listener.section("y ← E y, of uncorrelated noise", i);
+    y(i) = decorrelate(model, heard, i, listener);
+    usable.push_back(update_online_output(model, state, S(y(i)), i, listener));
+    // What is left out must not come in by way of another output.
+    if (is_mixed_in(model, i)) heard(i) = select(usable.back(), S(heard(i)), not_a_number(S(heard(i))));
+  }
+  observe(model, state, measured, usable, listener);
   keep_residual(model, state, y, usable, listener);
   return has_sound_state(model, state, listener);
 }
@@ -41,6 +48,7 @@ auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& meas
 template <class S, class Listener>
 auto update_online_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   auto usable = update_online_output(model, state, y, i, listener);
+  observe_alone(model, state, y, usable, i, listener);
   keep_residual_alone(model, state, y, usable, i, listener);
   return has_sound_state(model, state, listener);
 }

@@ -25,15 +25,7 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
                                   : "innovation = y − C x̂; a gain of 0 leaves the output out", i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
-  auto believable = is_believable(model.nu_limit, i, nu);
-  listener.name(believable, "believable");
-  auto usable = listener.accept(both(believable, is_less(S(0), variance)), believable, Event::innovation_not_positive,
-                                Event::output_not_finite);
-  if (!is_zero(model.gate)) {
-    const S likely = select(usable, nu, S(0));
-    listener.name(likely, "finite_innovation");
-    usable = pass_gate(model, state, likely, variance, usable, i, listener);
-  }
+  auto usable = weigh(model, state, nu, variance, [&] { return variance; }, i, listener);
   S reciprocal = select(usable, S(1) / variance, S(0));
   listener.name(reciprocal, "reciprocal");
   nu = select(usable, nu, S(0));

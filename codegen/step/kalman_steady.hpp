@@ -5,21 +5,23 @@
 
 namespace lqg::step {
 
-// The innovation of output i, 0 where it is beyond its limit or the gate: it counts as one that came as expected.
+// The innovation of output i, 0 where the output is not used: it counts as one that came as expected.
+template <class S>
+struct Innovation {
+  S value;
+  decltype(is_less(S(), S())) is_used;
+};
+
 template <class S, class Listener>
-S innovate(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  const std::string otherwise = is_zero(model.gate) ? ", 0 if it is not believable" : ", 0 if it is not believable or beyond the gate";
-  listener.section((model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + otherwise, i);
+Innovation<S> innovate(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
+  listener.section(std::string(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + ", 0 if it is not used", i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
-  auto usable = listener.accept(is_believable(model.nu_limit, i, nu), Event::output_not_finite);
-  nu = select(usable, nu, S(0));
+  const S variance = is_zero(model.gate) ? S(0) : S(model.variance(i));
+  auto used = weigh(model, state, nu, variance, [&] { return variance; }, i, listener);
+  nu = select(used, nu, S(0));
   listener.name(nu, "innovation");
-  if (is_zero(model.gate)) return nu;
-  auto passed = pass_gate(model, state, nu, S(model.variance(i)), usable, i, listener);
-  nu = select(passed, nu, S(0));
-  listener.name(nu, "likely");
-  return nu;
+  return {nu, used};
 }
 
 // x̂ ← x̂ + L innovation over the outputs from `first` on.
@@ -41,7 +43,13 @@ auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& inn
 template <class S, class Listener>
 auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
   Vector<S> innovation(model.ny);
-  for (int i = 0; i < model.ny; ++i) innovation(i) = innovate(model, state, S(y(i)), i, listener);
+  std::vector<decltype(is_less(S(), S()))> used;
+  for (int i = 0; i < model.ny; ++i) {
+    const Innovation<S> found = innovate(model, state, S(y(i)), i, listener);
+    innovation(i) = found.value;
+    used.push_back(found.is_used);
+  }
+  observe(model, state, y, used, listener);
   auto within = correct_steady(model, state, innovation, 0, listener);
   if (model.M.cols()) state.innovation = innovation;
   return within;
@@ -50,9 +58,10 @@ auto update_steady(const Model<S>& model, State<S>& state, const Vector<S>& y, L
 // The same of output i alone: an approximation, since its gain is the best in the company of the others only.
 template <class S, class Listener>
 auto update_steady_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  const S nu = innovate(model, state, y, i, listener);
-  auto within = correct_steady(model, state, Vector<S>(Vector<S>::Constant(1, nu)), i, listener);
-  if (model.M.cols()) state.innovation(i) = nu;
+  const Innovation<S> found = innovate(model, state, y, i, listener);
+  observe_alone(model, state, y, found.is_used, i, listener);
+  auto within = correct_steady(model, state, Vector<S>(Vector<S>::Constant(1, found.value)), i, listener);
+  if (model.M.cols()) state.innovation(i) = found.value;
   return within;
 }
 

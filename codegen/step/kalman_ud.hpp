@@ -8,11 +8,10 @@
 namespace lqg::step {
 
 // S = V + Σ f (D f), rounded like the α that ends as S.
-template <class S, class Listener>
-S variance_ud(const Model<S>& model, const State<S>& state, const Vector<S>& f, int i, Listener& listener) {
+template <class S>
+S variance_ud(const Model<S>& model, const State<S>& state, const Vector<S>& f, int i) {
   S variance = model.V(i);
   for (int j = 0; j < model.nx; ++j) variance = multiply_add(S(f(j)), S(state.D[j] * f(j)), variance);
-  listener.name(variance, "S");
   return variance;
 }
 
@@ -21,27 +20,24 @@ S variance_ud(const Model<S>& model, const State<S>& state, const Vector<S>& f, 
 template <class S, class Listener>
 auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const int nx = model.nx;
-  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not believable"
-                                  : "innovation = y − C x̂, 0 if it is not believable", i);
-  S nu = residual(model, state, y, i);
-  listener.name(nu, "measured");
-  auto usable = listener.accept(is_believable(model.nu_limit, i, nu), Event::output_not_finite);
-  nu = select(usable, nu, S(0));
-  listener.name(nu, "innovation");
-
-  listener.section("f = Uᵀ Cᵀ, 0 leaves the output out;  g = D f", i);
+  listener.section("f = Uᵀ Cᵀ", i);
   Vector<S> f(nx), g(nx), b(nx);
   for (int j = 0; j < nx; ++j) {
     S sum = model.C(i, j);
     for (int k = 0; k < j; ++k) sum = multiply_add(S(state.U[strict_triangle(k, j)]), S(model.C(i, k)), sum);
     f(j) = sum;
+    if (!is_zero(model.gate)) listener.name(f(j), "projected", j);
   }
-  if (!is_zero(model.gate)) {
-    for (int j = 0; j < nx; ++j) listener.name(f(j), "projected", j);
-    usable = pass_gate(model, state, nu, variance_ud(model, state, f, i, listener), usable, i, listener);
-    nu = select(usable, nu, S(0));
-    listener.name(nu, "likely");
-  }
+  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not used"
+                                  : "innovation = y − C x̂, 0 if it is not used", i);
+  S nu = residual(model, state, y, i);
+  listener.name(nu, "measured");
+  // S is V at least, and asked for only where that is not enough.
+  auto usable = weigh(model, state, nu, S(model.V(i)), [&] { return variance_ud(model, state, f, i); }, i, listener);
+  nu = select(usable, nu, S(0));
+  listener.name(nu, "innovation");
+
+  listener.section("f, 0 leaves the output out;  g = D f", i);
   for (int j = 0; j < nx; ++j) {
     f(j) = select(usable, S(f(j)), S(0));
     listener.name(f(j), "f", j);

@@ -9,17 +9,17 @@ namespace lqg::step {
 // x̂ ← x̂ + L(y − C x̂ − D u); the condition says that the state is within its bounds.
 template <class S, class Listener>
 auto update(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
-  observe(model, state, y, listener);
-  return model.filter == Filter::steady ? update_steady(model, state, y, listener)
-                                        : update_online(model, state, y, listener);
+  const Vector<S> heard = in_range_or_nan(model, y, listener);
+  return model.filter == Filter::steady ? update_steady(model, state, heard, listener)
+                                        : update_online(model, state, heard, listener);
 }
 
 // The update by output i alone.
 template <class S, class Listener>
 auto update_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  observe_alone(model, state, y, i, listener);
-  return model.filter == Filter::steady ? update_steady_alone(model, state, y, i, listener)
-                                        : update_online_alone(model, state, y, i, listener);
+  const S heard = in_range_or_nan(model, y, i, listener);
+  return model.filter == Filter::steady ? update_steady_alone(model, state, heard, i, listener)
+                                        : update_online_alone(model, state, heard, i, listener);
 }
 
 // x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is within its bounds.

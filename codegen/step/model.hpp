@@ -28,12 +28,13 @@ struct Model {
   Matrix<S> M;                 // nx × ny: what the innovation (steady) or the residual (online) tells of w
   Matrix<S> E;                 // ny × ny unit lower triangular, online
   Vector<S> V;                 // ny, online
-  S gate = S(0);               // σ: an innovation beyond it leaves its output out; 0: no gate
+  S gate = S(0);               // σ: an innovation beyond it leaves its output out, as a spike or a gate; 0: any is let in
   Vector<S> gate_start, gate_widen, gate_narrow;  // ny, with a gate: how much wider it is, squared, and by what a sample changes that
   Vector<S> variance;          // ny, steady, with a gate: of the innovations
   Matrix<S> A_free, W;         // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
   Matrix<S> G;                 // nx × nq, ud: W = G diag(w) Gᵀ
   Vector<S> w;                 // nq, ud
+  Vector<S> y_min, y_max;      // ny, or empty: what a sensor can say at all
   Vector<S> nu_limit;          // ny, of the outputs whose C this is: an innovation that is not below it is left out; or empty
   std::vector<int> x_bound;    // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
   Vector<S> x0;                // nx
@@ -158,6 +159,9 @@ struct Listener {
   bool without(Event event, bool condition) const { return condition && !(events >> static_cast<unsigned>(event) & 1u); }
   // A gate left the output out, which is counted.
   void gate(bool gated, int) { raise(Event::output_gated, gated); }
+  // Whether output i, of the innovation nu, is used: at once where it is as `expected`, else as `otherwise` finds.
+  template <class S, class Variance, class Otherwise>
+  bool weigh(bool expected, int, const S&, Variance, Otherwise otherwise) { return expected || otherwise(); }
 };
 
 }  // namespace lqg::step

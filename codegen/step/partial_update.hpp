@@ -5,10 +5,12 @@
 
 namespace lqg::step {
 
-// Which outputs an update leaves out, of the innovations of the outputs as they are, infinite for one that is not there:
+// Which outputs y an update leaves out, and of which innovations; y is infinite for one that is not there:
 // those that are not believable, and those whose noise only one that is lost itself would make independent.
 template <class S, class Listener>
-auto lost_outputs(const Model<S>& model, const Vector<S>& innovations, Listener& listener) {
+auto lost_outputs(const Model<S>& model, Vector<S> innovations, const Vector<S>& y, Listener& listener) {
+  for (int i = 0; i < model.ny && model.y_min.size(); ++i)
+    innovations(i) = select(is_in_range(model, S(y(i)), i), S(innovations(i)), not_a_number(S(y(i))));
   const Vector<S> nu = model.E.size() ? decorrelate(model, innovations, listener) : innovations;
   std::vector<decltype(is_less(nu(0), nu(0)))> lost;
   for (int i = 0; i < model.ny; ++i) lost.push_back(negation(is_believable(model.nu_limit, i, S(nu(i)))));

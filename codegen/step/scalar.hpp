@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace lqg::step {
 
@@ -50,6 +51,11 @@ template <class S>
 struct PowerOfTwo {
   static S of(int exponent) { return S(std::ldexp(1.0, exponent)); }
 };
+// Of the kind of the argument.
+template <class S>
+S not_a_number(const S&) {
+  return S(std::numeric_limits<double>::quiet_NaN());
+}
 inline bool either(bool a, bool b) { return a || b; }
 inline bool both(bool a, bool b) { return a && b; }
 inline bool negation(bool a) { return !a; }

@@ -6,23 +6,25 @@
 
 namespace lqg::step {
 
-// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where it is not believable.
-template <class S, class Listener>
-void observe_alone(const Model<S>& model, State<S>& state, const S& y, int output, Listener& listener) {
+// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where the output was not used or r − y is
+// not believable.
+template <class S, class Condition, class Listener>
+void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Condition& used, int output, Listener& listener) {
   for (std::size_t i = 0; i < model.integral.size(); ++i) {
     if (model.integral[i] != output) continue;
-    listener.section("r − y, which predict adds to ξ; 0 if it is not believable", output);
+    listener.section("r − y, which predict adds to ξ; 0 if the output is not used, or it is not believable", output);
     S error = state.r(model.wanted[i]) - y;
     listener.name(error, "error");
-    error = select(is_believable(model.error_limit, static_cast<int>(i), error), error, S(0));
+    error = select(both(used, is_believable(model.error_limit, static_cast<int>(i), error)), error, S(0));
     listener.name(error, "kept_error");
     state.error(static_cast<Eigen::Index>(i)) = error;
   }
 }
 
-template <class S, class Listener>
-void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, Listener& listener) {
-  for (const int output : model.integral) observe_alone(model, state, S(y(output)), output, listener);
+template <class S, class Condition, class Listener>
+void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, const std::vector<Condition>& used, Listener& listener) {
+  for (const int output : model.integral)
+    observe_alone(model, state, S(y(output)), used[static_cast<std::size_t>(output)], output, listener);
 }
 
 // ξ + H (u − v): the law that gave v with ξ gives u with this one, or as nearly as it can.
@@ -69,7 +71,8 @@ auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listene
     y(i) = sum;
     listener.name(y(i), "y", i);
   }
-  observe(model, state, y, listener);
+  const auto always = is_less(S(0), S(1));
+  observe(model, state, y, std::vector<decltype(is_less(S(), S()))>(static_cast<std::size_t>(y.size()), always), listener);
   BoundsCheck<S> bounds;
   remember(model, state, u, bounds, listener);
   return bounds.is_within();

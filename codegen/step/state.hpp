@@ -14,36 +14,101 @@ S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {
   return nu;
 }
 
-// How wide the gate is in the next sample. It opens for an output that is left out again and again: then x̂ is wrong, not
-// the sensor. With a constant gain it opens, too, while nothing usable comes: P, which is not carried, would grow. Whatever
-// was in it, it is from 1 to the widest.
-template <class S, class Condition, class Listener>
-void move_gate(const Model<S>& model, State<S>& state, const Condition& passed, const Condition& gated, int i,
-               Listener& listener) {
-  const S unheard = model.filter == Filter::steady ? S(model.gate_widen(i)) : select(gated, S(model.gate_widen(i)), S(1));
-  const S factor = select(passed, S(model.gate_narrow(i)), unheard);
-  const S next = factor * state.widening(i), widest = PowerOfTwo<S>::of(widest_gate_exponent);
-  listener.name(next, "width");
-  const S least = select(is_less(S(1), next), next, S(1));
-  listener.name(least, "wide");
-  state.widening(i) = select(is_less(least, widest), least, widest);
-  listener.name(state.widening(i), "widening");
+// What is weighed of an output whose innovation is not as expected.
+template <class S>
+struct Weighing {
+  Filter filter = Filter::none;
+  S limit = S(0);              // |ν| below it is believable
+  S square = S(0);             // gate²
+  S widen = S(1), narrow = S(1);
+};
+
+template <class S>
+Weighing<S> weighing_of(const Model<S>& model, int i) {
+  return {model.filter, S(model.nu_limit(i)), S(model.gate * model.gate), S(model.gate_widen(i)), S(model.gate_narrow(i))};
 }
 
-// Of a usable output: whether ν² ≤ gate² s w too, w how wide the gate is. ν is 0 for one that is not usable.
-template <class S, class Condition, class Listener>
-Condition pass_gate(const Model<S>& model, State<S>& state, const S& nu, const S& variance, const Condition& usable, int i,
-                    Listener& listener) {
-  if (is_zero(model.gate)) return usable;
-  const S square = nu * nu;
-  auto beyond = is_less(S(S(S(model.gate * model.gate) * variance) * state.widening(i)), square);
+// w, from 1 to the widest whatever it was: a NaN is 1.
+template <class S, class Listener>
+S kept_width(const S& width, Listener& listener) {
+  const S widest = PowerOfTwo<S>::of(widest_gate_exponent);
+  const S least = select(is_less(S(1), width), width, S(1));
+  listener.name(least, "wide");
+  return select(is_less(least, widest), least, widest);
+}
+
+// Whether ν of the variance s is believable, and ν² ≤ gate² s w. Then w narrows. It widens where the gate left the output
+// out: then x̂ is wrong, not the sensor, if that goes on. With a constant gain it widens, too, while nothing usable comes: P,
+// which is not carried, would grow.
+template <class S, class Listener>
+auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, const S& s, int i, Listener& listener) {
+  listener.section("w, at least 1");
+  const S width = kept_width(widening, listener);
+  listener.name(width, "width");
+  listener.section("0 < S, |innovation| below its limit, innovation² ≤ gate² S w");
+  auto believable = is_less(absolute(nu), weighing.limit);
+  listener.name(believable, "believable");
+  auto usable = weighing.filter == Filter::plain
+                    ? listener.accept(both(believable, is_less(S(0), s)), believable, Event::innovation_not_positive,
+                                      Event::output_not_finite)
+                    : listener.accept(believable, Event::output_not_finite);
+  auto beyond = is_less(S(S(weighing.square * s) * width), S(nu * nu));
+  listener.name(beyond, "beyond");
   auto gated = both(usable, beyond);
   listener.name(gated, "gated");
   listener.gate(gated, i);
-  auto passed = both(usable, negation(beyond));
-  listener.name(passed, "passed");
-  move_gate(model, state, passed, gated, i, listener);
-  return passed;
+  auto used = both(usable, negation(beyond));
+  listener.name(used, "used");
+  listener.section("w widens or narrows");
+  const S unheard = weighing.filter == Filter::steady ? weighing.widen : select(gated, weighing.widen, S(1));
+  const S next = select(used, weighing.narrow, unheard) * width;
+  listener.name(next, "next_width");
+  widening = kept_width(next, listener);
+  return used;
+}
+
+// Whether output i is used, of its innovation ν. `variance` makes s, the variance of ν, which is `least` or more. Most are as
+// expected: ν² < gate² least while w is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
+// ν² < limit² for a power of two. It tells that s is positive, too.
+template <class S, class Variance, class Listener>
+auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, Variance variance, int i, Listener& listener) {
+  if (is_zero(model.gate)) {
+    auto believable = is_believable(model.nu_limit, i, nu);
+    return model.filter == Filter::plain
+               ? listener.accept(both(believable, is_less(S(0), least)), believable, Event::innovation_not_positive,
+                                 Event::output_not_finite)
+               : listener.accept(believable, Event::output_not_finite);
+  }
+  const S most = S(model.gate * model.gate) * least, limit = model.nu_limit(i) * model.nu_limit(i);
+  const S threshold = select(is_less(most, limit), most, limit);
+  listener.name(threshold, "threshold");
+  auto expected = both(is_less(S(nu * nu), threshold), negation(is_less(S(1), S(state.widening(i)))));
+  auto used = listener.weigh(expected, i, nu, variance, [&] {
+    return weigh_unexpected(weighing_of(model, i), state.widening(i), nu, S(variance()), i, listener);
+  });
+  listener.name(used, "usable");
+  return used;
+}
+
+// Whether output i is within what its sensor can say. A NaN is: it is found elsewhere.
+template <class S>
+auto is_in_range(const Model<S>& model, const S& y, int i) {
+  return both(negation(is_less(y, S(model.y_min(i)))), negation(is_less(S(model.y_max(i)), y)));
+}
+
+// y, NaN where its sensor cannot say that.
+template <class S, class Listener>
+S in_range_or_nan(const Model<S>& model, const S& y, int i, Listener& listener) {
+  if (!model.y_min.size()) return y;
+  listener.section("what its sensor can say, or NaN", i);
+  const S heard = select(is_in_range(model, y, i), y, not_a_number(y));
+  listener.name(heard, "heard");
+  return heard;
+}
+template <class S, class Listener>
+Vector<S> in_range_or_nan(const Model<S>& model, Vector<S> y, Listener& listener) {
+  for (int i = 0; i < y.size(); ++i) y(i) = in_range_or_nan(model, S(y(i)), i, listener);
+  return y;
 }
 
 // x ← A x + B u + M innovation;  innovation ← 0; what the regulator has to remember of u and of this sample

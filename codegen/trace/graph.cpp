@@ -44,7 +44,8 @@ bool commutes(Op op) {
 
 bool is_condition(Op op) {
   return op == Op::finite || op == Op::less || op == Op::either || op == Op::both ||
-         op == Op::negation || op == Op::usable || op == Op::same;
+         op == Op::negation || op == Op::usable || op == Op::same ||
+         op == Op::asked;
 }
 
 int Graph::insert(Node node) {
@@ -82,6 +83,17 @@ int Graph::flag(const std::string& text) {
     at->second = insert(std::move(node));
   }
   return at->second;
+}
+
+int Graph::ask(int condition, const std::string& function, int b, int c, double bound) {
+  Node node;
+  node.op = Op::asked;
+  node.a = condition;
+  node.b = b;
+  node.c = c;
+  node.text = function;
+  node.value = bound;
+  return insert(std::move(node));
 }
 
 int Graph::make(Op op, int a, int b, int c) {

@@ -19,6 +19,7 @@ enum class Op {
   usable,             // a finite and b positive, in one comparison
   flag,               // a status, by its name in C; select chooses between statuses too
   same,               // a == b, of statuses
+  asked,              // a condition: a, or what a function answers where a does not hold
 };
 
 bool is_condition(Op op);
@@ -50,6 +51,9 @@ class Graph {
   int constant(double value);
   int input(const std::string& text, const std::string& name);
   int flag(const std::string& text);
+  // `condition`, or else what the call `function`, b, c) answers: "weigh(self, 0". Printed as two statements. In either case
+  // |b| < `bound` where the answer is yes.
+  int ask(int condition, const std::string& function, int b, int c, double bound);
   int make(Op op, int a, int b = -1, int c = -1);
 
   bool is_constant(int node) const { return nodes_[node].op == Op::constant; }

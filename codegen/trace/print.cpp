@@ -215,7 +215,18 @@ bool Printer::is_status(int node) const {
   return at.op == Op::flag || (at.op == Op::select && is_status(at.b));
 }
 
+std::string Printer::question(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  const std::string name = name_of(node), call = at.text + ", " + print(at.b, any) + ", " + print(at.c, any) + ")";
+  const std::string answer = !graph_.target().is_prover
+                                 ? call
+                                 : "RESTATED(" + call + ", BELOW(" + print(at.b, any) + ", " + literal(at.value, true) + "))";
+  return wrap("    int " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ")\n" +
+         wrap("        " + name + " = " + answer + ";", 12) + "\n";
+}
+
 std::string Printer::declaration(int node) const {
+  if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked) return question(node);
   const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "int"
                            : is_status(node)                                               ? "lqg_status"
                            : graph_.target().is_double                                     ? "double"

@@ -55,6 +55,7 @@ class Printer {
   std::string print_multiply_add(const Node& node, int level) const;
   std::string restated(int condition, const std::string& text, const std::vector<Store>* stores) const;
   std::vector<std::string> places(int node, const std::vector<Store>* stores) const;
+  std::string question(int node) const;
   std::string declaration(int node) const;
   std::string assignment(const Store& store) const;
 

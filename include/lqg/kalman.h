@@ -84,6 +84,7 @@ typedef struct {
     lqg_real *widening;        /* ny, in and out, with a gate: w of each output; NULL: 1 */
     const lqg_real *widen;     /* ny: MUST be there with widening */
     const lqg_real *narrow;    /* ny: likewise */
+    unsigned char *heard;      /* ny, out: 1 where the output was used, else 0 */
 } lqg_watch_t;
 
 /* ------------------------------------------------------------------------------------------ constant gain */

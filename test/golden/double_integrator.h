@@ -43,7 +43,7 @@
  *   disk margin         0.7929
  *   cost per sample     0.09448
  *
- * One sample takes 30 multiply-adds and 28 bytes of RAM; on a Cortex-M4F at -O2 about 764 bytes of
+ * One sample takes 31 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 810 bytes of
  * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef DOUBLE_INTEGRATOR_H
@@ -82,8 +82,10 @@ enum {
 typedef struct {
     float x[DOUBLE_INTEGRATOR_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
     float P[3];  /* covariance of its error: lower triangle, row by row, P_ij at [i*(i+1)/2 + j] */
+    float widening[DOUBLE_INTEGRATOR_NY];  /* how much wider than its σ the gate is, squared: more while an output is left out */
     unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
     unsigned long covariance_resets;  /* how often P alone began anew, likewise */
+    unsigned long gated[DOUBLE_INTEGRATOR_NY];  /* how often the gate left an output out */
 } double_integrator_t;
 
 LQG_STRICT_BEGIN
@@ -97,8 +99,10 @@ static inline void double_integrator_init(double_integrator_t *self)
     static const double_integrator_t initial = {
         {0.0f, 0.0f},
         {0.01f, 0.0f, 0.01f},
+        {1.0f},
         0,
-        0
+        0,
+        {0}
     };
 
     *self = initial;
@@ -112,10 +116,15 @@ static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status 
 {
     const unsigned long resets = self->resets + 1;
     const unsigned long covariance_resets = self->covariance_resets;
+    unsigned long gated[DOUBLE_INTEGRATOR_NY];
 
+    for (int i = 0; i < DOUBLE_INTEGRATOR_NY; i++)
+        gated[i] = self->gated[i];
     double_integrator_init(self);
     self->resets = resets;
     self->covariance_resets = covariance_resets;
+    for (int i = 0; i < DOUBLE_INTEGRATOR_NY; i++)
+        self->gated[i] = gated[i];
     return status | LQG_STATE_RESET;
 }
 
@@ -144,19 +153,63 @@ static lqg_status double_integrator_recover(double_integrator_t *self, lqg_statu
     return status | LQG_COVARIANCE_RESET;
 }
 
+/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
+ * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+#ifdef __GNUC__
+__attribute__((noinline, cold))
+#endif
+static int double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
+{
+    LQG_STRICT_BODY
+    static const float limits[DOUBLE_INTEGRATOR_NY] = {8589934592.0f};
+    static const float widen[DOUBLE_INTEGRATOR_NY] = {1.5f};
+    static const float narrow[DOUBLE_INTEGRATOR_NY] = {0.75f};
+    const float limit = limits[i];
+    const float wider = widen[i];
+    const float narrower = narrow[i];
+    const float widening = self->widening[i];
+    const float innovation = nu;
+    const float variance = S;
+
+    /* w, at least 1 */
+    const float wide = 1.0f < widening ? widening : 1.0f;
+    const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
+
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
+    const int believable = fabsf(innovation) < limit;
+    const lqg_status fault = believable && 0.0f < variance ? LQG_OK : believable
+        ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
+    const int usable = fault == LQG_OK;
+    const int beyond = 90000.0f * variance * width < innovation * innovation;
+    const int gated = usable && beyond;
+    const int used = usable && !beyond;
+
+    /* w widens or narrows */
+    const float next_width = (used ? narrower : gated ? wider : 1.0f) * width;
+    const float wide_a = 1.0f < next_width ? next_width : 1.0f;
+
+    self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
+
+    self->gated[i] += gated ? 1 : 0;
+    *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
+    return used;
+}
+
 /* x̂ ← x̂ + L (y − C x̂),  L = P Cᵀ S⁻¹,  P ← P − L C P
  *
- * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd) is left out of this sample.
+ * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out of this sample.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
+    lqg_status status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float P_00 = self->P[0];
     const float P_10 = self->P[1];
     const float P_11 = self->P[2];
+    const float widening_0 = self->widening[0];
     const float y_0 = y[0];
 
     /* output 0, position [m]: S = C P Cᵀ + V, P Cᵀ first */
@@ -164,10 +217,11 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
 
     /* output 0, position [m]: innovation = y − C x̂; a gain of 0 leaves the output out */
     const float measured_position = y_0 - x_0;
-    const int believable_position = fabsf(measured_position) < 8589934592.0f;
-    const lqg_status fault_position = believable_position && 0.0f < S_position ? LQG_OK
-        : believable_position ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
-    const int usable_position = fault_position == LQG_OK;
+    const float shared_27 = 90000.0f * S_position;
+    const float threshold_position = shared_27 < 7.378698e+19f ? shared_27 : 7.378698e+19f;
+    int usable_position = measured_position * measured_position < threshold_position && !(1.0f < widening_0);
+    if (!usable_position)
+        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position);
     const float reciprocal_position = usable_position ? 1.0f / S_position : 0.0f;
     const float innovation_position = usable_position ? measured_position : 0.0f;
 
@@ -189,7 +243,6 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
     const float sum = x_0_position * x_0_position;
     const float sum_a = sum + x_1_position * x_1_position;
 
-    const lqg_status status = fault_position;
     if (!(sum_a < 1.8446744e+19f) || status & LQG_INNOVATION_NOT_POSITIVE)
         return double_integrator_recover(self, status);
     return status;
@@ -210,12 +263,12 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
     const float law_0 = -(589.38544f * x_0) - 68.209404f * x_1;
     const int finite_0 = law_0 - law_0 == 0.0f;
     const float demand_0 = finite_0 ? law_0 : 0.0f;
-    const int shared_26 = demand_0 < -10.0f;
-    const int shared_27 = 10.0f < demand_0;
-    const float limited_0 = shared_26 ? -10.0f : shared_27 ? 10.0f : demand_0;
+    const int shared_30 = demand_0 < -10.0f;
+    const int shared_31 = 10.0f < demand_0;
+    const float limited_0 = shared_30 ? -10.0f : shared_31 ? 10.0f : demand_0;
     u[0] = limited_0;
 
-    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK) | (shared_26 || shared_27 ? LQG_INPUT_LIMITED : LQG_OK);
+    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK) | (shared_30 || shared_31 ? LQG_INPUT_LIMITED : LQG_OK);
 }
 
 /* x̂ ← A x̂ + B u,  P ← A P Aᵀ + G W Gᵀ: from this sample to the next.
@@ -272,9 +325,9 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
 /* The update by position alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * There is no other: it is the update.
  *
- * y_position  in: the output, in m. One that is not believable (not finite, or absurd) is left out.
+ * y_position  in: the output, in m. One that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_update_position(double_integrator_t *self, const float y_position)
 {
     return double_integrator_update(self, &y_position);

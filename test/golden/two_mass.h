@@ -54,7 +54,7 @@
  *   cost per sample     0.00816
  *   cost per second     0.01635
  *
- * One sample takes 45 multiply-adds and 20 bytes of RAM; on a Cortex-M4F at -O2 about 893 bytes of
+ * One sample takes 45 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 1019 bytes of
  * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef TWO_MASS_H
@@ -95,7 +95,9 @@ enum {
 /* The whole state of the controller: no pointers inside, may be copied. Begin it with two_mass_init. */
 typedef struct {
     float x[TWO_MASS_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
+    float widening[TWO_MASS_NY];  /* how much wider than its σ the gate is, squared: more while an output is left out */
     unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
+    unsigned long gated[TWO_MASS_NY];  /* how often the gate left an output out */
 } two_mass_t;
 
 LQG_STRICT_BEGIN
@@ -108,7 +110,9 @@ static inline void two_mass_init(two_mass_t *self)
 {
     static const two_mass_t initial = {
         {0.0f, 0.0f, 0.0f, 0.0f},
-        0
+        {4.0f, 32.0f},
+        0,
+        {0}
     };
 
     *self = initial;
@@ -121,39 +125,88 @@ __attribute__((noinline))
 static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
 {
     const unsigned long resets = self->resets + 1;
+    unsigned long gated[TWO_MASS_NY];
 
+    for (int i = 0; i < TWO_MASS_NY; i++)
+        gated[i] = self->gated[i];
     two_mass_init(self);
     self->resets = resets;
+    for (int i = 0; i < TWO_MASS_NY; i++)
+        self->gated[i] = gated[i];
     return status | LQG_STATE_RESET;
+}
+
+/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
+ * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+#ifdef __GNUC__
+__attribute__((noinline, cold))
+#endif
+static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
+{
+    LQG_STRICT_BODY
+    static const float limits[TWO_MASS_NY] = {2199023255552.0f, 2199023255552.0f};
+    static const float widen[TWO_MASS_NY] = {1.5f, 1.5f};
+    static const float narrow[TWO_MASS_NY] = {0.72558594f, 0.72558594f};
+    const float limit = limits[i];
+    const float wider = widen[i];
+    const float narrower = narrow[i];
+    const float widening = self->widening[i];
+    const float innovation = nu;
+    const float variance = S;
+
+    /* w, at least 1 */
+    const float wide = 1.0f < widening ? widening : 1.0f;
+    const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
+
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
+    const int believable = fabsf(innovation) < limit;
+    const lqg_status fault = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const int usable = fault == LQG_OK;
+    const int beyond = 90000.0f * variance * width < innovation * innovation;
+    const int gated = usable && beyond;
+    const int used = usable && !beyond;
+
+    /* w widens or narrows */
+    const float next_width = (used ? narrower : wider) * width;
+    const float wide_a = 1.0f < next_width ? next_width : 1.0f;
+
+    self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
+
+    self->gated[i] += gated ? 1 : 0;
+    *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
+    return used;
 }
 
 /* x̂ ← x̂ + L (y − C x̂)
  *
- * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd) is taken as having come as expected.
+ * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is taken as having come as expected.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
 {
     LQG_STRICT_BODY
+    lqg_status status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float x_2 = self->x[2];
     const float x_3 = self->x[3];
+    const float widening_0 = self->widening[0];
+    const float widening_1 = self->widening[1];
     const float y_0 = y[0];
     const float y_1 = y[1];
 
-    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not believable */
+    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy1 = y_0 - x_0;
-    const lqg_status fault_dy1 = fabsf(measured_dy1) < 2199023255552.0f ? LQG_OK
-        : LQG_OUTPUT_NOT_FINITE;
-    const int usable_dy1 = fault_dy1 == LQG_OK;
+    int usable_dy1 = measured_dy1 * measured_dy1 < 302.56482f && !(1.0f < widening_0);
+    if (!usable_dy1)
+        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1, 0.0033618314f);
     const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
 
-    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not believable */
+    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy2 = y_1 - x_2;
-    const lqg_status fault_dy2 = fabsf(measured_dy2) < 2199023255552.0f ? LQG_OK
-        : LQG_OUTPUT_NOT_FINITE;
-    const int usable_dy2 = fault_dy2 == LQG_OK;
+    int usable_dy2 = measured_dy2 * measured_dy2 < 122.89207f && !(1.0f < widening_1);
+    if (!usable_dy2)
+        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2, 0.0013654674f);
     const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
@@ -170,7 +223,6 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
     self->x[3] = posterior_3;
     const float sum_c = sum_b + posterior_3 * posterior_3;
 
-    const lqg_status status = fault_dy1 | fault_dy2;
     if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
@@ -250,23 +302,25 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
 /* The update by dy1 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * An approximation: its gain is the best in the company of the other outputs only.
  *
- * y_dy1  in: the output, in m. One that is not believable (not finite, or absurd) is left out.
+ * y_dy1  in: the output, in m. One that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1)
 {
     LQG_STRICT_BODY
+    lqg_status status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float x_2 = self->x[2];
     const float x_3 = self->x[3];
+    const float widening_0 = self->widening[0];
     const float y = y_dy1;
 
-    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not believable */
+    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy1 = y - x_0;
-    const lqg_status fault_dy1 = fabsf(measured_dy1) < 2199023255552.0f ? LQG_OK
-        : LQG_OUTPUT_NOT_FINITE;
-    const int usable_dy1 = fault_dy1 == LQG_OK;
+    int usable_dy1 = measured_dy1 * measured_dy1 < 302.56482f && !(1.0f < widening_0);
+    if (!usable_dy1)
+        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1, 0.0033618314f);
     const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
@@ -283,7 +337,6 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
     self->x[3] = posterior_3;
     const float sum_c = sum_b + posterior_3 * posterior_3;
 
-    const lqg_status status = fault_dy1;
     if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
@@ -292,23 +345,25 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
 /* The update by dy2 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * An approximation: its gain is the best in the company of the other outputs only.
  *
- * y_dy2  in: the output, in m. One that is not believable (not finite, or absurd) is left out.
+ * y_dy2  in: the output, in m. One that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2)
 {
     LQG_STRICT_BODY
+    lqg_status status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float x_2 = self->x[2];
     const float x_3 = self->x[3];
+    const float widening_1 = self->widening[1];
     const float y = y_dy2;
 
-    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not believable */
+    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy2 = y - x_2;
-    const lqg_status fault_dy2 = fabsf(measured_dy2) < 2199023255552.0f ? LQG_OK
-        : LQG_OUTPUT_NOT_FINITE;
-    const int usable_dy2 = fault_dy2 == LQG_OK;
+    int usable_dy2 = measured_dy2 * measured_dy2 < 122.89207f && !(1.0f < widening_1);
+    if (!usable_dy2)
+        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2, 0.0013654674f);
     const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
@@ -325,7 +380,6 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
     self->x[3] = posterior_3;
     const float sum_c = sum_b + posterior_3 * posterior_3;
 
-    const lqg_status status = fault_dy2;
     if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
@@ -365,7 +419,7 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
  * y     in: the outputs, in their units; those that are not used are not looked at
  * used  in: which of them are there, a bit each: 1ul << TWO_MASS_Y_DY1
  *
- * Status: LQG_OUTPUT_NOT_FINITE, of those that are used, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, of those that are used, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
 {
     LQG_STRICT_BODY

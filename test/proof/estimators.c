@@ -95,7 +95,7 @@ static void call_any(int which)
     lqg_real x[NX], U[LQG_KALMAN_UD_U(NX)], d[NX], innovation[NY], nu[NY], s[NY], widening[NY];
     unsigned char used[NY];
     unsigned long gated[NY] = {0};
-    const lqg_watch_t watch = {used, any_real, gated, nu, s, widening, widen, narrow};
+    const lqg_watch_t watch = {used, any_real, gated, nu, s, widening, widen, narrow, NULL};
 
     say_anything(x, NX);
     say_anything(U, LQG_KALMAN_UD_U(NX));

@@ -255,7 +255,7 @@ static void act(machine_t *m)
 {
     enum { UPDATE, ALONE, PREDICT, CONTROL, SPOIL, ACTIONS };
     const unsigned ny = m->model->ny, action = take_below(m->bytes, ACTIONS);
-    const lqg_watch_t watch = {m->used, (lqg_real)take_below(m->bytes, 8), m->gated, m->nu, m->s, NULL, NULL, NULL};
+    const lqg_watch_t watch = {m->used, (lqg_real)take_below(m->bytes, 8), m->gated, m->nu, m->s, NULL, NULL, NULL, NULL};
     const lqg_watch_t *maybe = take_below(m->bytes, 2) ? &watch : NULL;
 
     take(m->bytes, m->y, ny * sizeof *m->y);

@@ -253,7 +253,7 @@ static void test_an_innovation_that_is_not_believed_is_not_counted_by_the_gate(v
 {
     unsigned long gated[3] = {0};
     lqg_real nu[3];
-    const lqg_watch_t watch = {NULL, 3, gated, nu, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {NULL, 3, gated, nu, NULL, NULL, NULL, NULL, NULL};
     const lqg_real y[3] = {1e6f, 1.0f, 20};
 
     begin(UD);

@@ -120,7 +120,7 @@ static void run_many(const model_t *model)
         state_t s;
         double x[MAX_NX];
         lqg_real y[MAX_NY], nu[MAX_NY], variance[MAX_NY], u[MAX_NU] = {0};
-        const lqg_watch_t watch = {NULL, 0, NULL, nu, variance, NULL, NULL, NULL};
+        const lqg_watch_t watch = {NULL, 0, NULL, nu, variance, NULL, NULL, NULL, NULL};
 
         draw(root_of_P0, model->nx, x, &seed);
         for (unsigned i = 0; i < model->nx; i++)
@@ -178,7 +178,7 @@ static double log_likelihood(lqg_real q)
     const lqg_kalman_ud_t kalman = {
         {1, 0, 1, one, NULL, one, NULL}, NULL, one, 1, one, &q, NULL, NULL, x0, NULL, P0, NULL, NULL};
     lqg_real x[1], d[1], nu[1], s[1], work[LQG_KALMAN_UD_WORK(1, 1, 1)];
-    const lqg_watch_t watch = {NULL, 0, NULL, nu, s, NULL, NULL, NULL};
+    const lqg_watch_t watch = {NULL, 0, NULL, nu, s, NULL, NULL, NULL, NULL};
     double squares = 0, logarithms = 0;
 
     lqg_kalman_ud_init(&kalman, x, NULL, d, NULL, NULL);

@@ -251,7 +251,7 @@ static void test_normalised_innovations_are_consistent_over_many_runs(void)
     double sum = 0;
     unsigned long seed = 17;
     lqg_real y[NY], nu[NY], variance[NY];
-    const lqg_watch_t watch = {NULL, 0, NULL, nu, variance, NULL, NULL, NULL};
+    const lqg_watch_t watch = {NULL, 0, NULL, nu, variance, NULL, NULL, NULL, NULL};
 
     for (unsigned run = 0; run < RUNS; run++) {
         ekf_state_t s = begun();
@@ -334,8 +334,8 @@ static void test_outputs_that_h_cannot_tell_are_left_out(void)
         const lqg_ekf_t bad_value = VEHICLE_WITH(&value), bad_jacobian = VEHICLE_WITH(&jacobian);
         const unsigned char others[NY] = {entry % NY != 0, entry % NY != 1},
                             rest[NY] = {entry >= NX, entry < NX};
-        const lqg_watch_t only_others = {others, 0, NULL, NULL, NULL, NULL, NULL, NULL},
-                          only_rest = {rest, 0, NULL, NULL, NULL, NULL, NULL, NULL};
+        const lqg_watch_t only_others = {others, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL},
+                          only_rest = {rest, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
         ekf_state_t s = begun(), expected = begun();
 
         TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE,
@@ -385,7 +385,7 @@ static void test_outputs_that_are_no_numbers_change_nothing_to_the_bit(void)
 static void test_gate_leaves_out_an_unlikely_bearing(void)
 {
     unsigned long gated[NY] = {0};
-    const lqg_watch_t watch = {NULL, 5, gated, NULL, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {NULL, 5, gated, NULL, NULL, NULL, NULL, NULL, NULL};
     const lqg_real likely[NY] = {36, 2.55f}, unlikely[NY] = {36, 1};
     ekf_state_t s = begun();
     TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_ekf_update(&vehicle, s.x, s.U, s.d, likely, NULL, &watch, s.work));

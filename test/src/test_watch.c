@@ -72,7 +72,7 @@ static void test_watch_over_all_outputs_changes_no_bit_of_the_update(void)
     const unsigned char all[MAX_NY] = {1, 1};
     unsigned long gated[MAX_NY] = {0};
     lqg_real nu[MAX_NY], s[MAX_NY];
-    const lqg_watch_t watches[] = {{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL}, {all, 1000, gated, nu, s, NULL, NULL, NULL}};
+    const lqg_watch_t watches[] = {{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL}, {all, 1000, gated, nu, s, NULL, NULL, NULL, NULL}};
 
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned m = 0; m < MODELS; m++)
@@ -105,7 +105,7 @@ static void test_one_output_alone_is_a_mask_with_one_output_even_when_w_and_v_ar
 {
     const lqg_real y[MAX_NY] = {0.5f, NAN};
     const unsigned char first[MAX_NY] = {1, 0};
-    const lqg_watch_t watch = {first, 0, NULL, NULL, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {first, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned m = 0; m < MODELS; m++) {
@@ -121,7 +121,7 @@ static void test_an_output_not_used_is_one_that_is_no_number_but_goes_unreported
 {
     const lqg_real y[MAX_NY] = {INFINITY, -0.25f}, one_is_nan[MAX_NY] = {NAN, -0.25f};
     const unsigned char second[MAX_NY] = {0, 1};
-    const lqg_watch_t watch = {second, 0, NULL, NULL, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {second, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
         make_running_loop(&tested, &two_mass, filter);
@@ -136,7 +136,7 @@ static void test_an_output_that_E_mixes_with_an_unused_one_is_left_out_and_repor
 {
     const lqg_real y[MAX_NY] = {0.5f, -0.25f};
     const unsigned char second[MAX_NY] = {0, 1};
-    const lqg_watch_t watch = {second, 0, NULL, NULL, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {second, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
         make_running_loop(&tested, &correlated, filter);
@@ -250,7 +250,7 @@ static void test_innovation_and_its_variance_are_those_of_the_textbook(void)
     textbook_t textbook;
     const model_t model = with_output(&two_mass, 1);
     lqg_real y[1] = {0.75f}, u[1] = {0.5f}, nu[1], s[1];
-    const lqg_watch_t watch = {NULL, 0, NULL, nu, s, NULL, NULL, NULL};
+    const lqg_watch_t watch = {NULL, 0, NULL, nu, s, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
         make_loop(&tested, &model, filter, LQG_FILTER_FORM);
@@ -270,7 +270,7 @@ static void test_innovation_and_its_variance_are_those_of_the_textbook(void)
 static lqg_status update_with_outlier(loop_t *loop, double sigmas, const lqg_watch_t *watch)
 {
     lqg_real y[MAX_NY] = {0}, nu[MAX_NY] = {0}, s[MAX_NY] = {0};
-    const lqg_watch_t look = {watch->used, 0, NULL, nu, s, NULL, NULL, NULL};
+    const lqg_watch_t look = {watch->used, 0, NULL, nu, s, NULL, NULL, NULL, NULL};
     const state_t before = loop->state;
 
     update_watched(loop, y, &look); /* of y = 0, to see what is expected */
@@ -283,7 +283,7 @@ static void test_gate_leaves_out_what_lies_beyond_it_and_counts(void)
 {
     unsigned long gated[MAX_NY];
     const unsigned char first[MAX_NY] = {1, 0};
-    const lqg_watch_t watch = {first, 3, gated, NULL, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {first, 3, gated, NULL, NULL, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned m = 0; m < MODELS; m++) {
@@ -301,7 +301,7 @@ static void test_a_gated_output_is_one_that_is_not_used(void)
 {
     const lqg_real y[MAX_NY] = {1e6f, -0.25f};
     const unsigned char second[MAX_NY] = {0, 1};
-    const lqg_watch_t gate = {NULL, 1000, NULL, NULL, NULL, NULL, NULL, NULL}, mask = {second, 0, NULL, NULL, NULL, NULL, NULL, NULL};
+    const lqg_watch_t gate = {NULL, 1000, NULL, NULL, NULL, NULL, NULL, NULL, NULL}, mask = {second, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
         make_running_loop(&tested, &two_mass, filter);
@@ -321,7 +321,7 @@ static void test_gate_opens_for_an_output_that_is_left_out_again_and_again_and_n
     for (unsigned filter = 0; filter < FILTERS; filter++)
         for (unsigned b = 0; b < sizeof begun / sizeof *begun; b++) {
             lqg_real widening[MAX_NY] = {begun[b], begun[b]};
-            const lqg_watch_t watch = {first, 3, NULL, NULL, NULL, widening, widen, narrow};
+            const lqg_watch_t watch = {first, 3, NULL, NULL, NULL, widening, widen, narrow, NULL};
             unsigned samples = 0;
             make_running_loop(&tested, &two_mass, filter);
             const state_t before = tested.state;
@@ -346,7 +346,7 @@ static void test_silence_opens_the_gate_of_a_constant_gain_only(void)
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
         lqg_real widening[MAX_NY] = {4, 4};
-        const lqg_watch_t watch = {first, 1000, NULL, NULL, NULL, widening, widen, narrow};
+        const lqg_watch_t watch = {first, 1000, NULL, NULL, NULL, widening, widen, narrow, NULL};
         make_running_loop(&tested, &two_mass, filter);
         TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_watched(&tested, y, &watch));
         TEST_ASSERT_TRUE(widening[0] == (filter == STEADY ? 6 : 4));
@@ -359,7 +359,7 @@ static void test_an_output_that_is_no_number_is_not_the_gate_s_business(void)
     const lqg_real y[MAX_NY] = {NAN, NAN};
     unsigned long gated[MAX_NY] = {0};
     lqg_real nu[MAX_NY] = {7, 7}, s[MAX_NY] = {0};
-    const lqg_watch_t watch = {NULL, 3, gated, nu, s, NULL, NULL, NULL};
+    const lqg_watch_t watch = {NULL, 3, gated, nu, s, NULL, NULL, NULL, NULL};
 
     for (unsigned filter = 0; filter < FILTERS; filter++) {
         make_running_loop(&tested, &two_mass, filter);

@@ -32,6 +32,15 @@ std::string noises(const Controller& controller) {
   return ", " + std::to_string(most);
 }
 
+// What the library is told beside the outputs, and what it tells: a gate, and which outputs it has used.
+std::string watch(const Controller& controller, bool tells_heard) {
+  const std::string heard = tells_heard ? "heard" : "NULL";
+  const char* const gate = "{NULL, {gate}, self->gated, NULL, NULL, self->widening, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW, ";
+  Words words = common_words(controller);
+  words["gate"] = trace::literal(controller.gate.sigma, controller.target.is_double);
+  return controller.has.gate ? fill(gate, words) + heard + "}" : "{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, " + heard + "}";
+}
+
 // The arguments of the filter's calls: its description, its state, and how long its scratch is.
 Words filter_words(const Controller& controller) {
   const Words common = common_words(controller);
@@ -51,7 +60,7 @@ Words filter_words(const Controller& controller) {
   if (controller.filter == step::Filter::steady)
     words["variances"] = fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + {filter_row} * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
   else words["variances"] = "";
-  if (controller.has.gate) words["gate"] = trace::literal(controller.problem.estimator->gate, controller.target.is_double);
+  words["watch"] = watch(controller, false);
   if (controller.keeps.gain_row) words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
   return words;
 }
@@ -89,15 +98,26 @@ std::string init_body(const Controller& controller) {
   return write_body(templates::compact_init, controller, words);
 }
 
+std::string update_body(const Controller& controller) {
+  const bool integrates = controller.size.nxi > 0;
+  Words words = filter_words(controller);
+  words["watch"] = watch(controller, integrates);
+  words["y"] = controller.has.range ? "said" : "y";
+  if (!controller.has.gate && controller.filter == step::Filter::steady) words["variances"] = "NULL, ";
+  return write_body(templates::compact_update, controller, words, {{"watches", controller.has.gate || integrates}});
+}
+
 // The update by one output, and r − y of it where it is integrated.
 std::string update_alone_body(const Controller& controller, int output) {
   Words words = filter_words(controller);
   const std::string variances = controller.filter != step::Filter::steady ? "" : controller.has.gate ? words["variances"] : "NULL, ";
   words["i"] = std::to_string(output);
-  words["y"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+  words["given"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+  words["y"] = controller.has.range ? "said" : words["given"];
   words["watched"] = variances + (controller.has.gate ? "&watch" : "NULL") + (controller.filter == step::Filter::steady ? "" : ", work");
-  words["observation"] = statements(trace_observation(controller, output));
-  return write_body(templates::compact_update_alone, controller, words);
+  const TracedFunction observation = trace_observation(controller, output);
+  words["observation"] = statements(observation);
+  return write_body(templates::compact_update_alone, controller, words, {{"observes", !observation.stores.empty()}});
 }
 
 std::string predict_body(const Controller& controller) {
@@ -153,14 +173,14 @@ std::string options_check(const Controller& controller) {
 
 FunctionBodies compact_bodies(const Controller& controller) {
   FunctionBodies bodies;
-  bodies.includes = std::string(controller.target.is_fused || controller.size.ny > 1 ? "#include <math.h>\n" : "") +
+  bodies.includes = std::string(controller.target.is_fused || controller.size.ny > 1 || controller.size.nxi || controller.has.range ? "#include <math.h>\n" : "") +
                     "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   bodies.resets = needs_reset(controller);
   if (controller.keeps.any) bodies.init = init_body(controller);
   if (carries_covariance(controller)) bodies.recover = write_body(templates::compact_recover, controller, {}, {{"remembers", remembers(controller)}});
   if (controller.has.filter) {
     bodies.constants = kalman_constants(controller);
-    bodies.update = write_body(templates::compact_update, controller, filter_words(controller));
+    bodies.update = update_body(controller);
     bodies.predict = predict_body(controller);
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
       if (can_update_alone(controller, i)) bodies.updates_alone.push_back(update_alone_body(controller, i));

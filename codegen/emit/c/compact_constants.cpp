@@ -73,6 +73,14 @@ std::vector<double> inverse_powers(std::vector<int> exponents) {
   return controller::powers_of_two(exponents);
 }
 
+// What the sensors can say.
+void add_range(const Controller& controller, Tables& tables) {
+  if (!controller.has.range) return;
+  const design::Estimator& estimator = *controller.problem.estimator;
+  tables.add("Y_MIN", limits_row(estimator.output_min, +1, controller.target.is_double));
+  tables.add("Y_MAX", limits_row(estimator.output_max, -1, controller.target.is_double));
+}
+
 std::string bound_fields(const Controller& controller, Tables& tables) {
   const Eigen::VectorXd& limits = controller.bounds.innovation;
   return "    " + fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
@@ -197,6 +205,7 @@ std::string Tables::add_unless_zero(const std::string& suffix, const RealMatrix&
 std::string kalman_constants(const Controller& controller) {
   Tables tables(controller, "KALMAN");
   if (controller.has.gate) add_gate(controller, tables);
+  add_range(controller, tables);
   std::vector<std::string> descriptions;
   for (const std::size_t start : controller.stage_starts) {
     const design::SampledPlant& plant = plant_at(controller, start);

@@ -13,7 +13,7 @@ struct FunctionBodies {
   std::string includes;   // #include lines and checks of options
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
-  std::string init, recover, update, control, predict;
+  std::string init, recover, weigh, update, control, predict;
   std::vector<std::string> updates_alone;  // of each output that can_update_alone
   bool resets = false;    // they call NAME_reset, or NAME_recover where P is carried
 };

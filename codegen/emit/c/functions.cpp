@@ -43,6 +43,11 @@ std::string recover_function(const Controller& controller, const FunctionBodies&
                         {{"memory", controller.size.nxi ? ", ξ" : ""}, {"body", bodies.recover}});
 }
 
+std::string weigh_function(const Controller& controller, const FunctionBodies& bodies) {
+  if (bodies.weigh.empty()) return "";
+  return write_function(templates::weigh, controller, {{"gate", decimal(controller.gate.sigma)}, {"body", bodies.weigh}});
+}
+
 // What an update or a prediction may say of P.
 std::string covariance_status(const Controller& controller) {
   return carries_covariance(controller) ? " LQG_COVARIANCE_RESET," : "";
@@ -50,9 +55,8 @@ std::string covariance_status(const Controller& controller) {
 
 // What happens to an output that cannot be used, and what an update may say.
 Words update_words(const Controller& controller) {
-  const std::string gate = controller.has.gate ? ", or is further than " + decimal(controller.problem.estimator->gate) +
-                                                    " σ from what is expected," : "";
-  return {{"unusable", "that is not believable (not finite, or absurd)" + gate},
+  const std::string sigma = decimal(controller.gate.sigma);
+  return {{"unusable", controller.has.gate ? "that is not finite, absurd or more than " + sigma + " σ off" : "that is not finite or absurd"},
           {"left_out", is_steady(controller) ? "is taken as having come as expected" : "is left out of this sample"},
           {"gated", controller.has.gate ? " LQG_OUTPUT_GATED," : ""},
           {"not_positive", controller.filter == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : ""},
@@ -188,7 +192,7 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
   std::string out;
   if (controller.keeps.any) out += init_function(controller, bodies);
   if (bodies.resets) out += reset_function(controller) + recover_function(controller, bodies);
-  if (controller.has.filter) out += update_function(controller, bodies);
+  if (controller.has.filter) out += weigh_function(controller, bodies) + update_function(controller, bodies);
   if (controller.has.regulator) out += control_function(controller, bodies);
   if (controller.has.filter)
     out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +

@@ -33,6 +33,20 @@ struct Printed {
   }
 };
 
+// "    if (!(sum < 1.0f))", with what makes the state unsound besides.
+std::string unless_sound(const Controller& controller, const Printed& printed) {
+  const TracedFunction& function = printed.function;
+  const std::string faults = function.faults.empty() ? "" : " || status & " + function.faults;
+  const std::string line = "    if (!(" + printed.printer.test(function.finite, function.stores) + ")" + faults + ")";
+  return controller.target.is_prover ? line : trace::wrap(line, 8);
+}
+
+// The status is there already.
+std::string status_of_weighed(const Controller& controller, const Printed& printed) {
+  return unless_sound(controller, printed) + "\n        return " + controller.problem.name +
+         (printed.function.checks_covariance ? "_recover" : "_reset") + "(self, status);\n    return status;\n";
+}
+
 std::string status(const Controller& controller, const Printed& printed) {
   const TracedFunction& function = printed.function;
   const trace::Printer& printer = printed.printer;
@@ -41,20 +55,19 @@ std::string status(const Controller& controller, const Printed& printed) {
     const std::string bits = printer.operand(status);
     raised += raised.empty() ? bits : " | " + bits;
   }
+  if (function.weighs) return status_of_weighed(controller, printed);
   if (raised.empty()) raised = "LQG_OK";
   if (function.finite < 0 && function.is_void) return "";
   if (function.finite < 0) return "    return " + raised + ";\n";
   if (!function.recovery.empty())
     return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery + ";\n    return " +
            raised + ";\n";
-  const std::string faults = function.faults.empty() ? "" : " || status & " + function.faults;
-  const std::string unless_sound = "    if (!(" + printer.test(function.finite, function.stores) + ")" + faults + ")";
   return fill(R"({status}
 {unless_sound}
         return {name}_{recover}(self, status);
     return status;
 )", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
-     {"unless_sound", controller.target.is_prover ? unless_sound : trace::wrap(unless_sound, 8)},
+     {"unless_sound", unless_sound(controller, printed)},
      {"recover", function.checks_covariance ? "recover" : "reset"},
      {"name", controller.problem.name}});
 }
@@ -74,15 +87,7 @@ std::string rows(const Controller& controller, const Printed& printed) {
 
 bool needs_self(const Printed& printed, const std::string& rows, const std::string& last) {
   const TracedFunction& function = printed.function;
-  return printed.reads("self->") || printed.writes("self->") || !rows.empty() || !last.empty() || !function.gates.empty() ||
-         function.finite >= 0;  // then it calls a function of its own
-}
-
-std::string count_gated(const Printed& printed) {
-  std::string out = printed.function.gates.empty() ? "" : "\n";
-  for (const auto& [output, gated] : printed.function.gates)
-    out += "    self->gated[" + std::to_string(output) + "] += " + printed.printer.operand(gated) + " ? 1 : 0;\n";
-  return out;
+  return printed.reads("self->") || printed.writes("self->") || !rows.empty() || !last.empty() || function.finite >= 0;  // then it calls a function of its own
 }
 
 }  // namespace
@@ -96,7 +101,8 @@ std::string body(const Controller& controller, const TracedFunction& function,
     const bool is_used = parameter == "self" ? needs_self(printed, tables, last) : printed.reads(parameter + "[");
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
-  return "    LQG_STRICT_BODY\n" + unused + tables + printed.printer.statements(function.stores) + count_gated(printed) +
+  return "    LQG_STRICT_BODY\n" + unused + tables + (function.weighs ? "    lqg_status status = LQG_OK;\n" : "") +
+         printed.printer.statements(function.stores) +
          (end.empty() ? "" : "\n") + end;
 }
 
@@ -106,6 +112,24 @@ std::string recover_body(const Controller& controller) {
   return write_body(templates::recover_body, controller,
                     {{"statements", printed.printer.statements(traced.stores)},
                      {"within", printed.printer.test(traced.finite, traced.stores)}});
+}
+
+std::string weigh_body(const Controller& controller) {
+  const TracedFunction traced = trace_weigh(controller);
+  const Printed printed(traced);
+  std::string raised;
+  for (const int status : traced.statuses) raised += (raised.empty() ? "" : " | ") + printed.printer.operand(status);
+  const auto table = [&](const Eigen::VectorXd& values) {
+    return initializer({values.data(), values.data() + values.size()}, controller.target.is_double);
+  };
+  return write_body(templates::weigh_body, controller,
+                    {{"limits", table(controller.bounds.innovation)},
+                     {"widen", table(controller.gate.widen)},
+                     {"narrow", table(controller.gate.narrow)},
+                     {"statements", printed.printer.statements(traced.stores)},
+                     {"gated", printed.printer.operand(traced.gates.front())},
+                     {"raised", raised},
+                     {"answer", printed.printer.expression(traced.answer)}});
 }
 
 std::string statements(const TracedFunction& function) { return Printed(function).printer.statements(function.stores); }

@@ -15,6 +15,9 @@ std::string body(const Controller& controller, const TracedFunction& function,
 // The body of recover: P begins anew.
 std::string recover_body(const Controller& controller);
 
+// The body of weigh: whether an output is used whose innovation is not as expected.
+std::string weigh_body(const Controller& controller);
+
 // The statements alone, which end with their stores.
 std::string statements(const TracedFunction& function);
 

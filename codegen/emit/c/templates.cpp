@@ -11,6 +11,7 @@ Conditions common_conditions(const Controller& controller) {
           {"has.regulator", controller.has.regulator},
           {"has.variance", controller.has.variance},
           {"has.gate", controller.has.gate},
+          {"has.range", controller.has.range},
           {"has.feedthrough", controller.has.feedthrough},
           {"has.servo", controller.has.servo},
           {"keeps.any", controller.keeps.any},

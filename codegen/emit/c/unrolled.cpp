@@ -33,6 +33,7 @@ FunctionBodies unrolled_bodies(const Controller& controller) {
   const std::string advance = advance_counters(controller);
   bodies.resets = controller.has.filter || traced.control.finite >= 0;
   if (carries_covariance(controller)) bodies.recover = recover_body(controller);
+  if (controller.has.gate) bodies.weigh = weigh_body(controller);
   if (controller.has.filter) {
     bodies.update = body(controller, traced.update, {"self", "y"});
     bodies.predict = controller.size.nu ? body(controller, traced.predict, {"self", "u"}, advance)

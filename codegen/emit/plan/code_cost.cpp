@@ -153,7 +153,8 @@ long filter_cost(const Controller& controller) {
   const long nx = controller.size.nx, ny = controller.size.ny;
   const long state = nx * (nx + controller.size.nu + (controller.keeps.innovation ? ny : 0));
   const long checks = 2 * (2 * nx + 2);  // of the state, after update and after predict
-  const long innovations = ny * innovation_cost(controller);
+  const long squares = controller.has.gate ? 3 : 0;  // ν² and gate² S
+  const long innovations = ny * (innovation_cost(controller) + squares);
   const long common = state + checks + innovations;
   switch (controller.filter) {
     case step::Filter::steady: return common + nx * ny;
@@ -219,6 +220,11 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   CodeCost cost;
   for (const TracedFunction* function : {&traced.update, &traced.control, &traced.predict})
     add_function(cost, controller, *function);
+  if (controller.has.gate) {
+    CodeCost aside;  // for the output that is not as expected
+    add_function(aside, controller, trace_weigh(controller));
+    cost.flash += aside.flash + 3 * bytes_of_real(controller) * controller.size.ny;
+  }
   cost.ram = state_bytes(controller);
   const long initial_state = initial_state_bytes(controller, cost.ram);
   const long entries = static_cast<long>(controller::changing_places(controller.laws, controller.target.is_double).size() * controller.laws.size() +

@@ -44,9 +44,15 @@ Condition TraceListener::without(step::Event event, const Condition& condition) 
   return condition;
 }
 
-void TraceListener::gate(const Condition& gated, int output) {
+void TraceListener::gate(const Condition& gated, int) {
   raise(step::Event::output_gated, gated);
-  function_.gates.emplace_back(output, gated.node);
+  function_.gates.push_back(gated.node);
+}
+
+Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu, const trace::Expr& variance) {
+  function_.weighs = true;
+  return {function_.graph->ask(expected.node, controller_.problem.name + "_weigh(self, &status, " + std::to_string(output), nu.node,
+                               variance.node, controller_.bounds.innovation(output))};
 }
 
 int TraceListener::choice(const Condition& condition, int yes, int no) {

@@ -26,8 +26,14 @@ class TraceListener {
                           step::Event if_not);
   trace::Condition without(step::Event event, const trace::Condition& condition);
   void gate(const trace::Condition& gated, int output);
+  // NAME_weigh answers where the innovation is not as expected.
+  template <class Variance, class Otherwise>
+  trace::Condition weigh(const trace::Condition& expected, int output, const trace::Expr& nu, Variance variance, Otherwise) {
+    return ask_weigh(expected, output, nu, trace::Expr(variance()));
+  }
 
  private:
+  trace::Condition ask_weigh(const trace::Condition& expected, int output, const trace::Expr& nu, const trace::Expr& variance);
   int flag_ok() { return function_.graph->flag("LQG_OK"); }
   int choice(const trace::Condition& condition, int yes, int no);
   trace::Condition accept_or(const trace::Condition& usable, int fault);

@@ -74,9 +74,27 @@ std::vector<int> TracedFunction::results() const {
   for (const trace::Store& store : stores) nodes.push_back(store.node);
   nodes.insert(nodes.end(), statuses.begin(), statuses.end());
   if (finite >= 0) nodes.push_back(finite);
-  for (const auto& [output, gated] : gates) nodes.push_back(gated);
+  if (answer >= 0) nodes.push_back(answer);
+  nodes.insert(nodes.end(), gates.begin(), gates.end());
   nodes.insert(nodes.end(), lost.begin(), lost.end());
   return nodes;
+}
+
+TracedFunction trace_weigh(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  TraceListener listener(controller, function);
+  const auto input = [&](const char* text, const char* name) { return Expr::of(function.graph->input(text, name)); };
+  step::Weighing<Expr> weighing = step::weighing_of(model, 0);
+  weighing.limit = input("limits[i]", "limit");
+  weighing.widen = input("widen[i]", "wider");
+  weighing.narrow = input("narrow[i]", "narrower");
+  Expr widening = input("self->widening[i]", "widening");
+  const Expr nu = input("nu", "innovation"), variance = input("S", "variance");
+  function.answer = step::weigh_unexpected(weighing, widening, nu, variance, -1, listener).node;
+  store(function, "self->widening[i]", widening);
+  return function;
 }
 
 TracedFunction trace_innovation(const Controller& controller) {
@@ -139,7 +157,7 @@ TracedFunction trace_observation(const Controller& controller, int output) {
   const Model model = symbolic_model(controller);
   State state = load_state(model, {});
   TraceListener listener(controller, function);
-  step::observe_alone(model, state, load_output(controller, output), output, listener);
+  step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "y")), trace::is_less(Expr(0), Expr(1)), output, listener);
   store_state(function, state, {});
   return function;
 }
@@ -149,7 +167,8 @@ TracedFunction trace_lost_outputs(const Controller& controller) {
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
-  for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "nu", "nu", model.ny), listener))
+  for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "nu", "nu", model.ny),
+                                                              load(*function.graph, "there", "y", model.ny), listener))
     function.lost.push_back(lost.node);
   return function;
 }

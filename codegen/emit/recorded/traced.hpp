@@ -20,7 +20,9 @@ struct TracedFunction {
   std::string faults;  // a bit of the status with which it is not finite either
   bool checks_covariance = false;  // P may be at fault, not x̂: NAME_recover
   bool is_void = false;
-  std::vector<std::pair<int, int>> gates;  // output, and the condition that it was gated
+  bool weighs = false;  // NAME_weigh adds to the status
+  int answer = -1;  // the condition that it returns, in place of a status
+  std::vector<int> gates;  // the conditions that the gate left the output out
   std::vector<int> lost;  // output by output, the condition that a partial update leaves it out
 
   std::vector<int> results() const;
@@ -32,6 +34,9 @@ struct TracedController {
 };
 
 TracedController trace_controller(const Controller& controller);
+
+// Whether output i is used, of its nu and S; limits[i], widen[i] and narrow[i] are its constants.
+TracedFunction trace_weigh(const Controller& controller);
 
 // What both styles have as straight-line code: who does not call it does not pay for it.
 
@@ -48,7 +53,7 @@ TracedFunction trace_covariance(const Controller& controller);
 // P as at the start; not finite where x̂ has to begin anew, too.
 TracedFunction trace_begin_covariance(const Controller& controller);
 
-// r − y of the integrals of y_OUTPUT; no stores where it has none.
+// r − y of the integrals of an output, of which y was `heard`; no stores where it has none.
 TracedFunction trace_observation(const Controller& controller, int output);
 
 // Those that an update leaves out, of the innovations nu[] of the outputs as they are, infinite where one is not there.

@@ -247,6 +247,13 @@ std::string hexadecimal(std::uint32_t value) {
   return out;
 }
 
+// An output that is left out takes with it those whose noise only it makes independent.
+bool mixes_outputs(const Controller& controller) {
+  for (int i = 0; i < controller.size.ny; ++i)
+    if (!can_update_alone(controller, i)) return true;
+  return false;
+}
+
 Words test_words(const Controller& controller, const Vectors& vectors) {
   Words words = common_words(controller);
   words["hash"] = hexadecimal(vectors.hash);
@@ -260,7 +267,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["samples"] = std::to_string(vectors.samples.size());
   words["every"] = std::to_string(samples_per_covariance);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
-  words["gated"] = controller.has.gate ? " & ~LQG_OUTPUT_GATED" : "";
+  words["gated"] = !controller.has.gate ? "" : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE)" : " & ~LQG_OUTPUT_GATED";
   words["huge"] = controller.target.is_double ? "1e308" : "3e38f";
   words["tiny"] = controller.target.is_double ? "5e-324" : "1e-45f";
   words["within"] = "";

@@ -100,7 +100,7 @@ std::vector<Sample> closed_loop(const Controller& controller, EmittedController<
     };
     if (controller.is_predictor) apply();
     sample.y = list_of(in_target(controller.target, plant.measure(applied)));
-    if (controller.has.gate) add_outlier(samples.size(), sample.y);
+    if (controller.has.filter && controller.problem.estimator->gate > 0) add_outlier(samples.size(), sample.y);
     emitted.update(numbers_of<S>(sample.y));
     if (!controller.is_predictor) apply();
     applied = in_target(controller.target, applied);

@@ -152,7 +152,7 @@ class Host {
     if (controller_.has.feedthrough) outputs.D = lqg::controller::convert<S>(controller_.solution.plant.D, round_);
     lqg::step::Listener listener;
     const Vector<S> nu = lqg::step::innovations(outputs, emitted_.state(), there, listener);
-    const auto lost = lqg::step::lost_outputs(emitted_.model(), nu, listener);
+    const auto lost = lqg::step::lost_outputs(emitted_.model(), nu, there, listener);
     for (int i = 0; i < there.size(); ++i) listener.raise(Event::output_not_finite, (used >> i & 1) && lost[static_cast<std::size_t>(i)]);
     const unsigned not_finite = 1u << static_cast<unsigned>(Event::output_not_finite);
     return listener.events | (emitted_.update(there) & ~not_finite);
@@ -161,7 +161,7 @@ class Host {
     const auto& state = emitted_.state();
     if (controller_.has.filter) record_.add_all(state.x);
     record_.add_all(state.P), record_.add_all(state.U), record_.add_all(state.D);
-    record_.add_all(state.u), record_.add_all(state.innovation);
+    record_.add_all(state.u), record_.add_all(state.widening), record_.add_all(state.innovation);
     record_.add_all(state.xi), record_.add_all(state.error), record_.add_all(state.demand);
   }
 

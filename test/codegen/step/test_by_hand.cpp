@@ -190,7 +190,7 @@ void lose_random_outputs(Filter filter) {
       nu(i) = used.back() ? S(there(i)) : S(std::numeric_limits<double>::infinity());
     }
     Listener listener;
-    const std::vector<bool> lost = lqg::step::lost_outputs(model, nu, listener);
+    const std::vector<bool> lost = lqg::step::lost_outputs(model, nu, nu, listener);
     for (int i = 0; i < model.ny; ++i) {
       const int expected = is_lost(exact, there, used, i);
       if (expected >= 0) TEST_ASSERT_EQUAL_INT(expected, lost[static_cast<std::size_t>(i)]);
@@ -217,7 +217,7 @@ void test_an_output_that_is_no_number_is_lost_with_those_that_need_it() {
   Vector<double> nu = Vector<double>::Zero(3);
   nu(0) = std::numeric_limits<double>::quiet_NaN();
   Listener listener;
-  const std::vector<bool> lost = lqg::step::lost_outputs(model, nu, listener), expected = {true, false, true};
+  const std::vector<bool> lost = lqg::step::lost_outputs(model, nu, nu, listener), expected = {true, false, true};
   TEST_ASSERT_TRUE(lost == expected);
 }
 

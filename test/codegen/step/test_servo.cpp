@@ -90,7 +90,7 @@ class Comparison {
   lqg_status observe_and_control(const Vector<S>& x, const Vector<S>& r, const Vector<S>& y) {
     Listener listener;
     state_.x = x, state_.r = r;
-    lqg::step::observe(model_, state_, y, listener);
+    lqg::step::observe(model_, state_, y, std::vector<bool>(static_cast<std::size_t>(y.size()), true), listener);
     const Vector<S> u = lqg::step::control(model_, state_, listener);
     const Numbers x_of_library = row_major(x), y_of_library = row_major(y), wanted = row_major(r);
     Numbers found(static_cast<std::size_t>(model_.nu));
