@@ -6,6 +6,7 @@
 #include "controller/gains.hpp"
 #include "controller/gate.hpp"
 #include "controller/numbers.hpp"
+#include "controller/recovery.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/finding.hpp"
 #include "design/numeric/linear_algebra.hpp"
@@ -176,6 +177,7 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
   controller.keeps = memory_of(controller);
   controller.bounds = bounds_of(controller);
   controller.gate = gate_of(controller);
+  controller.recovery = recovery_of(controller);
   if (controller.has.filter) check_start(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   return controller;
@@ -186,6 +188,7 @@ Controller with_form(Controller controller, const design::LinearForm& form) {
   controller.gate = {};
   controller.has.gate = false;
   controller.size.nz = static_cast<int>(form.A.rows());
+  controller.recovery = recovery_of(controller);
   controller.bounds = {};
   return controller;
 }

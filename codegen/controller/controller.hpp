@@ -7,6 +7,7 @@
 
 #include "controller/bounds.hpp"
 #include "controller/gate.hpp"
+#include "controller/recovery.hpp"
 #include "design/finding.hpp"
 #include "design/linear_form.hpp"
 #include "design/solution.hpp"
@@ -102,6 +103,7 @@ struct Controller {
   std::vector<Gains> filters;  // likewise; empty without a filter of given gains
   Bounds bounds;
   Gate gate;                   // empty without one
+  Recovery recovery;           // of a filter
   std::optional<design::LinearForm> linear;   // the controller keeps z of this form; else it keeps x̂
   std::optional<FormChoice> forms;            // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic

@@ -50,6 +50,23 @@ std::string bounds(const Controller& controller) {
   return out + "  /* x̂ stays below them in size, or begins anew */\n";
 }
 
+// How long a fault lasts, and where it stays.
+std::string recovery(const Controller& controller) {
+  const controller::Recovery& recovery = controller.recovery;
+  std::string lasting;
+  for (const int state : recovery.lasting)
+    lasting += (lasting.empty() ? "" : ", ") + controller.problem.plant.states[static_cast<std::size_t>(state)].name;
+  std::string out;
+  if (recovery.samples)
+    out = fill("#define {NAME}_RECOVERY_SAMPLES {samples}  /* after a fault has ended its effect is below the noise */\n",
+               {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
+  else if (controller.has.filter)
+    out = "/* For no number of samples is it certain that a fault is forgotten: not every error dies out. */\n";
+  if (!lasting.empty())
+    out += "/* No noise reaches " + lasting + ": a fault's effect stays there, and in what is estimated by it. */\n";
+  return out;
+}
+
 std::string dimensions(const Controller& controller) {
   const Words words = common_words(controller);
   std::string out = fill("\n#define {NAME}_NX {nx}  /* states */\n", words);
@@ -58,6 +75,7 @@ std::string dimensions(const Controller& controller) {
   if (controller.linear) out += fill("#define {NAME}_NZ {nz}  /* numbers that stand for them */\n", words);
   if (controller.size.nr) out += fill("#define {NAME}_NR {nr}  /* references */\n", words);
   if (!controller.bounds.x.empty()) out += bounds(controller);
+  out += recovery(controller);
   return out + fill("#define {NAME}_SAMPLE_TIME ", words) +
          trace::literal(controller.problem.plant.sample_time, controller.target.is_double) + "  /* s between two samples */\n";
 }

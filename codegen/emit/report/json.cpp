@@ -196,6 +196,14 @@ Json bounds(const controller::Bounds& bounds) {
   return out;
 }
 
+Json recovery(const controller::Recovery& recovery) {
+  Json out = Json::object();
+  if (recovery.samples) out["samples"] = recovery.samples;
+  out["within"] = numbers(recovery.within);
+  add(out, "lasting", recovery.lasting);
+  return out;
+}
+
 Json code(const Controller& controller) {
   Json out = {{"real", controller.target.is_double ? "double" : "float"},
               {"arithmetic", controller.target.is_fused ? "fused" : "plain"},
@@ -218,6 +226,7 @@ std::string json(const Controller& controller) {
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
   if (solution.estimator && solution.estimator->noise.V.size() > 0) out["noise"] = noise(solution.estimator->noise);
+  else if (solution.noise) out["noise"] = noise(*solution.noise);
   if (solution.regulator) {
     const design::RegulatorSolution& regulator = *solution.regulator;
     if (regulator.cost.R.size() > 0) {
@@ -232,6 +241,7 @@ std::string json(const Controller& controller) {
   out["loop"] = loop(solution.loop);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
   if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller.bounds);
+  if (controller.has.filter) out["recovery"] = recovery(controller.recovery);
   out["code"] = code(controller);
   return out.dump(2) + "\n";
 }
