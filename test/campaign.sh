@@ -12,6 +12,8 @@
 #   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design: default 10000000 honest samples
 #   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
 #                                                many of each part; test/mutants
+#   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 40 random
+#                                                designs, flipped once in closed loop: default all, or so many of each; test/flips
 #
 # <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19 test/run.sh.
 # A campaign has parts, of which as many run side by side as there are processors. It ends at the first part that fails.
@@ -35,6 +37,7 @@ test/campaign.sh <build> <campaign>             on two processors
   options [compiler] default both                6 hours
   spikes [samples]  default 10000000             1 hour
   mutants [count]   default all of each part     2 hours
+  flips [count]     default all of each part    FLIPTIME
 END
 }
 
@@ -219,6 +222,33 @@ mutants() {
   done
 }
 
+# A part for each design and style, but for straight-line code of several plants and the compact style of other numbers than x̂,
+# which there are not; another for each random design. PARTS as above.
+flips() {
+  local sample=(--sample "$(number 999999 "$@")") parts=() part name style run=$lqg_root/test/flips/flips.py
+  lqg_has_command python3 || refuse "Not found: python3"
+  for name in "$lqg_root"/codegen/designs/*.toml "$lqg_root"/test/designs/*.toml; do
+    for style in unrolled compact; do
+      case $style in
+        unrolled) ! grep -q '^\[\[stage\]\]' "$name" || continue ;;
+        compact) ! grep -q '^realisation' "$name" || continue ;;
+      esac
+      parts+=("$(basename "$name" .toml).$style")
+    done
+  done
+  for name in {1..40}; do
+    parts+=("$name.unrolled")
+  done
+  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
+  count=${#parts[@]}
+  [ "$count" -gt 0 ] || refuse "no part of flips is called ${PARTS:-}"
+  for part in "${parts[@]}"; do
+    name=${part%.*}
+    [[ $name =~ ^[0-9]+$ ]] || name=$(compgen -G "$lqg_root/*/designs/$name.toml")
+    start "$part" python3 -B "$run" "$build" "$name" "${part##*.}" "${sample[@]}"
+  done
+}
+
 # ---- the command line --------------------------------------------------------------------------------------------
 
 # All of the script is read before a campaign begins: bash reads a file as it goes, and this one may change meanwhile.
@@ -232,7 +262,7 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz | options | spikes | mutants) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
+    soak | random | fuzz | options | spikes | mutants | flips) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
     bits) ;;
     *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;
   esac
@@ -250,6 +280,7 @@ main() {
     fuzz) fuzz "$@" ;;
     options) options "$@" ;;
     mutants) mutants "$@" ;;
+    flips) flips "$@" ;;
   esac
   finish_all
 }
