@@ -63,6 +63,7 @@
 #define DOUBLE_INTEGRATOR_NU 1  /* inputs */
 #define DOUBLE_INTEGRATOR_NY 1  /* outputs */
 #define DOUBLE_INTEGRATOR_X_BOUNDS {4294967296.0f, 4294967296.0f}  /* x̂ stays below them in size, or begins anew */
+#define DOUBLE_INTEGRATOR_RECOVERY_SAMPLES 710  /* after a fault has ended its effect is below the noise */
 #define DOUBLE_INTEGRATOR_SAMPLE_TIME 0.01f  /* s between two samples */
 
 enum {

@@ -74,6 +74,7 @@
 #define TWO_MASS_NU 1  /* inputs */
 #define TWO_MASS_NY 2  /* outputs */
 #define TWO_MASS_X_BOUNDS {1099511627776.0f, 1099511627776.0f, 1099511627776.0f, 1099511627776.0f}  /* x̂ stays below them in size, or begins anew */
+#define TWO_MASS_RECOVERY_SAMPLES 440  /* after a fault has ended its effect is below the noise */
 #define TWO_MASS_SAMPLE_TIME 0.5f  /* s between two samples */
 
 enum {
