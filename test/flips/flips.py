@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Flips each bit of each number of a controller's state, one at a time, in closed loop with its plant; flips.c is the loop.
 
-    flips.py <build> DESIGN.toml|SEED STYLE [--sample N] [--list]
+    flips.py <build> DESIGN.toml|SEED STYLE [--sample N] [--list] [--deaf]
 
 After NAME_RECOVERY_SAMPLES the loop has to be back where it would be without the flip, to what the noise explains. A SEED
-is that of a random design. --sample N takes N flips, evenly. --list prints those that physics forbids to forget, too. Everything is written below the current folder.
-CC is the compiler.
+is that of a random design. --sample N takes N flips, evenly. --list prints those that physics forbids to forget, too.
+--deaf takes out of a straight-line header that a P that is none begins anew: then some are not forgotten. Everything is written
+below the current folder. CC is the compiler.
 
 Exit status 0: all flips are forgotten, or physics forbids it, or lqgen refuses a random design; 1: some are not; 2: something is
 not there.
@@ -214,6 +215,7 @@ def main() -> int:
     parser.add_argument("style", choices=["unrolled", "compact"])
     parser.add_argument("--sample", type=int, default=0)
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--deaf", action="store_true")
     given = parser.parse_args()
     build, is_random = given.build.resolve(), given.design.isdigit()
     file = random_design(build, given.design) if is_random else Path(given.design).resolve()
@@ -225,7 +227,10 @@ def main() -> int:
     if "samples" not in design.get("recovery", {}):
         print("no number of samples is promised")
         return 0
-    header = Path(design["name"] + ".h").read_text()
+    file_of_header = Path(design["name"] + ".h")
+    header = file_of_header.read_text()
+    if given.deaf:
+        file_of_header.write_text(re.sub(r"return \w+_recover\(self, status\);", "return status;", header))
     build_program(design, plant_text(design, tomllib.loads(file.read_text()).get("limits", {}), header))
     done = run("./flips", given.sample, int(given.list))
     print(done.stdout, end="")
