@@ -23,8 +23,11 @@ struct member {
 #define DEVIATIONS 3
 
 /* More samples are not kept: there a flip has to be forgotten sooner than is promised. */
-enum { MOST_SAMPLES = 5000, PROMISED = RECOVERY_SAMPLES < MOST_SAMPLES ? RECOVERY_SAMPLES : MOST_SAMPLES };
+enum { MOST_SAMPLES = 200000, PROMISED = RECOVERY_SAMPLES < MOST_SAMPLES ? RECOVERY_SAMPLES : MOST_SAMPLES };
 enum { MEMBERS = sizeof members / sizeof *members, WATCHED = 200 }; /* samples after the promise */
+
+/* So many samples in a row with a hundredth of the difference: it is followed no further. */
+enum { QUIET_SAMPLES = 1000 };
 
 /* A flip comes before the first call of a sample, or behind the first or second one. */
 static const struct instant {
@@ -229,11 +232,15 @@ static double distance(const struct loop *a, const struct loop *b)
     for (int i = 0; i < NX; i++) {
         if (is_lasting[i] != 0)
             continue;
-        double apart = fabs(a->x[i] - b->x[i]) / within[i];
+        double apart = fabs(a->x[i] - b->x[i]);
 #ifndef KEEPS_Z
-        apart = fmax(apart, fabs((double)a->controller.x[i] - (double)b->controller.x[i]) / within[i]);
+        const double estimates = fabs((double)a->controller.x[i] - (double)b->controller.x[i]);
+        if (!(estimates <= apart))
+            apart = estimates;
 #endif
-        most = apart <= most ? most : apart; /* NaN is far */
+        if (isnan(apart))
+            return INFINITY;
+        most = fmax(most, apart / within[i]);
     }
     return most;
 }
@@ -279,6 +286,7 @@ static enum outcome follow(const struct flip *flip, int *samples)
 {
     struct loop loop = twin[flip->at.sample];
     const int end = flip->at.sample + PROMISED + WATCHED;
+    int quiet = 0;
     *samples = 0;
     for (int k = flip->at.sample; k < end; k++) {
         run_sample(&loop, flip, k);
@@ -286,8 +294,12 @@ static enum outcome follow(const struct flip *flip, int *samples)
             return UNSOUND;
         if (is_same(&loop, &twin[k + 1]))
             break;
-        if (!(distance(&loop, &twin[k + 1]) <= DEVIATIONS))
+        const double apart = distance(&loop, &twin[k + 1]);
+        if (!(apart <= DEVIATIONS))
             *samples = k + 1 - flip->at.sample;
+        quiet = apart <= DEVIATIONS / 100.0 ? quiet + 1 : 0;
+        if (quiet == QUIET_SAMPLES)
+            break;
         if (is_beyond_u(&loop))
             return BEYOND_U;
         if (is_beyond_bounds(&loop))
