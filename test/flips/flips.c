@@ -321,6 +321,17 @@ static void run_twin(void)
     }
 }
 
+/* Without a flip the plant runs away, unstable and alone or beyond its limits: x̂ is rounded to more than is known of it. */
+static int runs_away(void)
+{
+    const double most = sizeof(real) == sizeof(float) ? 0x1p20 : 0x1p49;
+    for (int k = 0; k < SAMPLES; k++)
+        for (int i = 0; i < NX; i++)
+            if (!(fabs(twin[k].x[i]) <= most * within[i]))
+                return 1;
+    return 0;
+}
+
 static void report(const struct flip *flip, enum outcome outcome, int samples)
 {
     printf("%s: %s[%d], bit %d, before call %d of sample %d, after %d samples\n", words[outcome], flip->of->name, flip->number,
@@ -335,6 +346,10 @@ int main(int count, char *arguments[])
     int longest = 0, samples;
 
     run_twin();
+    if (runs_away()) {
+        printf("without a flip the plant runs away: nothing is asked\n");
+        return 0;
+    }
     for (int m = 0; m < MEMBERS; m++)
         all += (long)members[m].size * 8 * INSTANTS;
     if (sample && sample < all)
