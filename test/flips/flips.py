@@ -156,7 +156,8 @@ def plant_text(design, limits: dict, header: str) -> str:
         text += array(which, [limits.get(which, [infinite] * nu)]).replace("inf", "(double)INFINITY")
     bounds = design["numerics"]["bounds"]["x"] if "compensator" not in design else [LARGE] * nx
     text += array("x_bound", [bounds])
-    text += f"enum {{ HAS_LIMITS = {int(len(limits) > 0)} }};\n"
+    has_limits = all(which in limits and all(map(math.isfinite, limits[which])) for which in ("u_min", "u_max"))
+    text += f"enum {{ HAS_LIMITS = {int(has_limits)} }};\n"
     modes = unstable_modes(plant["A"]) if f"{name}_control(" in header else []
     text += f"enum {{ MODES = {len(modes)} }};\n"
     text += array("mode_re", [[x.real for x in w] for w, _ in modes]) + array("mode_im", [[x.imag for x in w] for w, _ in modes])
