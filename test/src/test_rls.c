@@ -265,6 +265,29 @@ static void test_a_parameter_without_variance_stays(void)
     TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, 1 - 2 * (double)theta0[1], (double)s.theta[0]);
 }
 
+/* What lies behind the parameters is neither read, a NaN would come in, nor written. */
+static void test_nothing_behind_the_parameters_is_touched(void)
+{
+    enum { NTHETA = 3 };
+    const lqg_real limits[MAX_NTHETA] = {3, 3, 3, NAN, NAN, NAN}, variances[MAX_NTHETA] = {2, 1, 4, NAN, NAN, NAN};
+    const lqg_real start[MAX_NTHETA] = {0, 0, 0, NAN, NAN, NAN};
+    const lqg_rls_t rls = {NTHETA, 0.75f, 1, start, variances, limits};
+    rls_state_t s, untouched;
+    lqg_real work[LQG_RLS_WORK(MAX_NTHETA)];
+
+    memset(&untouched, 0xff, sizeof untouched); /* NaNs */
+    s = untouched;
+    lqg_rls_init(&rls, s.theta, s.U, s.d);
+    for (unsigned k = 0; k < 20; k++) {
+        const lqg_real phi[MAX_NTHETA] = {1, (lqg_real)(k % 2), (lqg_real)(k % 3), NAN, NAN, NAN};
+        memset(work, 0xff, sizeof work);
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, s.theta, s.U, s.d, phi, 1, work));
+    }
+    TEST_ASSERT_EQUAL_MEMORY(untouched.theta + NTHETA, s.theta + NTHETA, sizeof s.theta - NTHETA * sizeof *s.theta);
+    TEST_ASSERT_EQUAL_MEMORY(untouched.U + LQG_RLS_U(NTHETA), s.U + LQG_RLS_U(NTHETA), sizeof s.U - LQG_RLS_U(NTHETA) * sizeof *s.U);
+    TEST_ASSERT_EQUAL_MEMORY(untouched.d + NTHETA, s.d + NTHETA, sizeof s.d - NTHETA * sizeof *s.d);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -278,5 +301,6 @@ int main(void)
     RUN_TEST(test_nothing_changes_to_the_bit_when_a_sample_is_hostile);
     RUN_TEST(test_begins_anew_when_forgetting_without_limits_overflows);
     RUN_TEST(test_a_parameter_without_variance_stays);
+    RUN_TEST(test_nothing_behind_the_parameters_is_touched);
     return UNITY_END();
 }

@@ -297,6 +297,44 @@ static void test_gate_leaves_out_what_lies_beyond_it_and_counts(void)
         }
 }
 
+static void test_a_gated_output_does_not_come_in_by_way_of_one_that_is_freed_of_its_noise(void)
+{
+    const lqg_real y[MAX_NY] = {1e6f, -0.25f}, missing[MAX_NY] = {NAN, -0.25f};
+    const lqg_watch_t watch = {NULL, 3, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+
+    for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
+        make_running_loop(&tested, &correlated, filter);
+        make_running_loop(&other, &correlated, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE, update_watched(&tested, y, &watch));
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, loop_update(&other, missing));
+        TEST_ASSERT_TRUE(same_state(&tested.state, &other.state));
+    }
+}
+
+/* Of outputs that are used, far off, no number, and not asked for; with a gate and without. */
+static void test_heard_tells_which_outputs_were_used(void)
+{
+    static const lqg_real widen[MAX_NY] = {1.5f, 1.5f}, narrow[MAX_NY] = {0.75f, 0.75f};
+    const unsigned char all[MAX_NY] = {1, 1}, second[MAX_NY] = {0, 1};
+    lqg_real widening[MAX_NY];
+    unsigned char heard[MAX_NY];
+
+    for (unsigned filter = 0; filter < FILTERS; filter++)
+        for (unsigned k = 0; k < 8; k++) {
+            const lqg_real y[MAX_NY] = {k & 1 ? (lqg_real)NAN : 1e6f, 0};
+            const int has_gate = k & 2, asks_for_both = k & 4;
+            const lqg_watch_t watch = {asks_for_both ? all : second,      has_gate ? 1000 : 0, NULL, NULL, NULL,
+                                       has_gate ? widening : NULL, widen, narrow, heard};
+
+            widening[0] = widening[1] = 1;
+            heard[0] = heard[1] = 7;
+            make_running_loop(&tested, &two_mass, filter);
+            (void)update_watched(&tested, y, &watch);
+            TEST_ASSERT_EQUAL_UINT(asks_for_both && !has_gate && !(k & 1), heard[0]);
+            TEST_ASSERT_EQUAL_UINT(1, heard[1]);
+        }
+}
+
 static void test_a_gated_output_is_one_that_is_not_used(void)
 {
     const lqg_real y[MAX_NY] = {1e6f, -0.25f};
@@ -381,6 +419,8 @@ int main(void)
     RUN_TEST(test_a_plant_that_varies_follows_the_textbook);
     RUN_TEST(test_innovation_and_its_variance_are_those_of_the_textbook);
     RUN_TEST(test_gate_leaves_out_what_lies_beyond_it_and_counts);
+    RUN_TEST(test_a_gated_output_does_not_come_in_by_way_of_one_that_is_freed_of_its_noise);
+    RUN_TEST(test_heard_tells_which_outputs_were_used);
     RUN_TEST(test_a_gated_output_is_one_that_is_not_used);
     RUN_TEST(test_gate_opens_for_an_output_that_is_left_out_again_and_again_and_narrows_again);
     RUN_TEST(test_silence_opens_the_gate_of_a_constant_gain_only);
