@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 // Wide, because no model is right: a push, a step of a reference or a wrong mass are tens of σ. A spike of this size moves x̂
 // by so many σ of its own error, which the loop takes as it takes its start.
-constexpr double default_spike = 300;
+constexpr double default_spike = 300, infinity = std::numeric_limits<double>::infinity();
 // From P0 on, and after gaps, so many σ of the variance that is worked off are let in, too: more than any noise, and no more of a
 // start than a wide gate has to open for.
 constexpr double let_in_while_unsettled = 30;
@@ -101,17 +101,17 @@ MatrixXd initial_covariance(const Controller& controller) {
 
 }  // namespace
 
+bool is_default(const design::Estimator& estimator) { return !estimator.spike && estimator.gate == 0; }
+
 double sigma_of(const design::Estimator& estimator) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double sigma = std::min(estimator.gate > 0 ? estimator.gate : infinity, estimator.spike.value_or(default_spike));
+  const double gate = estimator.gate > 0 ? estimator.gate : infinity;
+  const double sigma = std::min(gate, estimator.spike.value_or(is_default(estimator) ? default_spike : infinity));
   return std::isinf(sigma) ? 0 : sigma;
 }
 
 const char* key_of_sigma(const design::Estimator& estimator) {
-  return estimator.gate > 0 && estimator.gate <= estimator.spike.value_or(default_spike) ? "kalman.gate" : "kalman.spike";
+  return estimator.gate == sigma_of(estimator) ? "kalman.gate" : "kalman.spike";
 }
-
-bool is_default(const design::Estimator& estimator) { return !estimator.spike && !(estimator.gate > 0 && estimator.gate <= default_spike); }
 
 Gate gate_of(const Controller& controller) {
   if (!controller.has.gate) return {};

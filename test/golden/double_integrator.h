@@ -43,7 +43,7 @@
  *   disk margin         0.7929
  *   cost per sample     0.09448
  *
- * One sample takes 31 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 810 bytes of
+ * One sample takes 31 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 1127 bytes of
  * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef DOUBLE_INTEGRATOR_H
@@ -63,7 +63,7 @@
 #define DOUBLE_INTEGRATOR_NU 1  /* inputs */
 #define DOUBLE_INTEGRATOR_NY 1  /* outputs */
 #define DOUBLE_INTEGRATOR_X_BOUNDS {4294967296.0f, 4294967296.0f}  /* x̂ stays below them in size, or begins anew */
-#define DOUBLE_INTEGRATOR_RECOVERY_SAMPLES 710  /* after a fault has ended its effect is below the noise */
+#define DOUBLE_INTEGRATOR_RECOVERY_SAMPLES 980  /* after a fault has ended its effect is below the noise */
 #define DOUBLE_INTEGRATOR_SAMPLE_TIME 0.01f  /* s between two samples */
 
 enum {
@@ -162,12 +162,6 @@ __attribute__((noinline, cold))
 static int double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
 {
     LQG_STRICT_BODY
-    static const float limits[DOUBLE_INTEGRATOR_NY] = {8589934592.0f};
-    static const float widen[DOUBLE_INTEGRATOR_NY] = {1.5f};
-    static const float narrow[DOUBLE_INTEGRATOR_NY] = {0.75f};
-    const float limit = limits[i];
-    const float wider = widen[i];
-    const float narrower = narrow[i];
     const float widening = self->widening[i];
     const float innovation = nu;
     const float variance = S;
@@ -177,7 +171,7 @@ static int double_integrator_weigh(double_integrator_t *self, lqg_status *status
     const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
 
     /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
-    const int believable = fabsf(innovation) < limit;
+    const int believable = fabsf(innovation) < 8589934592.0f;
     const lqg_status fault = believable && 0.0f < variance ? LQG_OK : believable
         ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
     const int usable = fault == LQG_OK;
@@ -186,7 +180,7 @@ static int double_integrator_weigh(double_integrator_t *self, lqg_status *status
     const int used = usable && !beyond;
 
     /* w widens or narrows */
-    const float next_width = (used ? narrower : gated ? wider : 1.0f) * width;
+    const float next_width = (used ? 0.75f : gated ? 1.5f : 1.0f) * width;
     const float wide_a = 1.0f < next_width ? next_width : 1.0f;
 
     self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
@@ -198,7 +192,7 @@ static int double_integrator_weigh(double_integrator_t *self, lqg_status *status
 
 /* x̂ ← x̂ + L (y − C x̂),  L = P Cᵀ S⁻¹,  P ← P − L C P
  *
- * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out of this sample.
+ * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is left out of this sample.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
@@ -326,7 +320,7 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
 /* The update by position alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * There is no other: it is the update.
  *
- * y_position  in: the output, in m. One that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out.
+ * y_position  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_update_position(double_integrator_t *self, const float y_position)

@@ -54,7 +54,7 @@
  *   cost per sample     0.00816
  *   cost per second     0.01635
  *
- * One sample takes 45 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 1019 bytes of
+ * One sample takes 45 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 1282 bytes of
  * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef TWO_MASS_H
@@ -74,7 +74,7 @@
 #define TWO_MASS_NU 1  /* inputs */
 #define TWO_MASS_NY 2  /* outputs */
 #define TWO_MASS_X_BOUNDS {1099511627776.0f, 1099511627776.0f, 1099511627776.0f, 1099511627776.0f}  /* x̂ stays below them in size, or begins anew */
-#define TWO_MASS_RECOVERY_SAMPLES 440  /* after a fault has ended its effect is below the noise */
+#define TWO_MASS_RECOVERY_SAMPLES 570  /* after a fault has ended its effect is below the noise */
 #define TWO_MASS_SAMPLE_TIME 0.5f  /* s between two samples */
 
 enum {
@@ -145,12 +145,6 @@ __attribute__((noinline, cold))
 static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
 {
     LQG_STRICT_BODY
-    static const float limits[TWO_MASS_NY] = {2199023255552.0f, 2199023255552.0f};
-    static const float widen[TWO_MASS_NY] = {1.5f, 1.5f};
-    static const float narrow[TWO_MASS_NY] = {0.72558594f, 0.72558594f};
-    const float limit = limits[i];
-    const float wider = widen[i];
-    const float narrower = narrow[i];
     const float widening = self->widening[i];
     const float innovation = nu;
     const float variance = S;
@@ -160,7 +154,7 @@ static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu,
     const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
 
     /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
-    const int believable = fabsf(innovation) < limit;
+    const int believable = fabsf(innovation) < 2199023255552.0f;
     const lqg_status fault = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
     const int usable = fault == LQG_OK;
     const int beyond = 90000.0f * variance * width < innovation * innovation;
@@ -168,7 +162,7 @@ static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu,
     const int used = usable && !beyond;
 
     /* w widens or narrows */
-    const float next_width = (used ? narrower : wider) * width;
+    const float next_width = (used ? 0.72558594f : 1.5f) * width;
     const float wide_a = 1.0f < next_width ? next_width : 1.0f;
 
     self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
@@ -180,7 +174,7 @@ static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu,
 
 /* x̂ ← x̂ + L (y − C x̂)
  *
- * y  in: the outputs, in their units. An output that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is taken as having come as expected.
+ * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is taken as having come as expected.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
@@ -303,7 +297,7 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
 /* The update by dy1 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * An approximation: its gain is the best in the company of the other outputs only.
  *
- * y_dy1  in: the output, in m. One that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out.
+ * y_dy1  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1)
@@ -346,7 +340,7 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
 /* The update by dy2 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
  * An approximation: its gain is the best in the company of the other outputs only.
  *
- * y_dy2  in: the output, in m. One that is not believable (not finite, or absurd), or is further than 300 σ from what is expected, is left out.
+ * y_dy2  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2)

@@ -129,7 +129,10 @@ std::string weigh_body(const Controller& controller) {
                      {"statements", printed.printer.statements(traced.stores)},
                      {"gated", printed.printer.operand(traced.gates.front())},
                      {"raised", raised},
-                     {"answer", printed.printer.expression(traced.answer)}});
+                     {"answer", printed.printer.expression(traced.answer)}},
+                    {{"has_limits", !is_same_for_all(controller.bounds.innovation)},
+                     {"has_widen", !is_same_for_all(controller.gate.widen)},
+                     {"has_narrow", !is_same_for_all(controller.gate.narrow)}});
 }
 
 std::string statements(const TracedFunction& function) { return Printed(function).printer.statements(function.stores); }

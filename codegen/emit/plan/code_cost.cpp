@@ -223,7 +223,9 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   if (controller.has.gate) {
     CodeCost aside;  // for the output that is not as expected
     add_function(aside, controller, trace_weigh(controller));
-    cost.flash += aside.flash + 3 * bytes_of_real(controller) * controller.size.ny;
+    for (const Eigen::VectorXd* values : {&controller.bounds.innovation, &controller.gate.widen, &controller.gate.narrow})
+      if (!is_same_for_all(*values)) aside.flash += bytes_of_real(controller) * controller.size.ny;
+    cost.flash += aside.flash;
   }
   cost.ram = state_bytes(controller);
   const long initial_state = initial_state_bytes(controller, cost.ram);

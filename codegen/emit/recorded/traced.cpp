@@ -80,6 +80,8 @@ std::vector<int> TracedFunction::results() const {
   return nodes;
 }
 
+bool is_same_for_all(const Eigen::VectorXd& values) { return (values.array() == values(0)).all(); }
+
 TracedFunction trace_weigh(const Controller& controller) {
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
@@ -87,9 +89,12 @@ TracedFunction trace_weigh(const Controller& controller) {
   TraceListener listener(controller, function);
   const auto input = [&](const char* text, const char* name) { return Expr::of(function.graph->input(text, name)); };
   step::Weighing<Expr> weighing = step::weighing_of(model, 0);
-  weighing.limit = input("limits[i]", "limit");
-  weighing.widen = input("widen[i]", "wider");
-  weighing.narrow = input("narrow[i]", "narrower");
+  const auto of_output = [&](Expr& constant, const Eigen::VectorXd& values, const char* text, const char* name) {
+    if (!is_same_for_all(values)) constant = input(text, name);
+  };
+  of_output(weighing.limit, controller.bounds.innovation, "limits[i]", "limit");
+  of_output(weighing.widen, controller.gate.widen, "widen[i]", "wider");
+  of_output(weighing.narrow, controller.gate.narrow, "narrow[i]", "narrower");
   Expr widening = input("self->widening[i]", "widening");
   const Expr nu = input("nu", "innovation"), variance = input("S", "variance");
   function.answer = step::weigh_unexpected(weighing, widening, nu, variance, -1, listener).node;

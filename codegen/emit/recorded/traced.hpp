@@ -35,8 +35,9 @@ struct TracedController {
 
 TracedController trace_controller(const Controller& controller);
 
-// Whether output i is used, of its nu and S; limits[i], widen[i] and narrow[i] are its constants.
+// Whether output i is used, of its nu and S. What is not the same for all outputs is limits[i], widen[i] or narrow[i].
 TracedFunction trace_weigh(const Controller& controller);
+bool is_same_for_all(const Eigen::VectorXd& values);
 
 // What both styles have as straight-line code: who does not call it does not pay for it.
 

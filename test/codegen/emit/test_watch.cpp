@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include <unity.h>
 
@@ -46,6 +47,25 @@ void test_a_gate_beside_everything_else() {
     design.arithmetic = "fused", design.form = "predictor";
     expect_emitted_to_pass(changed(design, gate_at_three), {Language::c});
   }
+}
+
+// kalman.gate alone is as wide as the file has it; a spike is only looked for where nobody has said anything, or has asked.
+void test_the_narrower_one_of_gate_and_spike_is_the_threshold() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  struct Case {
+    double gate;
+    std::optional<double> spike;
+    double threshold;
+  };
+  for (const Case& each : {Case{0, {}, 300}, Case{5, {}, 5}, Case{1000, {}, 1000}, Case{0, 50, 50}, Case{0, infinity, 0},
+                           Case{5, 50, 5}, Case{50, 5, 5}, Case{5, infinity, 5}})
+    for (const Kind& kind : kinds) {
+      const Controller controller = changed(design_of(kind), [&](Problem& problem, Solution&) {
+        problem.estimator->gate = each.gate, problem.estimator->spike = each.spike;
+      });
+      TEST_ASSERT_EQUAL_DOUBLE(each.threshold, controller.gate.sigma);
+      TEST_ASSERT_EQUAL_INT(each.threshold > 0, controller.has.gate);
+    }
 }
 
 // What a program prints in either style.
@@ -205,6 +225,7 @@ void test_innovation_and_variance_are_those_of_the_outputs_as_they_are() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_a_gate_in_every_filter);
+  RUN_TEST(test_the_narrower_one_of_gate_and_spike_is_the_threshold);
   RUN_TEST(test_a_gate_beside_everything_else);
   RUN_TEST(test_an_unlikely_output_is_left_out_and_counted);
   RUN_TEST(test_the_gate_is_where_the_variance_says);
