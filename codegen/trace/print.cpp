@@ -221,7 +221,9 @@ std::string Printer::question(int node) const {
   const std::string answer = !graph_.target().is_prover
                                  ? call
                                  : "RESTATED(" + call + ", BELOW(" + print(at.b, any) + ", " + literal(at.value, true) + "))";
-  return wrap("    int " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ")\n" +
+  // A prover follows both answers from here on, but not those to the questions before: they would multiply.
+  const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
+  return merge + wrap("    int " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ")\n" +
          wrap("        " + name + " = " + answer + ";", 12) + "\n";
 }
 
