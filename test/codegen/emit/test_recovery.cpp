@@ -39,7 +39,10 @@ long two_digits_up(double samples) {
   return static_cast<long>(std::ceil(samples / unit) * unit);
 }
 
-long samples_of_gate(const Controller& controller) { return controller.has.gate ? 137 : 1; }
+// From 1 to 2⁸⁰; without a gate there is the reset.
+long samples_of_gate(const Controller& controller) {
+  return controller.has.gate ? static_cast<long>(std::ceil(80 * std::log(2.0) / std::log(controller.gate.widen(0)))) : 1;
+}
 
 // Samples until factorⁿ bound ≤ √P.
 double samples_from_bound(const Controller& controller, const Filter& filter) {
