@@ -12,7 +12,7 @@
 #   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design: default 10000000 honest samples
 #   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
 #                                                many of each part; test/mutants
-#   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 60 random
+#   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 72 random
 #                                                designs, flipped once in closed loop: default all, or so many of each; test/flips
 #
 # <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19 test/run.sh.
@@ -37,7 +37,7 @@ test/campaign.sh <build> <campaign>             on two processors
   options [compiler] default both                6 hours
   spikes [samples]  default 10000000             1 hour
   mutants [count]   default all of each part     2 hours
-  flips [count]     default all of each part    10 minutes
+  flips [count]     default all of each part    2 minutes
 END
 }
 
@@ -236,7 +236,7 @@ flips() {
       parts+=("$(basename "$name" .toml).$style")
     done
   done
-  for name in {1..60}; do
+  for name in {1..72}; do
     parts+=("$name.unrolled")
   done
   mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")

@@ -51,8 +51,10 @@ void TraceListener::gate(const Condition& gated, int) {
 
 Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu, const trace::Expr& variance) {
   function_.weighs = true;
-  return {function_.graph->ask(expected.node, controller_.problem.name + "_weigh(self, &status, " + std::to_string(output), nu.node,
-                               variance.node, controller_.bounds.innovation(output))};
+  const std::string call = controller_.problem.name + "_weigh(self, &status, " + std::to_string(output);
+  function_.asked.push_back(
+      function_.graph->ask(expected.node, call, nu.node, variance.node, controller_.bounds.innovation(output)));
+  return {function_.asked.back()};
 }
 
 int TraceListener::choice(const Condition& condition, int yes, int no) {

@@ -76,6 +76,7 @@ std::vector<int> TracedFunction::results() const {
   if (finite >= 0) nodes.push_back(finite);
   if (answer >= 0) nodes.push_back(answer);
   nodes.insert(nodes.end(), gates.begin(), gates.end());
+  nodes.insert(nodes.end(), asked.begin(), asked.end());
   nodes.insert(nodes.end(), lost.begin(), lost.end());
   return nodes;
 }
