@@ -55,7 +55,7 @@ std::string status(const Controller& controller, const Printed& printed) {
     const std::string bits = printer.operand(status);
     raised += raised.empty() ? bits : " | " + bits;
   }
-  if (function.weighs) return status_of_weighed(controller, printed);
+  if (!function.asked.empty()) return status_of_weighed(controller, printed);
   if (raised.empty()) raised = "LQG_OK";
   if (function.finite < 0 && function.is_void) return "";
   if (function.finite < 0) return "    return " + raised + ";\n";
@@ -101,7 +101,7 @@ std::string body(const Controller& controller, const TracedFunction& function,
     const bool is_used = parameter == "self" ? needs_self(printed, tables, last) : printed.reads(parameter + "[");
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
-  return "    LQG_STRICT_BODY\n" + unused + tables + (function.weighs ? "    lqg_status status = LQG_OK;\n" : "") +
+  return "    LQG_STRICT_BODY\n" + unused + tables + (!function.asked.empty() ? "    lqg_status status = LQG_OK;\n" : "") +
          printed.printer.statements(function.stores) +
          (end.empty() ? "" : "\n") + end;
 }

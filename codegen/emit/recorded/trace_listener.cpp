@@ -50,7 +50,6 @@ void TraceListener::gate(const Condition& gated, int) {
 }
 
 Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu, const trace::Expr& variance) {
-  function_.weighs = true;
   const std::string call = controller_.problem.name + "_weigh(self, &status, " + std::to_string(output);
   function_.asked.push_back(
       function_.graph->ask(expected.node, call, nu.node, variance.node, controller_.bounds.innovation(output)));
