@@ -1,7 +1,8 @@
 /* A board that is a program of the PC: the target's own text, its serial line being standard input and output. One byte of what
  * it says can be damaged on the way:
  *
- *     PIL_FAULT=flip:N   byte N has one bit wrong
+ *     PIL_FAULT=flip:N   byte N has one bit wrong, and the counter stands still: what it measures may look like the beginning of
+ *                        a frame, and a damaged frame with another one inside counts as two
  *     PIL_FAULT=drop:N   byte N is lost
  *     PIL_FAULT=junk:N   before byte N come others, the beginning of a frame among them
  *     PIL_FAULT=end:N    the board dies
@@ -96,7 +97,7 @@ uint32_t counter_now(void)
 
     if (happens("dear", 1))
         return dear_counter();
-    if (happens("still", 1))
+    if (happens("still", 1) || strcmp(fault, "flip") == 0)
         return 0;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (uint32_t)((uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec);
