@@ -150,7 +150,8 @@ void check_start(const Controller& controller, design::Findings& findings) {
                           std::string("expected ") + what + " below " + design::decimal(most) + ", found " +
                               design::decimal(size) + " for " +
                               controller.problem.plant.states[static_cast<std::size_t>(i)].name +
-                              ": its square has to be a number of the target; choose a larger unit, or double"});
+                              ": its square has to be a number of the target; choose a larger unit" +
+                              (controller.target.is_double ? "" : ", or real = \"double\"")});
   };
   for (int i = 0; i < controller.problem.estimator->P0.rows(); ++i) {
     check("kalman.initial_state", "values", i, std::abs(controller.x0(i)));

@@ -22,13 +22,13 @@ class NumberCheck {
   // A number of the file that must be neither infinite nor 0.
   void keep(const std::string& key, double value) {
     const double rounded = of_target(value);
-    if (!std::isfinite(rounded) || rounded == 0) refuse(key, "a number", value);
+    if (!is_number(rounded)) refuse(key, "a number", value, is_number(value));
   }
 
   // Its square is a number of the target, too.
   void keep_square(const std::string& key, double value) {
     const double rounded = of_target(value), square = of_target(rounded * rounded);
-    if (!std::isfinite(square) || square == 0) refuse(key, "a number whose square", value);
+    if (!is_number(square)) refuse(key, "a number whose square", value, is_number(value * value));
   }
 
   void keep(const std::string& key, const std::string& what, const RealMatrix& matrix, bool may_vanish) {
@@ -52,10 +52,11 @@ class NumberCheck {
   void check_limits(double u_min, double u_max, int input) {
     const std::string entry = "[" + std::to_string(input) + "]";
     const double low = limit_of_target(u_min, +1, is_double_), high = limit_of_target(u_max, -1, is_double_);
-    if (!(low < high) || (std::isinf(low) && low > 0) || (std::isinf(high) && high < 0))
+    if (!are_apart(low, high))
       return design::add_error(findings_, "limits." + std::string(std::isinf(u_max) ? "u_min" : "u_max") + entry,
                                "expected limits with two numbers of " + scalar() +
-                                   " or more from one to the other, found " + design::decimal(u_min) + " and " + design::decimal(u_max) + remedy());
+                                   " or more from one to the other, found " + design::decimal(u_min) + " and " + design::decimal(u_max) +
+                                   remedy(are_apart(limit_of_target(u_min, +1, true), limit_of_target(u_max, -1, true))));
     note_limit("limits.u_min" + entry, u_min, low);
     note_limit("limits.u_max" + entry, u_max, high);
   }
@@ -67,7 +68,8 @@ class NumberCheck {
     if (limit_of_target(std::min(change, largest()), -1, is_double_) == 0)
       return design::add_error(findings_, key, "expected a change in a sample, u_rate · sample_time, that " + scalar() +
                                                    " can tell from 0, found " + design::decimal(rate) + " · " +
-                                                   design::decimal(sample_time) + remedy());
+                                                   design::decimal(sample_time) +
+                                                   remedy(limit_of_target(change, -1, true) != 0));
     if (change > largest()) note(key, rate, "times sample_time is beyond", "the largest number is the limit");
   }
 
@@ -77,11 +79,18 @@ class NumberCheck {
     return is_double_ ? std::numeric_limits<double>::max() : static_cast<double>(std::numeric_limits<float>::max());
   }
   std::string scalar() const { return is_double_ ? "double" : "float"; }
-  std::string remedy() const { return is_double_ ? ": choose another unit" : ": choose another unit, or real = \"double\""; }
+  // What may help; double where it does.
+  std::string remedy(bool helps_in_double) const {
+    return std::string(": choose another unit") + (!is_double_ && helps_in_double ? ", or real = \"double\"" : "");
+  }
+  static bool is_number(double value) { return std::isfinite(value) && value != 0; }
+  static bool are_apart(double low, double high) {
+    return low < high && !(std::isinf(low) && low > 0) && !(std::isinf(high) && high < 0);
+  }
 
-  void refuse(const std::string& key, const std::string& what, double found) {
+  void refuse(const std::string& key, const std::string& what, double found, bool helps_in_double) {
     design::add_error(findings_, key, "expected " + what + " that " + scalar() + " can tell from 0 and infinity, found " +
-                                          design::decimal(found) + remedy());
+                                          design::decimal(found) + remedy(helps_in_double));
   }
   void note(const std::string& key, double value, const std::string& is, const std::string& consequence) {
     design::add_note(findings_, key, design::decimal(value) + " " + is + " " + scalar() + ": " + consequence);

@@ -212,9 +212,10 @@ LinearFormResult modal_form(const Problem& problem, const Solution& solution) {
 void check_rounded_form(const Problem& problem, const LinearForm& form, Solution& solution, Findings& findings) {
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   if (!solution.loop.rounded) return;
-  const auto held = [&](const RealMatrix& a) { return held_by(problem.code.real, a); };
-  check_rounded_controller(problem, sample_stages(problem).back(),
-                           {held(form.A), held(form.B), held(form.C), held(form.D), form.A.rows(), 0}, solution, findings);
+  const auto controller_in = [&](Scalar real) -> Compensator {
+    return {held_by(real, form.A), held_by(real, form.B), held_by(real, form.C), held_by(real, form.D), form.A.rows(), 0};
+  };
+  check_rounded_controller(problem, sample_stages(problem).back(), controller_in, solution, findings);
 }
 
 }  // namespace lqg::design

@@ -90,7 +90,7 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
     add_full_margins(problem, run);
   }
   check_representable(solution, problem.code.real, findings);
-  check_rounded(problem, run.stages.back(), solution, findings);
+  check_rounded(problem, run.stages.back(), run.loop_poles, solution, findings);
   check_requirements(problem, solution, findings);
 }
 

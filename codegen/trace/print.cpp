@@ -59,7 +59,7 @@ std::string literal(double value, bool is_double) {
   if (!std::isfinite(is_double ? value : static_cast<double>(static_cast<float>(value))))
     throw std::range_error(std::string("expected numbers that ") + (is_double ? "double" : "float") +
                            " can hold, found one that is not finite in what is to be printed" +
-                           (is_double ? "" : ": choose larger units, or real = \"double\""));
+                           (is_double ? "" : std::isfinite(value) ? ": choose larger units, or real = \"double\"" : ": choose larger units"));
   char text[40];
   const std::to_chars_result end = is_double ? std::to_chars(text, text + sizeof text, value)
                                              : std::to_chars(text, text + sizeof text, static_cast<float>(value));

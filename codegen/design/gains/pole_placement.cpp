@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "design/checks/rounding_artefacts.hpp"
 #include "design/checks/well_posed.hpp"
 
 namespace lqg::design {
@@ -113,6 +114,7 @@ PlacedGain place_regulator(const Problem& problem, const SampledPlant& plant, co
   check_wanted_poles(wanted, "pole_placement", plant.A.rows(),
                      problem.plant.delay > 0 ? " and each input on its way" : "", findings);
   if (!has_error(findings)) result.may_want_digits = !check_reachable(problem, plant, findings);
+  if (!has_error(findings)) check_placement_is_no_artefact(problem, findings);
   if (has_error(findings)) return result;
   return placed(wanted, "pole_placement", problem.plant.sample_time, plant.A, plant.B, choice, findings);
 }
@@ -126,6 +128,7 @@ PlacedGain place_observer(const Problem& problem, const Samples& samples, const 
   PlacedGain result;
   check_wanted_poles(wanted, "observer", plant.A.rows(), "", findings);
   if (!has_error(findings)) result.may_want_digits = !check_observable(problem, plant, seen, findings);
+  if (!has_error(findings)) check_observer_is_no_artefact(problem, findings);
   if (has_error(findings)) return result;
   result = placed(wanted, "observer", problem.plant.sample_time, plant.A.transpose(), seen.transpose(), choice,
                   findings);

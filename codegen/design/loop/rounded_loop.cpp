@@ -40,8 +40,11 @@ Solution held(const Solution& solution, Scalar real) {
 
 std::string name_of(Scalar real) { return real == Scalar::float32 ? "float" : "double"; }
 
-// What may help where this scalar does not.
-std::string remedy(Scalar real) { return real == Scalar::float32 ? ": use real = \"double\"" : ""; }
+// What helps where this scalar does not, if double does.
+std::string remedy(Scalar real, bool helps_in_double) {
+  if (real == Scalar::float64) return "";
+  return helps_in_double ? ": use real = \"double\"" : ", and double does not help";
+}
 
 // The largest |z|, when it is not inside of the circle.
 const ComplexReal* unstable_pole(const std::vector<ComplexReal>& poles) {
@@ -63,18 +66,27 @@ bool loses_column(const RealMatrix& exact, const RealMatrix& rounded) {
   return false;
 }
 
-void check_poles(const std::vector<ComplexReal>& poles, const std::string& what, Scalar real, Findings& findings) {
+using PolesIn = std::function<std::vector<ComplexReal>(Scalar)>;
+
+// The poles with numbers of this scalar.
+std::vector<ComplexReal> checked_poles(const PolesIn& poles_in, const std::string& what, Scalar real,
+                                       Findings& findings) {
+  const std::vector<ComplexReal> poles = poles_in(real);
   if (const ComplexReal* pole = unstable_pole(poles))
     add_error(findings, "code.real",
               what + " with the numbers rounded to " + name_of(real) + " is unstable: a pole at z = "
-                  + short_complex(*pole, 1) + remedy(real));
+                  + short_complex(*pole, 1) + remedy(real, !unstable_pole(poles_in(Scalar::float64))));
+  return poles;
 }
 
 void check_cost(const SampledStage& last, const Compensator& controller, const Solution& solution, RoundedLoop& rounded,
                 Findings& findings) {
   if (!solution.loop.cost_per_sample) return;
   const std::optional<SteadyCost> cost = steady_cost(last.problem, last.samples, controller);
-  if (!cost) return;
+  if (!cost)
+    return add_note(findings, "code.real",
+                    "the cost of the loop with the numbers rounded to " + name_of(last.problem.code.real)
+                        + " is not known: its poles are too near to the unit circle");
   rounded.cost_per_sample = to_double(cost->per_sample);
   const double ratio = *rounded.cost_per_sample / *solution.loop.cost_per_sample;
   if (ratio > 1.01)
@@ -82,26 +94,21 @@ void check_cost(const SampledStage& last, const Compensator& controller, const S
              "the numbers rounded to " + name_of(last.problem.code.real) + " cost " + short_number(100 * (ratio - 1)) + " % more");
 }
 
-void check_filter(const Solution& rounded, Scalar real, Findings& findings) {
+std::vector<ComplexReal> poles_of_filter(const Solution& rounded) {
   const RealMatrix& A = rounded.plant.A;
   const RealMatrix gain = multiply(A, rounded.estimator->L) + rounded.estimator->M;
-  check_poles(eigenvalues(A - multiply(gain, rounded.plant.C)), "the filter", real, findings);
-}
-
-bool is_stable(const Poles& poles) {
-  for (const std::complex<double>& pole : poles)
-    if (!(std::abs(pole) < 1)) return false;
-  return true;
+  return eigenvalues(A - multiply(gain, rounded.plant.C));
 }
 
 }  // namespace
 
-void check_rounded_controller(const Problem& problem, const SampledStage& last, const Compensator& controller,
+void check_rounded_controller(const Problem& problem, const SampledStage& last, const ControllerIn& controller_in,
                               Solution& solution, Findings& findings) {
   const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
-  const std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, controller).A);
-  check_poles(poles, "the loop", problem.code.real, findings);
+  const PolesIn poles_in = [&](Scalar real) { return eigenvalues(closed_loop(plant, controller_in(real)).A); };
+  const std::vector<ComplexReal> poles = checked_poles(poles_in, "the loop", problem.code.real, findings);
   if (has_error(findings)) return;
+  const Compensator controller = controller_in(problem.code.real);
   RoundedLoop& loop = solution.loop.rounded.emplace();
   loop.poles = sorted_poles(poles);
   loop.at_input = rough_margins(open_at_inputs(plant, controller), poles);
@@ -109,26 +116,41 @@ void check_rounded_controller(const Problem& problem, const SampledStage& last, 
   check_cost(last, controller, solution, loop, findings);
 }
 
-void check_model(const SampledPlant& exact, Scalar real, Findings& findings) {
+namespace {
+
+// What of a model is lost when it is rounded.
+std::vector<std::string> lost(const SampledPlant& exact, Scalar real) {
   const SampledPlant rounded = held(exact, real);
   const RealMatrix one = identity(exact.A.rows());
-  const std::string end = " in " + name_of(real) + ": the sampled plant cannot be represented" + remedy(real);
-  if (is_zero(rounded.A - one) && !is_zero(exact.A - one))
-    add_error(findings, "code.real", "A becomes the identity" + end);
-  if (loses_column(exact.B, rounded.B)) add_error(findings, "code.real", "the effect of an input, B, becomes 0" + end);
-  if (loses_column(exact.C.transpose(), rounded.C.transpose()))
-    add_error(findings, "code.real", "an output's row of C becomes 0" + end);
+  std::vector<std::string> all;
+  if (is_zero(rounded.A - one) && !is_zero(exact.A - one)) all.push_back("A becomes the identity");
+  if (loses_column(exact.B, rounded.B)) all.push_back("the effect of an input, B, becomes 0");
+  if (loses_column(exact.C.transpose(), rounded.C.transpose())) all.push_back("an output's row of C becomes 0");
+  return all;
 }
 
-void check_rounded(const Problem& problem, const SampledStage& last, Solution& solution, Findings& findings) {
+}  // namespace
+
+void check_model(const SampledPlant& exact, Scalar real, Findings& findings) {
+  for (const std::string& what : lost(exact, real)) {
+    const std::vector<std::string> in_double = lost(exact, Scalar::float64);
+    const bool helps = std::find(in_double.begin(), in_double.end(), what) == in_double.end();
+    add_error(findings, "code.real",
+              what + " in " + name_of(real) + ": the sampled plant cannot be represented" + remedy(real, helps));
+  }
+}
+
+void check_rounded(const Problem& problem, const SampledStage& last, const std::vector<ComplexReal>& poles,
+                   Solution& solution, Findings& findings) {
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
-  const Solution rounded = held(solution, problem.code.real);
-  if (has_error(findings) || !is_stable(solution.loop.poles)) return;
+  if (has_error(findings) || unstable_pole(poles)) return;
   if (solution.regulator && solution.estimator == std::nullopt && problem.estimator) return;
+  const auto in = [&](Scalar real) { return held(solution, real); };
   if (solution.regulator)
-    check_rounded_controller(problem, last, compensator(problem, rounded), solution, findings);
+    check_rounded_controller(problem, last, [&](Scalar real) { return compensator(problem, in(real)); }, solution,
+                             findings);
   else if (solution.estimator)
-    check_filter(rounded, problem.code.real, findings);
+    checked_poles([&](Scalar real) { return poles_of_filter(in(real)); }, "the filter", problem.code.real, findings);
 }
 
 }  // namespace lqg::design

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "design/checks/rounding_artefacts.hpp"
 #include "design/checks/well_posed.hpp"
 #include "design/gains/pole_placement.hpp"
 #include "design/gains/schedule.hpp"
@@ -21,8 +22,10 @@ std::vector<ComplexReal> poles_of_filter(const Samples& samples, const RealMatri
 // Is there a steady filter? One that is updated on the target can do without, where a mode needs no noise.
 bool has_steady_filter(const Problem& problem, const Samples& samples, DesignRun& result) {
   if (!check_detectable(problem, own_plant(samples), result.findings)) result.may_want_digits = true;
+  if (!has_error(result.findings)) check_sight_is_no_artefact(problem, result.findings);
   Findings on_limit;
   check_noise_on_limit(problem, samples, on_limit);
+  if (on_limit.empty()) check_noise_is_no_artefact(problem, on_limit);
   const bool is_online = problem.estimator->gain == Gain::online;
   for (Finding& finding : on_limit) {
     if (is_online) finding.severity = Severity::note;

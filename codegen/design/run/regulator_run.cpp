@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "design/checks/rounding_artefacts.hpp"
 #include "design/checks/well_posed.hpp"
 #include "design/gains/horizon.hpp"
 #include "design/gains/pole_placement.hpp"
@@ -17,13 +18,21 @@ SampledPlant plant_without_delay(const Problem& problem, const Samples& samples)
   return problem.plant.delay > 0 ? sample(problem, Delay()).plant : samples.plant;
 }
 
+void check_integral(const Problem& problem, const SampledPlant& plant, Findings& findings) {
+  const std::vector<int>& outputs = problem.regulator->integral->outputs;
+  const std::size_t before = findings.size();
+  check_set_points(plant, outputs, "lqr.integral", findings);
+  if (findings.size() == before) check_set_points_are_no_artefact(problem, outputs, "lqr.integral", findings);
+}
+
 void check_regulator(const Problem& problem, const Samples& samples, DesignRun& result) {
   result.may_want_digits =
       !check_stabilisable(problem, plant_without_delay(problem, samples), result.findings);
-  if (problem.regulator->integral)
-    check_set_points(samples.plant, problem.regulator->integral->outputs, "lqr.integral", result.findings);
+  if (!has_error(result.findings)) check_reach_is_no_artefact(problem, result.findings);
+  if (problem.regulator->integral) check_integral(problem, samples.plant, result.findings);
   if (!has_error(result.findings))
     check_weights_on_limit(problem, deciding_equation(problem, samples), result.findings);
+  if (!has_error(result.findings)) check_weights_are_no_artefact(problem, result.findings);
 }
 
 void take_table(const GainTable& table, const char* key, DesignRun& result) {
@@ -91,6 +100,7 @@ void run_feed_forward(const SampledStage& last, DesignRun& result) {
       set_point(last.problem, samples.plant, samples.between ? samples.between->cost : *samples.cost,
                 result.findings);
   if (!point) return;
+  check_set_points_are_no_artefact(last.problem, last.problem.regulator->track, "lqr.track", result.findings);
   RegulatorSolution& regulator = *result.solution.regulator;
   regulator.Nx = point->Nx;
   regulator.Nu = point->Nu;
