@@ -13,6 +13,7 @@
 #include "design/numeric/ziv_test.hpp"
 #include "design/rounding.hpp"
 #include "design/run/design_run.hpp"
+#include "design/run/plausibility.hpp"
 #include "design/run/sparse_gain_run.hpp"
 #include "design/sampled/stages.hpp"
 #include "design/solution_matrices.hpp"
@@ -92,6 +93,7 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
   check_representable(solution, problem.code.real, findings);
   check_rounded(problem, run.stages.back(), run.loop_poles, solution, findings);
   check_requirements(problem, solution, findings);
+  if (!has_error(findings)) note_implausible(run.stages.back().problem, run, findings);
 }
 
 void check_matrices(const Problem& problem, Findings& findings) {
