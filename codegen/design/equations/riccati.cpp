@@ -85,17 +85,23 @@ std::optional<RealMatrix> cost_of_gain(const RiccatiEquation& e, const RealMatri
   return X + in_present_digits(*correction);
 }
 
+// Is X the rounding of 0? So it is where u = −Kx costs nothing, Q = N R⁻¹ Nᵀ: the terms of its cost cancel.
+bool is_rounding_of_zero(const RiccatiEquation& e, const RealMatrix& K, const RealMatrix& X) {
+  return largest_entry(X) <= negligible(0.6) * (largest_entry(e.Q) + largest_entry(transpose_congruence(K, e.R)));
+}
+
 // Kleinman's steps, quadratic from a stabilising K on; every closed loop on the way is stable.
 RiccatiResult polish(const RiccatiEquation& e, RealMatrix K, RealMatrix X) {
   RiccatiResult result;
   Real before = 1;
   for (int i = 0; i < 200; ++i) {
     report_progress("Riccati equation, Newton's method,", i);
-    const std::optional<RealMatrix> next = cost_of_gain(e, K, X);
+    std::optional<RealMatrix> next = cost_of_gain(e, K, X);
     if (!next) {
       result.failure = i == 0 ? RiccatiFailure::no_start : RiccatiFailure::not_converged;
       return result;
     }
+    if (is_rounding_of_zero(e, K, *next)) next->setZero();
     const std::optional<RealMatrix> gain = gain_of(e, *next);
     if (!gain) {
       result.failure = RiccatiFailure::not_definite;

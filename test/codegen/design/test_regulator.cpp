@@ -65,6 +65,30 @@ void test_cross_term_is_a_change_of_the_input() {
   TEST_ASSERT_TRUE(to_double(a.K(0, 0)) == to_double(b.K(0, 0) + Real(0.25)));
 }
 
+// Q = KᵀRK and N = KᵀR: the cost is (u + Kx)ᵀR(u + Kx), and u = −Kx, which stabilises, costs nothing.
+void expect_free_gain(Problem problem, const MatrixXd& K, const MatrixXd& R) {
+  problem.estimator.reset();
+  problem.regulator->R = R;
+  problem.regulator->N = K.transpose() * R;
+  problem.regulator->Q = K.transpose() * R * K;
+  const RegulatorSolution found = *solved(problem).regulator;
+  TEST_ASSERT_TRUE(is_zero(found.X));
+  TEST_ASSERT_TRUE(to_doubles(found.K) == K);
+}
+
+void test_gain_that_costs_nothing() {
+  Problem scalar = scalar_problem(Domain::continuous, -2);
+  scalar.regulator->cost = Cost::continuous;
+  expect_free_gain(scalar, MatrixXd::Constant(1, 1, 0.25), MatrixXd::Constant(1, 1, 16));
+  const MatrixXd A = (MatrixXd(2, 2) << 1, 0.5, -3, 0.25).finished(), K = (MatrixXd(2, 2) << 4, 0.5, -2, 3).finished();
+  Problem several = problem_of(Domain::continuous, 0.1, A, MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2));
+  several.regulator->cost = Cost::continuous;
+  const MatrixXd R = (MatrixXd(2, 2) << 2, 0.5, 0.5, 1).finished();
+  expect_free_gain(several, K, R);
+  several = problem_of(Domain::discrete, 0.1, A / 4, MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2));
+  expect_free_gain(several, K / 16, R);
+}
+
 // x₀ᵀXx₀ is what the loop costs from x₀ on.
 void test_X_is_the_cost_from_the_start() {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -113,6 +137,7 @@ int main() {
   RUN_TEST(test_continuous_gain_of_the_double_integrator_is_one_and_root_three);
   RUN_TEST(test_sampled_cost_tends_to_the_continuous_one_from_above);
   RUN_TEST(test_cross_term_is_a_change_of_the_input);
+  RUN_TEST(test_gain_that_costs_nothing);
   RUN_TEST(test_X_is_the_cost_from_the_start);
   RUN_TEST(test_decoupled_halves_have_exact_zeros);
   RUN_TEST(test_poles_are_sorted_and_in_conjugate_pairs);
