@@ -8,7 +8,7 @@ void replace(const Eigen::MatrixXd& by, Eigen::MatrixXd& matrix) {
   if (by.size() > 0) matrix = by;
 }
 
-// `stage` in the place of what the problem says.
+// `stage` in the place of what the problem says; what it leaves out stays.
 Problem replaced(Problem problem, const Stage& stage) {
   Plant& plant = problem.plant;
   replace(stage.A, plant.A);
@@ -33,7 +33,7 @@ Problem replaced(Problem problem, const Stage& stage) {
 std::vector<Problem> problems_of_stages(const Problem& problem) {
   std::vector<Problem> problems = {problem};
   problems.front().stages.clear();
-  for (const Stage& stage : problem.stages) problems.push_back(replaced(problems.front(), stage));
+  for (const Stage& stage : problem.stages) problems.push_back(replaced(problems.back(), stage));
   return problems;
 }
 

@@ -10,11 +10,12 @@ namespace lqg::design {
 // From step `from` on.
 struct SampledStage {
   int from = 0;
-  Problem problem;  // with what this stage replaces
+  Problem problem;  // with what this stage and those before it replace
   Samples samples;
 };
 
-// `problem` with what each stage replaces, before and from the first stage on.
+// `problem` as it is before the first stage, and from each stage on: a stage replaces what it has, and keeps from the
+// stage before what it leaves out.
 std::vector<Problem> problems_of_stages(const Problem& problem);
 
 // The first one begins at step 0; one alone without [[stage]].

@@ -311,6 +311,25 @@ void test_schedule_goes_through_the_stages() {
   TEST_ASSERT_TRUE(found.stages[0].noise->V(0, 0) == 1 && found.noise->V(0, 0) < 1);
 }
 
+// V changes at step 20 and W at step 40: from there on both have.
+void test_a_stage_keeps_what_the_one_before_has_changed() {
+  Problem problem = estimator_alone(two_mass());
+  problem.estimator->gain = Gain::schedule;
+  problem.code.flash = 1 << 20;
+  Stage first, second;
+  first.from = 20;
+  first.V = MatrixXd::Identity(2, 2);
+  second.from = 40;
+  second.W = 9 * problem.estimator->W;
+  problem.stages = {first, second};
+  Problem later = estimator_alone(two_mass());
+  later.estimator->V = first.V;
+  later.estimator->W = second.W;
+  const Solution found = solved(problem);
+  expect_rounded(solved(later).estimator->L, found.estimator->L, "L");
+  TEST_ASSERT_TRUE(found.stages[1].noise->V(0, 0) == 1);
+}
+
 void test_steady_gain_and_stages_of_the_filter_exclude_each_other() {
   Problem problem = estimator_alone(two_mass());
   Stage stage;
@@ -462,3 +481,4 @@ int main() {
   RUN_TEST(test_integral_of_a_speed_is_refused_with_the_reason);
   return UNITY_END();
 }
+  RUN_TEST(test_a_stage_keeps_what_the_one_before_has_changed);
