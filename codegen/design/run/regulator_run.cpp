@@ -95,10 +95,7 @@ void run_optimal(const Problem& problem, const std::vector<SampledStage>& stages
 }
 
 void run_feed_forward(const SampledStage& last, DesignRun& result) {
-  const Samples& samples = last.samples;
-  const std::optional<SetPoint> point =
-      set_point(last.problem, samples.plant, samples.between ? samples.between->cost : *samples.cost,
-                result.findings);
+  const std::optional<SetPoint> point = set_point(last.problem, last.samples.plant, result.findings);
   if (!point) return;
   check_set_points_are_no_artefact(last.problem, last.problem.regulator->track, "lqr.track", result.findings);
   RegulatorSolution& regulator = *result.solution.regulator;

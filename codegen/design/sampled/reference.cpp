@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "design/numeric/elimination.hpp"
+#include "design/sampled/weights.hpp"
 
 namespace lqg::design {
 
@@ -19,16 +20,6 @@ Freedom least(const Freedom& of, const RealMatrix& W) {
   const RealMatrix slope = transpose_multiply(of.null, multiply(W, of.particular));
   const Eliminated solved = eliminated(transpose_congruence(of.null, W), -slope);
   return {of.particular + multiply(of.null, solved.particular), multiply(of.null, solved.null)};
-}
-
-// The weight of an input that stays the same for a period: of a delayed one, all that are on their way.
-RealMatrix weight_of_constant_input(const Problem& problem, const SampledCost& cost) {
-  const Index nx = problem.plant.A.rows(), nu = cost.R.rows(), on_their_way = cost.Q.rows() - nx;
-  const RealMatrix Q = cost.Q.bottomRightCorner(on_their_way, on_their_way), N = cost.N.bottomRows(on_their_way);
-  RealMatrix same(on_their_way, nu);
-  for (Index i = 0; i < on_their_way; i += nu) same.middleRows(i, nu) = identity(nu);
-  const RealMatrix across = transpose_multiply(same, N);
-  return cost.R + across + across.transpose() + transpose_congruence(same, Q);
 }
 
 // A plant that rests anywhere needs no input for it: what elimination leaves of such a zero is one.
@@ -55,8 +46,7 @@ std::vector<int> reference_outputs(const Problem& problem) {
   return outputs;
 }
 
-std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& plant, const SampledCost& cost,
-                                  Findings& findings) {
+std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& plant, Findings& findings) {
   const std::vector<int>& track = problem.regulator->track;
   const std::vector<int> outputs = reference_outputs(problem);
   const std::size_t before = findings.size();
@@ -71,7 +61,7 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
                              beside(rows_of(plant.C, track), rows_of(plant.D, track)));
   const Eliminated all = eliminated(M, wanted);
   RealMatrix of_u = zeros(nx + nu, nx + nu), of_x = of_u;
-  of_u.bottomRightCorner(nu, nu) = weight_of_constant_input(problem, cost);
+  of_u.bottomRightCorner(nu, nu) = stated_weights(problem).R;
   of_x.topLeftCorner(nx, nx) = identity(nx);
   const RealMatrix point = without_rounding(least(least({all.particular, all.null}, of_u), of_x).particular);
   return SetPoint{point.topRows(nx), point.bottomRows(nu)};

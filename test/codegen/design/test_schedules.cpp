@@ -420,6 +420,22 @@ void test_set_point_of_many_takes_the_least_input() {
   expect_small(abs(found.regulator->Nu(1, 0) - Real(1) / 10), 1e-16, "u1");
 }
 
+// ẋ = −x₀ + u₀, −2 x₁ + u₁ rest at x = (u₀, u₁/2), whatever the samples' own R is: with y = x₀ + x₁ = r the least
+// u₀² + u₁² has u = (0.8, 0.4) r. A delay changes nothing of it.
+void test_set_point_takes_the_least_input_by_the_R_of_the_file() {
+  Problem problem = regulator_alone(problem_of(Domain::continuous, 0.5, Eigen::Vector2d(-1, -2).asDiagonal(),
+                                               MatrixXd::Identity(2, 2), Eigen::RowVector2d(1, 1)));
+  problem.regulator->Q = Eigen::Vector2d(100, 0).asDiagonal();
+  problem.regulator->track = {0};
+  for (const double delay : {0.0, 0.75}) {
+    problem.plant.delay = delay;
+    const Solution found = solved(problem);
+    const Digits scope(60);
+    expect_small(abs(found.regulator->Nu(0, 0) - Real(8) / 10), 1e-16, "u0");
+    expect_small(abs(found.regulator->Nu(1, 0) - Real(4) / 10), 1e-16, "u1");
+  }
+}
+
 // x and the sum of both states, of which the second has no input.
 void test_tracked_outputs_that_one_input_moves_together_are_refused() {
   Problem problem = regulator_alone(problem_of(Domain::discrete, 1, Eigen::Vector2d(0.5, 0.25).asDiagonal(),
@@ -471,14 +487,15 @@ int main() {
   RUN_TEST(test_schedule_ends_where_a_steady_gain_is_zero);
   RUN_TEST(test_schedule_that_does_not_fit_into_flash_is_refused);
   RUN_TEST(test_schedule_goes_through_the_stages);
+  RUN_TEST(test_a_stage_keeps_what_the_one_before_has_changed);
   RUN_TEST(test_steady_gain_and_stages_of_the_filter_exclude_each_other);
   RUN_TEST(test_online_filter_of_a_constant_bias_needs_no_steady_one);
   RUN_TEST(test_tracked_outputs_come_to_rest_at_r);
   RUN_TEST(test_set_point_that_needs_no_input_has_an_exact_zero);
   RUN_TEST(test_set_point_of_many_takes_the_least_input);
+  RUN_TEST(test_set_point_takes_the_least_input_by_the_R_of_the_file);
   RUN_TEST(test_tracked_outputs_that_one_input_moves_together_are_refused);
   RUN_TEST(test_set_points_that_do_not_exist_are_refused_with_the_reason);
   RUN_TEST(test_integral_of_a_speed_is_refused_with_the_reason);
   return UNITY_END();
 }
-  RUN_TEST(test_a_stage_keeps_what_the_one_before_has_changed);
