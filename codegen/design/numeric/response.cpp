@@ -207,6 +207,14 @@ Response::Terms<double> in_double(const Response::Terms<Real>& exact) {
   return rough;
 }
 
+template <typename Scalar>
+Response::Terms<Scalar> channel_of(const Response::Terms<Scalar>& all, Index i) {
+  Response::Terms<Scalar> one = {all.A, all.B.col(i), all.C.row(i), all.A_late, {}, all.below};
+  for (const Response::Late<Scalar>& entry : all.C_late)
+    if (entry.row == i) one.C_late.push_back({0, entry.column, entry.ago, entry.value});
+  return one;
+}
+
 // C xᵀ
 RealMatrix product(const RealMatrix& C, const RealMatrix& x) { return multiply_transpose(C, x); }
 Eigen::MatrixXd product(const Eigen::MatrixXd& C, const Eigen::MatrixXd& x) { return C * x.transpose(); }
@@ -243,6 +251,10 @@ Response::Response(RealMatrix A, RealMatrix B, RealMatrix C) {
                                   : in_hessenberg_form(std::move(A), std::move(B), std::move(C));
   rough_ = in_double(exact_);
 }
+
+Response::Response(Terms<Real> exact, Terms<double> rough) : exact_(std::move(exact)), rough_(std::move(rough)) {}
+
+Response Response::channel(Index i) const { return Response(channel_of(exact_, i), channel_of(rough_, i)); }
 
 Response Response::in_present_digits() const {
   Response result = *this;

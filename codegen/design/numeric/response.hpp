@@ -19,6 +19,9 @@ class Response {
   // The same, to be evaluated in the digits in force now.
   Response in_present_digits() const;
 
+  // Of B's and C's it has that of input and output i alone: a response of one number.
+  Response channel(Index i) const;
+
   // At z = e^(j angle) in many digits, and in double: some fifty times faster.
   ComplexMatrix at(const Real& angle) const;
   ComplexMatrix roughly_at(const Real& angle) const;
@@ -40,6 +43,8 @@ class Response {
   };
 
  private:
+  Response(Terms<Real> exact, Terms<double> rough);
+
   Terms<Real> exact_;
   Terms<double> rough_;
 };

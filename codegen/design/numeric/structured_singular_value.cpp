@@ -69,9 +69,62 @@ VectorXd balance(const MatrixXcd& H) {
   return exponents;
 }
 
+// σmax(D H D⁻¹) with d = exp(t), and the slope over t of the logarithm of the smooth norm, which is convex in t: of
+// the singular vectors u, v of all σ the sum of w (|u|² − |v|²), w = σ^(2 power) / Σ σ^(2 power).
+struct Sloped {
+  double norm;
+  VectorXd slope;
+};
+
+Sloped sloped_norm(const MatrixXcd& H, const VectorXd& t, double power) {
+  const VectorXd d = t.array().exp();
+  const MatrixXcd scaled = d.asDiagonal() * H * d.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(scaled.adjoint() * scaled);
+  const VectorXd& squared = solver.eigenvalues();
+  const double largest = squared(squared.size() - 1);
+  if (!(largest > 0)) return {0, VectorXd::Zero(t.size())};
+  VectorXd share = (squared / largest).cwiseMax(0).array().pow(power);
+  share /= share.sum();
+  const MatrixXcd& V = solver.eigenvectors();
+  const VectorXd of_u = share.array() / (squared / largest).array().max(1e-300);
+  const Eigen::MatrixXd rows = (scaled * V).cwiseAbs2() / largest;
+  return {std::sqrt(largest), rows * of_u - V.cwiseAbs2() * share};
+}
+
+constexpr double most_of_a_step = 2;
+
+// By steps against the slope, each as long as the last two slopes say (J. Barzilai, J. M. Borwein, "Two-point step size
+// gradient methods", IMA Journal of Numerical Analysis 8 (1988), 141–148). The least norm of all steps, and its t.
+double descend_by_slopes(const MatrixXcd& H, VectorXd& t, double power, int steps) {
+  VectorXd here = t;
+  Sloped at = sloped_norm(H, here, power);
+  double least = at.norm, length = 0.5 / power;
+  for (int i = 0; i < steps && at.norm > 0; ++i) {
+    VectorXd step = -length * at.slope;
+    step *= std::min(1.0, most_of_a_step / std::max(step.cwiseAbs().maxCoeff(), 1e-300));
+    here += step;
+    const Sloped next = sloped_norm(H, here, power);
+    if (next.norm < least) {
+      least = next.norm;
+      t = here;
+    }
+    const double bend = step.dot(next.slope - at.slope);
+    length = bend > 0 ? step.squaredNorm() / bend : 2 * length;
+    at = next;
+  }
+  return least;
+}
+
 }  // namespace
 
 double balanced_norm(const MatrixXcd& H) { return scaled_norm(H, balance(H)); }
+
+double structured_norm_of_many(const MatrixXcd& H) {
+  VectorXd t = balance(H) * std::log(2.0);
+  double norm = balanced_norm(H);
+  for (const double power : {4.0, 32.0, 256.0}) norm = std::min(norm, descend_by_slopes(H, t, power, 20));
+  return norm;
+}
 
 double structured_norm(const MatrixXcd& H) {
   VectorXd exponents = balance(H);

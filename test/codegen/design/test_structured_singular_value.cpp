@@ -99,6 +99,23 @@ void test_never_more_than_the_norm_nor_than_the_balanced_one() {
   }
 }
 
+// Up to three channels the scaling reaches μ (Doyle 1982): both searches end there. With more, the search channel by
+// channel is the reference, and ρ(H) is never more.
+void test_the_search_for_many_channels_ends_where_that_for_few_does() {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    Random random(seed);
+    const Index channels = 2 + static_cast<Index>(seed % 7);
+    const MatrixXcd H = random_matrix(random, channels);
+    const double found = lqg::design::structured_norm_of_many(H), reference = structured_norm(H);
+    TEST_ASSERT_TRUE(found <= reference * 1.01 && found >= radius(H, Eigen::VectorXd::Zero(channels)) * (1 - 1e-12));
+    if (channels <= 3) TEST_ASSERT_DOUBLE_WITHIN(1e-3 * reference, reference, found);
+  }
+}
+
+void test_the_search_for_many_channels_takes_no_loop_for_0() {
+  TEST_ASSERT_TRUE(lqg::design::structured_norm_of_many(MatrixXcd::Zero(12, 12)) == 0);
+}
+
 }  // namespace
 
 int main() {
@@ -108,5 +125,7 @@ int main() {
   RUN_TEST(test_units_of_the_channels_change_nothing);
   RUN_TEST(test_channels_that_do_not_meet_have_the_largest_of_their_own);
   RUN_TEST(test_never_more_than_the_norm_nor_than_the_balanced_one);
+  RUN_TEST(test_the_search_for_many_channels_ends_where_that_for_few_does);
+  RUN_TEST(test_the_search_for_many_channels_takes_no_loop_for_0);
   return UNITY_END();
 }

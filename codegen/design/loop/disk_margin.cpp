@@ -1,0 +1,121 @@
+#include "design/loop/disk_margin.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <optional>
+#include <tuple>
+
+#include "design/numeric/structured_singular_value.hpp"
+#include "design/progress.hpp"
+#include "design/rounding.hpp"
+
+namespace lqg::design {
+
+namespace {
+
+Function at_angle(Real (*value)(const ComplexMatrix&), const Evaluate& evaluate) {
+  return [value, evaluate](const Real& angle) { return value(evaluate(angle)); };
+}
+
+// I/2 − T in double.
+Eigen::MatrixXcd rough_difference(const ComplexMatrix& T) {
+  Eigen::MatrixXcd H(T.re.rows(), T.re.cols());
+  for (Index i = 0; i < H.size(); ++i) H.data()[i] = {-to_double(T.re.data()[i]), -to_double(T.im.data()[i])};
+  H.diagonal().array() += 0.5;
+  return H;
+}
+
+constexpr Index most_for_a_search = 8;  // channels whose structured norm is searched for in a whole cell
+
+// 1/μ(I/2 − T): of one channel in all digits, of several in those of double.
+Real rough_disk(const ComplexMatrix& T) { return 1 / Real(balanced_norm(rough_difference(T))); }
+Real exact_disk(const ComplexMatrix& T) {
+  if (T.re.rows() > most_for_a_search) return 1 / Real(structured_norm_of_many(rough_difference(T)));
+  if (T.re.size() > 1) return 1 / Real(structured_norm(rough_difference(T)));
+  return 1 / hypot(T.re(0, 0) - 0.5, T.im(0, 0));
+}
+
+// A cell of the grid with one minimum in it; where that is, roughly, and the disk there.
+struct Place {
+  Real low, high, angle, disk;
+};
+
+// The cells around the local minima of the rough disk on the grid, each with the grid's value. Where it is flat to the
+// rounding of double, as without any feedback, there is nothing to refine: of these places the least one, an empty cell.
+std::vector<Place> disk_places(const Search& search) {
+  std::vector<Place> places;
+  std::optional<Place> flat;
+  std::vector<Real> sizes;
+  for (const ComplexMatrix& T : search.responses) sizes.push_back(rough_disk(T));
+  for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
+    const Real &here = sizes[i], &angle = search.angles[i];
+    if (here > sizes[i - 1] || here > sizes[i + 1]) continue;
+    if (std::max<Real>(sizes[i - 1], sizes[i + 1]) > here * (1 + 1e-9))
+      places.push_back({search.angles[i - 1], search.angles[i + 1], angle, here});
+    else if (!flat || here < flat->disk)
+      flat = Place{angle, angle, angle, here};
+  }
+  if (flat) places.push_back(*flat);
+  return places;
+}
+
+// Where f is least in a cell, and how much. Its slope cannot be had of several channels: μ has kinks, and few digits.
+std::pair<Real, Real> least_in(const Place& place, const Function& f) {
+  const Real width = place.high - place.low;
+  const auto at = [&](double share) { return to_double(f(place.low + share * width)); };
+  boost::uintmax_t most = 40;
+  const auto [share, least] = boost::math::tools::brent_find_minima(at, 0.0, 1.0, 10, most);
+  return {place.low + share * width, Real(least)};
+}
+
+// One channel: where the slope of f is 0, in all digits.
+void refine_one(const std::vector<Place>& places, const Function& f, const Fineness& fineness, DiskMargin& margin) {
+  for (const Place& place : places) {
+    const Function slope = slope_of(f, fineness.step * (place.high - place.low));
+    const bool has_minimum = slope(place.low) < 0 && slope(place.high) > 0;
+    margin.as_expected = margin.as_expected && has_minimum;
+    if (!has_minimum) continue;
+    const Real angle = root_between(slope, place.low, place.high, fineness.end_of_extremum);
+    margin.least = std::min<Real>(margin.least, f(angle));
+  }
+}
+
+// The balanced disk is never more: a place where it is more than the least disk so far has nothing less.
+void refine_many(std::vector<Place> places, const Evaluate& evaluate, DiskMargin& margin) {
+  const Function lower = at_angle(rough_disk, evaluate), f = at_angle(exact_disk, evaluate);
+  for (Place& place : places) std::tie(place.angle, place.disk) = least_in(place, lower);
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.disk < b.disk; });
+  for (const Place& place : places) {
+    report_progress("disk margin", static_cast<long>(&place - places.data()), static_cast<long>(places.size()));
+    if (place.disk < margin.least) margin.least = std::min<Real>(margin.least, f(place.angle));
+  }
+}
+
+}  // namespace
+
+DiskMargin disk_margin(const Search& search, const Evaluate& evaluate, const Fineness& fineness) {
+  const Index channels = search.responses.front().re.rows();
+  const Evaluate& enough = channels > most_for_a_search ? search.evaluate : evaluate;
+  const Function f = at_angle(exact_disk, enough);
+  DiskMargin margin = {std::min<Real>(f(Real(0)), f(pi()))};
+  std::vector<Place> places = disk_places(search);
+  const auto by_disk = [](const Place& a, const Place& b) { return a.disk < b.disk; };
+  if (places.empty()) return margin;
+  const Real bound = std::min_element(places.begin(), places.end(), by_disk)->disk * 1.1;
+  const auto is_far = [&](const Place& place) { return place.disk > bound; };
+  places.erase(std::remove_if(places.begin(), places.end(), is_far), places.end());
+  if (places.back().low == places.back().high) {  // the flat one
+    margin.least = std::min<Real>(margin.least, f(places.back().angle));
+    places.pop_back();
+  }
+  if (channels == 1) {
+    refine_one(places, f, fineness, margin);
+  } else if (channels > most_for_a_search) {
+    refine_many(places, enough, margin);
+  } else {
+    for (const Place& place : places) margin.least = std::min<Real>(margin.least, least_in(place, f).second);
+  }
+  return margin;
+}
+
+}  // namespace lqg::design
