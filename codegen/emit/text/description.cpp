@@ -107,11 +107,19 @@ std::string describe_regulator(const Controller& controller) {
   return out + limits(controller);
 }
 
+// update adds L times the innovation, predict M times it. In predictor form no u is made between the two: together they
+// are L_predictor = A L + M, which is M where L = 0.
 std::string describe_gains(const Controller& controller) {
   if (!controller.solution.estimator) return "";
   const design::EstimatorSolution& solution = *controller.solution.estimator;
-  return matrix_lines("L", solution.L, controller.target.is_double) + "  poles of A − L_predictor C: " +
-         poles(solution.poles) + "\n";
+  const bool is_double = controller.target.is_double, predicts = controller.is_predictor;
+  const bool is_in_one = predicts && is_zero(solution.L);
+  std::string out;
+  if (!is_in_one) out += matrix_lines("L", solution.L, is_double);
+  const bool has_M = !is_in_one && !controller.solution.online && !is_zero(solution.M);
+  if (has_M) out += matrix_lines("M", solution.M, is_double);
+  if (predicts) out += matrix_lines("L_predictor", solution.L_predictor, is_double);
+  return out + "  poles of A − L_predictor C: " + poles(solution.poles) + "\n";
 }
 
 namespace {

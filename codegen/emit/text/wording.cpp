@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emit/text/html.hpp"
 #include "lqg/version.h"
 #include "trace/print.hpp"
 
@@ -94,7 +95,7 @@ std::string matrix_lines(const std::string& name, const design::RealMatrix& matr
           std::max(width[static_cast<std::size_t>(j)], number(matrix(i, j), is_double).size());
   std::string out;
   for (int i = 0; i < matrix.rows(); ++i) {
-    const std::string head = i == 0 ? name + " = " : std::string(name.size() + 3, ' ');
+    const std::string head = i == 0 ? name + " = " : std::string(letters(name) + 3, ' ');
     out += "  " + head + "[";
     for (int j = 0; j < matrix.cols(); ++j) {
       const std::string text = number(matrix(i, j), is_double);

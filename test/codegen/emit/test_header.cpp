@@ -9,6 +9,7 @@
 #include "emit/c/header.hpp"
 #include "emit/c/preamble.hpp"
 #include "emit/report/json.hpp"
+#include "emit/report/summary.hpp"
 #include "emit/unit_test/unit_test.hpp"
 #include "emitted.hpp"
 #include "trace/print.hpp"
@@ -121,6 +122,24 @@ void test_what_a_controller_does_not_have_is_not_written() {
   for (const char* absent : {"loop_t", "loop_update", "loop_predict", "loop_step", "LOOP_NY", "LOOP_Y_", "Kalman"})
     TEST_ASSERT_TRUE_MESSAGE(regulator.find(absent) == std::string::npos, absent);
   expect_order(regulator, {"loop_control(const float x[LOOP_NX], float u[LOOP_NU])"});
+}
+
+// An observer in predictor form on x⁺ = x + T v, v⁺ = v + T u, y = x. By hand: (z − 0.5)(z − 0.6) is the characteristic
+// polynomial of [1 − l₁  T; −l₂  1], so that l₁ = 2 − 1.1 and l₂ = (1 − 1.1 + 0.3)/T.
+void test_predictor_form_prints_the_gain_that_its_code_uses() {
+  const std::string plant = "name = \"loop\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\nA = [[1, 0.1], [0, 1]]\n"
+                            "B = [[0.005], [0.1]]\nC = [[1, 0]]\n[lqr]\nQ = [1, 1]\nR = [1]\n";
+  const Controller observer = controller_of(plant + "[observer]\npoles = [0.5, 0.6]\n");
+  for (const std::string& text : {lqg::emit::header(observer), lqg::emit::summary(observer)}) {
+    expect_order(text, {"  L_predictor = [ 0.9 ]\n", "[ 2.0 ]\n", "poles of A − L_predictor C: 0.6, 0.5"});
+    TEST_ASSERT_TRUE(text.find(" L = [") == std::string::npos);
+  }
+  expect_order(lqg::emit::header(observer), {"+ 0.9f * kept_0;", "+ 2.0f * kept_0;"});
+  const std::string noise = "process_noise = [0.01, 0.01]\nmeasurement_noise = [0.01]\n";
+  const std::string filter = lqg::emit::header(controller_of(plant + "[kalman]\nform = \"predictor\"\n" + noise));
+  expect_order(filter, {" L = [", " L_predictor = [", "poles of A − L_predictor C"});
+  const Controller both = controller_of(plant + "[kalman]\n" + noise + "cross_noise = [[0.001], [0.002]]\n");
+  expect_order(lqg::emit::header(both), {" L = [", " M = [ ", "poles of A − L_predictor C"});
 }
 
 void test_the_gain_in_the_comment_is_that_of_the_design() {
@@ -288,6 +307,7 @@ int main() {
   RUN_TEST(test_every_function_carries_its_contract);
   RUN_TEST(test_step_makes_its_calls_in_the_order_of_the_form);
   RUN_TEST(test_what_a_controller_does_not_have_is_not_written);
+  RUN_TEST(test_predictor_form_prints_the_gain_that_its_code_uses);
   RUN_TEST(test_the_gain_in_the_comment_is_that_of_the_design);
   RUN_TEST(test_lines_are_not_much_longer_than_a_screen_is_wide);
   RUN_TEST(test_the_same_design_gives_the_same_bytes_in_any_locale);
