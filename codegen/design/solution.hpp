@@ -31,6 +31,14 @@ struct SampledCost {
 // How far a loop is from instability; empty where there is no such place.
 struct Margins {
   std::optional<double> gain_dB, phase_deg, disk;
+  std::optional<double> gain_up_dB, gain_down_dB;  // how far the gain may rise and fall; gain_dB is the lesser
+  std::optional<double> delay_samples;             // what a delay may add
+  std::optional<double> crossover;                 // rad a sample: where the gain is 1 and the phase margin is the least
+};
+
+// Of the loop at work, with its noises: root mean squares, in the signals' units.
+struct Rms {
+  std::vector<double> x, u, y;  // of the sampled plant's states; of y as it is measured, with its noise
 };
 
 // What keeping only some entries of a gain costs.
@@ -105,6 +113,7 @@ struct LoopSolution {
   std::optional<double> cost_per_second;   // of the continuous cost
   Margins at_input;   // gain and phase: the smallest over the inputs, one opened at a time; disk: all at once,
   Margins at_output;  // symmetric, (S − T)/2; likewise over the outputs that the filter uses
+  std::optional<Rms> rms;   // with noise
   std::optional<RoundedLoop> rounded;
 };
 

@@ -8,6 +8,7 @@
 #include "design/checks/well_posed.hpp"
 #include "design/loop/margins.hpp"
 #include "design/loop/open_loop.hpp"
+#include "design/loop/rms.hpp"
 #include "design/loop/rounded_loop.hpp"
 #include "design/numeric/poles.hpp"
 #include "design/numeric/ziv_test.hpp"
@@ -88,6 +89,7 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
     const Compensator controller = compensator(problem, solution);
     solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
     if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), run.loop_poles);
+    if (run.stages.back().samples.noise) solution.loop.rms = steady_rms(problem, run.stages.back().samples, controller);
     add_full_margins(problem, run);
   }
   check_representable(solution, problem.code.real, findings);

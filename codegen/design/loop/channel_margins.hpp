@@ -13,8 +13,9 @@ using Channels = std::function<Channel(Index)>;           // makes that of chann
 
 // The least of all channels; empty where none has such a place.
 struct ChannelMargins {
-  std::optional<Real> gain_dB, phase_deg;
-  bool as_expected = true;  // what the search saw of gain and phase is what the refined places have
+  std::optional<Real> gain_dB, gain_up_dB, gain_down_dB, phase_deg, delay_samples;
+  std::optional<Real> crossover;  // the angle at which the least phase margin is
+  bool as_expected = true;        // what the search saw of gain and phase is what the refined places have
 };
 
 // Searched in the grid and by `roughly`; places that may be the least ones are refined by `exactly`.

@@ -1,10 +1,8 @@
 #include "design/loop/margins.hpp"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "design/loop/channel_margins.hpp"
 #include "design/loop/disk_margin.hpp"
+#include "design/loop/six_digits.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -45,7 +43,11 @@ std::pair<Margins, bool> least_margins(const Search& search, const Way& searched
   const DiskMargin disk = disk_margin(search, refined.all(), fineness);
   Margins result;
   result.gain_dB = to_double(of_one.gain_dB);
+  result.gain_up_dB = to_double(of_one.gain_up_dB);
+  result.gain_down_dB = to_double(of_one.gain_down_dB);
   result.phase_deg = to_double(of_one.phase_deg);
+  result.delay_samples = to_double(of_one.delay_samples);
+  result.crossover = to_double(of_one.crossover);
   result.disk = design::to_double(disk.least);
   return {result, of_one.as_expected && disk.as_expected};
 }
@@ -55,10 +57,7 @@ Response closed_response(const OpenLoop& loop) {
 }
 
 void keep_six_digits(std::optional<double>& value) {
-  if (!value) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", *value);
-  value = std::strtod(text, nullptr);
+  if (value) value = six_digits(*value);
 }
 
 }  // namespace
@@ -81,7 +80,9 @@ Margins rough_margins(const OpenLoop& loop, const std::vector<ComplexReal>& clos
   const Way roughly = {response, true};
   const Search search = search_with(roughly.all(), search_angles(closed_loop_poles));
   Margins result = least_margins(search, roughly, roughly, as_far_as_double_goes).first;
-  for (std::optional<double>* value : {&result.gain_dB, &result.phase_deg, &result.disk}) keep_six_digits(*value);
+  for (std::optional<double>* value : {&result.gain_dB, &result.gain_up_dB, &result.gain_down_dB, &result.phase_deg,
+                                       &result.delay_samples, &result.crossover, &result.disk})
+    keep_six_digits(*value);
   return result;
 }
 

@@ -72,15 +72,20 @@ void add(Json& out, const char* key, const std::optional<double>& value) {
   if (value) out[key] = *value;
 }
 
-void add_margins(Json& out, const design::Margins& margins) {
+void add_margins(Json& out, const design::Margins& margins, double sample_time) {
   add(out, "gain_margin_dB", margins.gain_dB);
+  add(out, "gain_margin_up_dB", margins.gain_up_dB);
+  add(out, "gain_margin_down_dB", margins.gain_down_dB);
   add(out, "phase_margin_deg", margins.phase_deg);
+  add(out, "delay_margin_samples", margins.delay_samples);
+  if (margins.delay_samples) out["delay_margin_s"] = *margins.delay_samples * sample_time;
+  if (margins.crossover) out["crossover"] = *margins.crossover / sample_time;
   add(out, "disk_margin", margins.disk);
 }
 
-Json structure(const design::StructureReport& report) {
+Json structure(const design::StructureReport& report, double sample_time) {
   Json out = {{"full", rows(report.full)}, {"full_poles", poles(report.full_poles)}, {"cost_ratio", report.cost_ratio}};
-  add_margins(out, report.full_margins);
+  add_margins(out, report.full_margins, sample_time);
   return out;
 }
 
@@ -104,7 +109,7 @@ Json lqr(const Controller& controller) {
   add(out, "Nbar", regulator.Nbar);
   add(out, "integral", design::integrated_outputs(controller.problem));
   add(out, "references", design::reference_outputs(controller.problem));
-  if (regulator.structure) out["structure"] = structure(*regulator.structure);
+  if (regulator.structure) out["structure"] = structure(*regulator.structure, controller.problem.plant.sample_time);
   return out;
 }
 
@@ -120,26 +125,27 @@ Json kalman(const Controller& controller) {
   add(out, "S", estimator.S);
   out["poles"] = poles(estimator.poles);
   add(out, "schedule", estimator.L_schedule);
-  if (estimator.structure) out["structure"] = structure(*estimator.structure);
+  if (estimator.structure) out["structure"] = structure(*estimator.structure, controller.problem.plant.sample_time);
   return out;
 }
 
 // Of the loop as it is designed, or as it is rounded.
 template <class Loop>
-Json poles_margins_and_cost(const Loop& loop) {
+Json poles_margins_and_cost(const Loop& loop, double sample_time) {
   Json out = {{"poles", poles(loop.poles)}};
-  add_margins(out, loop.at_input);
+  add_margins(out, loop.at_input, sample_time);
   Json at_output = Json::object();
-  add_margins(at_output, loop.at_output);
+  add_margins(at_output, loop.at_output, sample_time);
   if (!at_output.empty()) out["at_output"] = at_output;
   add(out, "cost_per_sample", loop.cost_per_sample);
   return out;
 }
 
-Json loop(const design::LoopSolution& solution) {
-  Json out = poles_margins_and_cost(solution);
+Json loop(const design::LoopSolution& solution, double sample_time) {
+  Json out = poles_margins_and_cost(solution, sample_time);
   add(out, "cost_per_second", solution.cost_per_second);
-  if (solution.rounded) out["rounded"] = poles_margins_and_cost(*solution.rounded);
+  if (solution.rms) out["rms"] = {{"x", solution.rms->x}, {"u", solution.rms->u}, {"y", solution.rms->y}};
+  if (solution.rounded) out["rounded"] = poles_margins_and_cost(*solution.rounded, sample_time);
   return out;
 }
 
@@ -238,7 +244,7 @@ std::string json(const Controller& controller) {
   if (controller.has.filter) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
   if (controller.linear) out["compensator"] = compensator(*controller.linear);
-  out["loop"] = loop(solution.loop);
+  out["loop"] = loop(solution.loop, controller.problem.plant.sample_time);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
   if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller.bounds);
   if (controller.has.filter) out["recovery"] = recovery(controller.recovery);

@@ -4,6 +4,7 @@
 
 #include "emit/text/wording.hpp"
 #include "emit/report/report_charts.hpp"
+#include "emit/text/continuous_pole.hpp"
 #include "emit/text/html.hpp"
 
 namespace lqg::emit {
@@ -70,8 +71,18 @@ std::string loop(const Controller& controller) {
            "</td></tr>\n";
   };
   const design::RoundedLoop none, &target = loop.rounded ? *loop.rounded : none;
+  const auto times = [&](const std::optional<double>& value, double factor) {
+    return value ? std::optional(*value * factor) : std::nullopt;
+  };
+  const double T = controller.problem.plant.sample_time;
+  const design::Margins &exact = loop.at_input, &held = target.at_input;
   const std::string rows =
       row("Gain margin at the inputs", loop.at_input.gain_dB, target.at_input.gain_dB, " dB") +
+      row("— the gain may rise by", exact.gain_up_dB, held.gain_up_dB, " dB") +
+      row("— the gain may fall by", exact.gain_down_dB, held.gain_down_dB, " dB") +
+      row("Delay margin at the inputs, samples", exact.delay_samples, held.delay_samples, "") +
+      row("— in seconds", times(exact.delay_samples, T), times(held.delay_samples, T), " s") +
+      row("Crossover at the inputs", times(exact.crossover, 1 / T), times(held.crossover, 1 / T), " rad/s") +
       row("Phase margin at the inputs", loop.at_input.phase_deg, target.at_input.phase_deg, "°") +
       row("Disk margin at the inputs", loop.at_input.disk, target.at_input.disk, "") +
       row("Gain margin at the outputs", loop.at_output.gain_dB, target.at_output.gain_dB, " dB") +
@@ -82,6 +93,21 @@ std::string loop(const Controller& controller) {
   if (rows.empty()) return "";
   return "<h2>The loop</h2>\n<table>\n<tr><th></th><th>as designed</th><th>with the numbers in " +
          std::string(controller.target.is_double ? "double" : "float") + "</th></tr>\n" + rows + "</table>\n";
+}
+
+std::string rms(const Controller& controller) {
+  if (!controller.solution.loop.rms) return "";
+  const design::Rms& rms = *controller.solution.loop.rms;
+  Rows rows;
+  const auto add = [&](const std::vector<design::Signal>& signals, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) rows.push_back({name_with_unit(signals[i]), decimal(values[i])});
+  };
+  add(state_signals(controller), rms.x);
+  add(controller.problem.plant.inputs, rms.u);
+  add(controller.problem.plant.outputs, rms.y);
+  return "<h2>Root mean squares</h2>\n<p>With the noises of the design, r = 0 and no limits: states, inputs, "
+         "measured outputs.</p>\n" +
+         table(rows);
 }
 
 std::string frequency(const std::complex<double>& pole, double sample_time) {
@@ -96,13 +122,22 @@ std::string time_constant(const std::complex<double>& pole, double sample_time) 
   return decimal(-sample_time / std::log(size)) + " s";
 }
 
+// Two cells: the pole in the s plane, and its damping.
+std::string in_s(const std::complex<double>& pole, double sample_time) {
+  const std::optional<ContinuousPole> found = continuous_pole(pole, sample_time);
+  if (!found) return "</td><td>";
+  return decimal(found->s.real()) + (found->s.imag() > 0 ? " ± " + decimal(found->s.imag()) + "i" : "") + "</td><td>" +
+         decimal(found->damping);
+}
+
 std::string pole_rows(const char* whose, const design::Poles& poles, double sample_time) {
   std::string out;
   for (const std::complex<double>& pole : poles) {
     if (pole.imag() < 0) continue;  // stands with its conjugate
     out += std::string("<tr><td>") + whose + "</td><td>" + decimal(pole.real()) +
            (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : "") + "</td><td>" + decimal(std::abs(pole)) + "</td><td>" +
-           time_constant(pole, sample_time) + "</td><td>" + frequency(pole, sample_time) + "</td></tr>\n";
+           in_s(pole, sample_time) + "</td><td>" + time_constant(pole, sample_time) + "</td><td>" +
+           frequency(pole, sample_time) + "</td></tr>\n";
   }
   return out;
 }
@@ -122,7 +157,8 @@ std::string poles(const Controller& controller) {
   for (Chart& chart : nyquist_charts(controller)) charts.push_back(std::move(chart));
   const std::string caption = charts.size() > 1 ? "The dashed circle about −1 is what the disk margin keeps free." : "";
   return "<h2>Poles</h2>\n" + figure(charts, caption) +
-         "<table>\n<tr><th></th><th>z</th><th>|z|</th><th>time constant</th><th>frequency</th></tr>\n" + rows + "</table>\n";
+         "<table>\n<tr><th></th><th>z</th><th>|z|</th><th>s = ln(z)/T, rad/s</th>"
+         "<th>damping</th><th>time constant</th><th>frequency</th></tr>\n" + rows + "</table>\n";
 }
 
 std::string runs(const Controller& controller) {
@@ -186,7 +222,8 @@ std::string matrices(const Controller& controller) {
 }  // namespace
 
 std::string report(const Controller& controller) {
-  return page(controller.problem.name, heading(controller) + overview(controller) + loop(controller) + poles(controller) +
+  return page(controller.problem.name, heading(controller) + overview(controller) + loop(controller) +
+                                           rms(controller) + poles(controller) +
                                            runs(controller) + matrices(controller) +
                                            "<footer><p>This file is yours: use it under any licence.</p></footer>\n");
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "emit/text/continuous_pole.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 
@@ -29,13 +30,16 @@ std::string indented(const std::string& text) {
   return out;
 }
 
+std::string pair(const std::complex<double>& pole) {
+  return decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : "");
+}
+
 std::string poles(const design::Poles& poles) {
   std::string out;
   for (const std::complex<double>& pole : poles) {
     if (pole.imag() < 0) continue;  // stands with its conjugate
     if (!out.empty()) out += ", ";
-    out += decimal(pole.real());
-    if (pole.imag() > 0) out += " ± " + decimal(pole.imag()) + "i";
+    out += pair(pole);
   }
   return out;
 }
@@ -166,15 +170,63 @@ std::string describe_estimator(const Controller& controller) {
   return out + describe_gains(controller) + bounds(controller);
 }
 
+namespace {
+
+// ", up 9.5, down 6.2": how far it may rise and fall.
+std::string both_directions(const design::Margins& margins) {
+  return (margins.gain_up_dB ? ", up " + decimal(*margins.gain_up_dB) : "") +
+         (margins.gain_down_dB ? ", down " + decimal(*margins.gain_down_dB) : "");
+}
+
+std::string at_crossover(const design::Margins& margins, double sample_time) {
+  return margins.crossover ? " at " + decimal(*margins.crossover / sample_time) + " rad/s" : "";
+}
+
+std::string in_seconds(const design::Margins& margins, double sample_time) {
+  return margins.delay_samples ? ", " + decimal(*margins.delay_samples * sample_time) + " s" : "";
+}
+
+std::string rms_line(const char* what, const std::vector<design::Signal>& signals, const std::vector<double>& values) {
+  std::string list;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    list += (i ? ", " : "") + signals[i].name + " " + decimal(values[i]) +
+            (signals[i].unit.empty() ? "" : " " + signals[i].unit);
+  return values.empty() ? "" : "  " + indented(trace::wrap(what + list, 0, 96)) + "\n";
+}
+
+}  // namespace
+
+std::string describe_rms(const Controller& controller) {
+  if (!controller.solution.loop.rms) return "";
+  const design::Rms& rms = *controller.solution.loop.rms;
+  return "\nWith the noises of the design, r = 0 and no limits, root mean squares:\n\n" +
+         rms_line("x  ", state_signals(controller), rms.x) + rms_line("u  ", controller.problem.plant.inputs, rms.u) +
+         rms_line("y  ", controller.problem.plant.outputs, rms.y);
+}
+
+std::string describe_poles(const Controller& controller) {
+  const double sample_time = controller.problem.plant.sample_time;
+  std::string out;
+  for (const std::complex<double>& pole : controller.solution.loop.poles) {
+    const std::optional<ContinuousPole> s = continuous_pole(pole, sample_time);
+    if (pole.imag() < 0 || !s) continue;
+    out += "  z = " + pair(pole) + "   s = " + pair(s->s) + " rad/s, damping " + decimal(s->damping) + "\n";
+  }
+  return out.empty() ? "" : "\nPoles of the loop, s = ln(z)/T:\n\n" + out;
+}
+
 std::string describe_loop(const Controller& controller) {
   const design::LoopSolution& loop = controller.solution.loop;
+  const design::Margins& margins = loop.at_input;
+  const double sample_time = controller.problem.plant.sample_time;
   std::string out;
-  const auto add = [&](const char* what, const std::optional<double>& value, const char* unit) {
+  const auto add = [&](const char* what, const std::optional<double>& value, const std::string& unit) {
     if (value) out += "  " + std::string(what) + decimal(*value) + unit + "\n";
   };
-  add("gain margin         ", loop.at_input.gain_dB, " dB");
-  add("phase margin        ", loop.at_input.phase_deg, "°");
-  add("disk margin         ", loop.at_input.disk, "");
+  add("gain margin         ", margins.gain_dB, " dB" + both_directions(margins));
+  add("phase margin        ", margins.phase_deg, "°" + at_crossover(margins, sample_time));
+  add("delay margin        ", margins.delay_samples, " samples" + in_seconds(margins, sample_time));
+  add("disk margin         ", margins.disk, "");
   add("cost per sample     ", loop.cost_per_sample, "");
   add("cost per second     ", loop.cost_per_second, "");
   return out.empty() ? "" : "\nClosed loop, opened at the plant's input:\n\n" + out;

@@ -56,6 +56,35 @@ void test_cost_per_sample_is_that_of_the_joint_covariance() {
   }
 }
 
+void expect_roots(const RealMatrix& covariance, Index first, const std::vector<double>& found) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Index at = first + static_cast<Index>(i);
+    const double expected = to_double(sqrt(covariance(at, at)));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5 * expected, expected, found[i]);
+  }
+}
+
+// In predictor form u is older than v: y = C x + D u + v has the variance of C x + D u, and V.
+void test_root_mean_squares_are_those_of_the_joint_covariance() {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const Problem problem = random_problem(seed);
+    const Solution found = solved(problem);
+    const Digits scope(60);
+    const Joint joint = joint_loop(problem, found);
+    const RealMatrix states = *solve_stein(joint.A.transpose(), congruence(joint.B, joint.noise));
+    const RealMatrix outputs = congruence(joint.C, states) + congruence(joint.D, joint.noise);
+    TEST_ASSERT_TRUE(found.loop.rms.has_value());
+    const Rms& rms = *found.loop.rms;
+    TEST_ASSERT_EQUAL(problem.plant.A.rows(), rms.x.size());
+    TEST_ASSERT_EQUAL(problem.plant.B.cols(), rms.u.size());
+    TEST_ASSERT_EQUAL(problem.plant.C.rows(), rms.y.size());
+    expect_roots(outputs, 0, rms.x);
+    expect_roots(outputs, problem.plant.A.rows(), rms.u);
+    if (problem.estimator->form == Form::predictor)
+      expect_roots(congruence(beside(found.plant.C, found.plant.D), outputs) + found.estimator->noise.V, 0, rms.y);
+  }
+}
+
 // One period cut into `parts`: w(t) is followed through all of them while u is held, with the correlation of
 // what v tells.
 Real cost_of_parts(const Problem& problem, const Solution& s, int parts) {
@@ -141,6 +170,7 @@ void test_no_gain_near_the_optimal_one_costs_less() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_cost_per_sample_is_that_of_the_joint_covariance);
+  RUN_TEST(test_root_mean_squares_are_those_of_the_joint_covariance);
   RUN_TEST(test_cost_per_second_with_continuous_noise_is_the_sum_over_short_parts);
   RUN_TEST(test_cost_per_second_counts_held_noise_that_the_output_tells);
   RUN_TEST(test_cost_of_the_samples_is_no_cost_per_second);

@@ -239,6 +239,50 @@ void test_integrator_has_its_closed_form() {
   TEST_ASSERT_TRUE(*found.loop.at_input.gain_dB == to_double(20 * log10(2 / k)));
   TEST_ASSERT_TRUE(*found.loop.at_input.phase_deg == to_double(90 - asin(k / 2) / degree));
   TEST_ASSERT_TRUE(*found.loop.at_input.disk == to_double(2 * (2 / k - 1) / (2 / k + 1)));
+  // The gain may fall to 0. A delay turns by θ a sample, θ = 2 asin(k/2).
+  const Real crossover = 2 * asin(k / 2);
+  const Margins& margins = found.loop.at_input;
+  TEST_ASSERT_TRUE(*margins.gain_up_dB == *margins.gain_dB && !margins.gain_down_dB);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-13, to_double(crossover), *margins.crossover);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, to_double((90 * degree - crossover / 2) / crossover), *margins.delay_samples);
+}
+
+// x⁺ = 2 x + u with u = −k K x is stable for |2 − k K| < 1: k from 1/K to 3/K.
+void test_gain_of_an_unstable_plant_may_fall_as_little_as_its_closed_form_says() {
+  const MatrixXd one = MatrixXd::Constant(1, 1, 1);
+  Problem problem = problem_of(Domain::discrete, 1, 2 * one, one, one);
+  problem.estimator.reset();
+  const Solution found = solved(problem);
+  const double K = to_double(found.regulator->K(0, 0));
+  const Margins& margins = found.loop.at_input;
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 20 * std::log10(3 / K), *margins.gain_up_dB);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 20 * std::log10(K), *margins.gain_down_dB);
+  TEST_ASSERT_TRUE(*margins.gain_dB == std::min(*margins.gain_up_dB, *margins.gain_down_dB));
+}
+
+// As many whole samples of delay as the margin has leave the loop stable, and one more does not: the poles of the loop
+// with that delay in it say so.
+void test_loop_bears_the_whole_samples_of_its_delay_margin_and_no_more() {
+  for (const double damping : {0.01, 0.1, 1.0}) {
+    Problem problem = problem_of(Domain::discrete, 1, (MatrixXd(2, 2) << 1, 0.1, 0, 1 - 0.01 * damping).finished(),
+                                 Eigen::Vector2d(0.005, 0.1), Eigen::RowVector2d(1, 0));
+    problem.estimator.reset();
+    problem.regulator->R *= 10;
+    const Solution found = solved(problem);
+    const double margin = *found.loop.at_input.delay_samples;
+    const MatrixXd A = problem.plant.A, B = problem.plant.B, K = to_doubles(found.regulator->K);
+    const auto radius_with = [&](Index late) {
+      MatrixXd all = MatrixXd::Zero(2 + late, 2 + late);  // u[k] = −K x waits in a chain
+      all.topLeftCorner(2, 2) = A;
+      all.col(2).head(2) = B;
+      for (Index i = 0; i + 1 < late; ++i) all(2 + i, 3 + i) = 1;
+      all.bottomLeftCorner(1, 2) = -K;
+      return Eigen::EigenSolver<MatrixXd>(all, false).eigenvalues().cwiseAbs().maxCoeff();
+    };
+    const Index whole = static_cast<Index>(std::floor(margin));
+    TEST_ASSERT_GREATER_THAN(0, whole);
+    TEST_ASSERT_TRUE(radius_with(whole) < 1 && radius_with(whole + 1) > 1);
+  }
 }
 
 // Integrators two by two, each pair with a K of its own.
@@ -319,6 +363,8 @@ int main() {
   RUN_TEST(test_loop_of_one_input_and_one_output_has_the_same_margins_at_both);
   RUN_TEST(test_margins_in_double_have_six_digits);
   RUN_TEST(test_integrator_has_its_closed_form);
+  RUN_TEST(test_gain_of_an_unstable_plant_may_fall_as_little_as_its_closed_form_says);
+  RUN_TEST(test_loop_bears_the_whole_samples_of_its_delay_margin_and_no_more);
   RUN_TEST(test_disk_of_16_channels_is_that_of_its_worst_pair);
   RUN_TEST(test_disk_of_64_channels_is_that_of_its_worst_pair);
   RUN_TEST(test_loop_without_crossings_has_no_gain_and_phase_margin);

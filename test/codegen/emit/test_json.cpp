@@ -73,6 +73,26 @@ void expect_regulator(const json& found, const lqg::design::RegulatorSolution& r
   expect_poles(found["lqr"]["poles"], regulator.poles, "lqr.poles");
 }
 
+void expect_new_margins(const json& found, const lqg::design::LoopSolution& loop, double sample_time) {
+  const lqg::design::Margins& margins = loop.at_input;
+  const auto times = [](const std::optional<double>& value, double factor) {
+    return value ? std::optional(*value * factor) : value;
+  };
+  expect_number(found, "gain_margin_up_dB", margins.gain_up_dB);
+  expect_number(found, "gain_margin_down_dB", margins.gain_down_dB);
+  expect_number(found, "delay_margin_samples", margins.delay_samples);
+  expect_number(found, "delay_margin_s", times(margins.delay_samples, sample_time));
+  TEST_ASSERT_EQUAL_INT(margins.crossover.has_value(), found.contains("crossover"));
+  if (margins.crossover) {
+    const double rad_per_sample = found["crossover"].get<double>() * sample_time;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12 * *margins.crossover, *margins.crossover, rad_per_sample);
+  }
+  TEST_ASSERT_EQUAL_INT(loop.rms.has_value(), found.contains("rms"));
+  if (!loop.rms) return;
+  TEST_ASSERT_TRUE(found["rms"]["x"] == json(loop.rms->x) && found["rms"]["u"] == json(loop.rms->u) &&
+                   found["rms"]["y"] == json(loop.rms->y));
+}
+
 void expect_all(const json& found, const Controller& controller) {
   const lqg::design::Solution& solution = controller.solution;
   TEST_ASSERT_EQUAL_STRING(controller.problem.name.c_str(), found["name"].get<std::string>().c_str());
@@ -86,6 +106,7 @@ void expect_all(const json& found, const Controller& controller) {
   expect_number(found["loop"], "gain_margin_dB", solution.loop.at_input.gain_dB);
   expect_number(found["loop"], "phase_margin_deg", solution.loop.at_input.phase_deg);
   expect_number(found["loop"], "disk_margin", solution.loop.at_input.disk);
+  expect_new_margins(found["loop"], solution.loop, controller.problem.plant.sample_time);
   expect_number(found["loop"], "cost_per_sample", solution.loop.cost_per_sample);
   expect_number(found["loop"], "cost_per_second", solution.loop.cost_per_second);
   expect_number(found["numerics"], "condition", solution.numerics.condition);
