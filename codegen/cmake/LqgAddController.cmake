@@ -11,10 +11,10 @@
 #
 # <target> is only built if its compiler, with its options, computes as lqg/arithmetic.h says (LqgCheckArithmetic.cmake).
 #
-# lqgen is the target tinylqg::lqgen, built or imported. The variable LQG_LQGEN_EXECUTABLE names another one:
-# needed where the compiler makes code for another machine than the one that builds.
+# lqgen runs on the machine that builds; which one it is says LqgFindLqgen.cmake.
 include_guard(GLOBAL)
 include(${CMAKE_CURRENT_LIST_DIR}/LqgCheckArithmetic.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/LqgFindLqgen.cmake)
 
 function(lqg_add_controller target design)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "STYLE;REAL;OUTPUT_DIR" "")
@@ -31,9 +31,7 @@ function(lqg_add_controller target design)
     message(FATAL_ERROR "lqg_add_controller: ${design} has no line name = \"…\" "
                         "with a C identifier in lower case")
   endif()
-  lqg_find_library_variant(library "${design}" "${arg_STYLE}" "${arg_REAL}")
   lqg_find_lqgen(lqgen)
-
   if(NOT arg_OUTPUT_DIR)
     set(arg_OUTPUT_DIR "lqg/${target}")
   endif()
@@ -47,6 +45,8 @@ function(lqg_add_controller target design)
   endif()
 
   file(MAKE_DIRECTORY "${folder}")
+  lqg_find_style(style "${design}" "${arg_STYLE}" "${lqgen}" "${folder}" ${options})
+  lqg_find_library_variant(library "${design}" "${style}" "${arg_REAL}")
   add_custom_command(
     OUTPUT "${folder}/${name}.h"
     COMMAND "${lqgen}" "${design}" -o "${folder}" --only h --quiet ${options}
@@ -95,14 +95,34 @@ function(lqg_read_design_key variable design key default values)
   endif()
 endfunction()
 
-# Sets `variable` to what a controller of `design` has to be linked with.
+# Sets `variable` to the style of the header: unrolled or compact. What `auto` comes to says lqgen, if it is there already; else,
+# and where it refuses the design (the build will say so), it stays `auto`.
+function(lqg_find_style variable design style lqgen folder)
+  if(NOT style)
+    lqg_read_design_key(style "${design}" style auto "unrolled|compact|auto")
+  endif()
+  if(style STREQUAL "auto" AND EXISTS "${lqgen}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${lqgen}")
+    set(made "${folder}/configured")
+    lqg_read_design_key(name "${design}" name "" "[a-z][a-z0-9_]*")
+    set(json "${made}/${name}.json")
+    if("${design}" IS_NEWER_THAN "${json}" OR "${lqgen}" IS_NEWER_THAN "${json}")
+      file(MAKE_DIRECTORY "${made}")
+      file(REMOVE "${json}")
+      execute_process(COMMAND "${lqgen}" "${design}" -o "${made}" --only json --quiet ${ARGN} OUTPUT_QUIET ERROR_QUIET)
+    endif()
+    if(EXISTS "${json}")
+      file(READ "${json}" text)
+      string(JSON style GET "${text}" code style)
+    endif()
+  endif()
+  set(${variable} ${style} PARENT_SCOPE)
+endfunction()
+
+# Sets `variable` to what a controller of `design` in this style has to be linked with.
 function(lqg_find_library_variant variable design style real)
-  lqg_read_design_key(design_style "${design}" style auto "unrolled|compact|auto")
   lqg_read_design_key(design_real "${design}" real float "float|double")
   lqg_read_design_key(arithmetic "${design}" arithmetic plain "plain|fused")
-  if(NOT style)
-    set(style ${design_style})
-  endif()
   if(NOT real)
     set(real ${design_real})
   endif()
@@ -120,26 +140,4 @@ function(lqg_find_library_variant variable design style real)
     set(libraries ${variants_${real}_${arithmetic}})
   endif()
   set(${variable} ${libraries} PARENT_SCOPE)
-endfunction()
-
-# Sets `variable` to the lqgen to run: a path, or a generator expression for one.
-function(lqg_find_lqgen variable)
-  if(LQG_LQGEN_EXECUTABLE)
-    if(NOT EXISTS "${LQG_LQGEN_EXECUTABLE}")
-      message(FATAL_ERROR "LQG_LQGEN_EXECUTABLE: there is no ${LQG_LQGEN_EXECUTABLE}")
-    endif()
-    set(${variable} "${LQG_LQGEN_EXECUTABLE}" PARENT_SCOPE)
-    return()
-  endif()
-  if(NOT TARGET tinylqg::lqgen)
-    message(FATAL_ERROR "lqg_add_controller: there is no lqgen. Either set(LQG_BUILD_CODEGEN ON) before "
-                        "add_subdirectory() of TinyLQG, or install TinyLQG with it, or set "
-                        "LQG_LQGEN_EXECUTABLE to an lqgen for this machine")
-  endif()
-  get_target_property(imported tinylqg::lqgen IMPORTED)
-  if(CMAKE_CROSSCOMPILING AND NOT imported)
-    message(FATAL_ERROR "lqg_add_controller: lqgen would be built for the target, it must run here. Turn "
-                        "LQG_BUILD_CODEGEN off and set LQG_LQGEN_EXECUTABLE to an lqgen for this machine")
-  endif()
-  set(${variable} "$<TARGET_FILE:tinylqg::lqgen>" PARENT_SCOPE)
 endfunction()

@@ -7,8 +7,6 @@
 # Options of single sources are not looked at, nor those of targets that link to <target>.
 include_guard(GLOBAL)
 
-set(LQG_COMPARE_FILES ${CMAKE_CURRENT_LIST_DIR}/LqgCompareCode.cmake)
-
 function(lqg_check_arithmetic target)
   get_property(is_checked GLOBAL PROPERTY lqg_arithmetic_of_${target}_is_checked)
   if(NOT is_checked)
@@ -107,7 +105,7 @@ function(lqg_compare_code check language target)
   set_target_properties(${check}_given ${check}_strict PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
   add_custom_target(${check}
     COMMAND ${CMAKE_COMMAND} -DGIVEN=$<TARGET_OBJECTS:${check}_given> -DSTRICT=$<TARGET_OBJECTS:${check}_strict>
-            -DTARGET=${target} -P ${LQG_COMPARE_FILES}
+            -DTARGET=${target} -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/LqgCompareCode.cmake
     DEPENDS $<TARGET_OBJECTS:${check}_optimized> $<TARGET_OBJECTS:${check}_given> $<TARGET_OBJECTS:${check}_strict>
     VERBATIM)
   add_dependencies(${check} ${check}_optimized ${check}_given ${check}_strict)

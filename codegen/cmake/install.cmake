@@ -3,17 +3,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# Headers alone: all that unrolled controllers need.
-add_library(tinylqg_headers INTERFACE)
-add_library(tinylqg::headers ALIAS tinylqg_headers)
-set_target_properties(tinylqg_headers PROPERTIES EXPORT_NAME headers)
-target_include_directories(tinylqg_headers INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-
-set(targets tinylqg_headers tinylqg tinylqg_fused)
-if(TARGET tinylqg_double)
-  list(APPEND targets tinylqg_double tinylqg_double_fused)
-endif()
+set(targets tinylqg_headers)
 if(LQG_BUILD_CODEGEN)
   list(APPEND targets lqgen)
 endif()
@@ -22,6 +12,12 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tinylqg)
 install(DIRECTORY include/lqg DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS ${targets} EXPORT tinylqg)
 install(EXPORT tinylqg NAMESPACE tinylqg:: FILE tinylqgTargets.cmake DESTINATION ${package_dir})
+
+# The library as it was compiled, and its sources for firmware of another machine.
+install(TARGETS ${lqg_libraries} EXPORT tinylqg_library)
+install(EXPORT tinylqg_library NAMESPACE tinylqg:: FILE tinylqgLibraryTargets.cmake DESTINATION ${package_dir})
+set(sources_dir ${CMAKE_INSTALL_DATADIR}/tinylqg/src)
+install(DIRECTORY src/ DESTINATION ${sources_dir} FILES_MATCHING PATTERN "*.[ch]")
 
 # The design engine, what is emitted as data, and the simulation, in a set of their own: they need packages that firmware does
 # not. Of the engine the headers of the door only, as <design/….hpp>, and with it <controller/….hpp> and <simulate/….hpp>.
@@ -42,11 +38,15 @@ if(LQG_BUILD_CODEGEN)
 endif()
 
 configure_package_config_file(codegen/cmake/tinylqgConfig.cmake.in tinylqgConfig.cmake
-                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(tinylqgConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO
+                              PATH_VARS sources_dir CMAKE_INSTALL_INCLUDEDIR)
+# lqgen and the headers serve every target; what does not, the package looks at itself.
+write_basic_package_version_file(tinylqgConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/tinylqgConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/tinylqgConfigVersion.cmake
               codegen/cmake/LqgAddController.cmake
-        codegen/cmake/LqgCheckArithmetic.cmake
-        codegen/cmake/LqgCompareCode.cmake
+              codegen/cmake/LqgCheckArithmetic.cmake
+              codegen/cmake/LqgCompareCode.cmake
+              codegen/cmake/LqgFindLqgen.cmake
+              codegen/cmake/LqgLibrary.cmake
         DESTINATION ${package_dir})

@@ -1,15 +1,6 @@
 # cmake -DFOLDER=… -DEXPECTED=… -P options.cmake -- <option>…: configures the project `options` with the options and builds it;
 # it has to end in EXPECTED, or to succeed where that is empty.
-set(options)
-set(is_option FALSE)
-math(EXPR last "${CMAKE_ARGC} - 1")
-foreach(index RANGE ${last})
-  if(is_option)
-    list(APPEND options "${CMAKE_ARGV${index}}")
-  elseif(CMAKE_ARGV${index} STREQUAL "--")
-    set(is_option TRUE)
-  endif()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/arguments_after_dashes.cmake)
 file(REMOVE_RECURSE ${FOLDER})
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/options -B ${FOLDER} ${options}
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
