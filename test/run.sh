@@ -8,6 +8,8 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../codegen/cmake/setup.sh"
 
+case " $* " in *" -h "* | *" --help "*) lqg_print_help "${BASH_SOURCE[0]}" && exit ;; esac
+
 # CMake gets Unity itself where its home can be reached.
 upstream_is_reachable() {
   local script reachable=0
@@ -27,7 +29,7 @@ fetch_unity_from_pypi() {
   "$lqg_root/test/unity.sh" "$1" || lqg_stop "Unity can be had neither from github.com nor from PyPI (test/unity.txt)"
 }
 
-folder=$lqg_root/build${CC:+-$(basename "$CC")}
+folder=$lqg_build
 options=(-DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=ON)
 if [ "${1:-}" = --sanitize ]; then
   shift

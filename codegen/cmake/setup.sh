@@ -3,6 +3,10 @@
 #
 #   lqg_install_packages              what lqgen needs: installed on Debian and Ubuntu, named elsewhere
 #   lqg_install <Debian package>…     the same for more
+#   lqg_find_lqgen                    LQGEN is the lqgen to run: the one that it names already, else that of `lqg_build`, made now
+#   lqg_build                         the build folder that all scripts share, and test/run.sh: build/, or build-<CC>/
+#   lqg_build_lqgen <target>…         lqgen and more in lqg_build, with what it needs; shows how far it is
+#   lqg_print_help <script>           the comment at its top
 #   lqg_configure <folder> <option>…  cmake on the whole project, with CC and CXX
 #   lqg_compile <folder> <option>…    on all processors
 
@@ -15,6 +19,8 @@ if [ -n "${CC:-}" ] && [ -z "${CXX:-}" ]; then
     *gcc*) export CXX=${CC/gcc/g++} ;;
   esac
 fi
+
+lqg_build=$lqg_root/build${CC:+-$(basename "$CC")}
 
 lqg_stop() {
   echo "$1" >&2
@@ -85,3 +91,42 @@ lqg_compile() {
   cmake --build "$folder" --parallel "$(getconf _NPROCESSORS_ONLN)" "$@" ||
     lqg_stop "The build in $folder failed"
 }
+
+lqg_build_lqgen() {
+  local log=$lqg_build/lqgen.log is_new=-DLQG_BUILD_TESTS=OFF  # of a folder that test/run.sh has made they stay
+  [ ! -e "$lqg_build/CMakeCache.txt" ] || is_new=
+  lqg_install_packages
+  mkdir -p "$lqg_build"
+  echo "Building lqgen in $lqg_build (a few minutes the first time)" >&2
+  { cmake -S "$lqg_root" -B "$lqg_build" -DLQG_BUILD_CODEGEN=ON ${is_new:+"$is_new"} &&
+    cmake --build "$lqg_build" --parallel "$(getconf _NPROCESSORS_ONLN)" --target lqgen "$@"; } 2>&1 |
+    tee "$log" | lqg_show_progress || {
+    tail -n 20 "$log" >&2
+    lqg_stop "The build failed: $log"
+  }
+}
+
+# How far a build by make is: one line that changes on a terminal, else one line for every tenth.
+lqg_show_progress() {
+  local is_terminal=0
+  [ ! -t 2 ] || is_terminal=1
+  awk -v is_terminal=$is_terminal '
+    match($0, /^\[ *[0-9]+%\]/) {
+      percent = substr($0, 2, RLENGTH - 3) + 0
+      if (is_terminal) { printf "\r  %3d %%", percent; fflush() }
+      else if (percent >= shown + 10) { shown = percent; printf "  %3d %%\n", percent; fflush() }
+    }
+    END { if (is_terminal) print "" }' >&2
+}
+
+lqg_find_lqgen() {
+  if [ -z "${LQGEN:-}" ]; then
+    lqg_build_lqgen
+    LQGEN=$lqg_build/codegen/lqgen
+  fi
+  [ -f "$LQGEN" ] && [ -x "$LQGEN" ] || lqg_stop "LQGEN: expected the path of an lqgen, found $LQGEN"
+  LQGEN=$(realpath "$LQGEN")
+  export LQGEN
+}
+
+lqg_print_help() { sed -n '2,/^[^#]/{/^#/{s/^# \{0,1\}//;p}}' "$1"; }

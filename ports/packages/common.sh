@@ -6,7 +6,7 @@
 #   fill <template>               prints it with @VERSION@ and @URL@ filled in
 #   copy_library <folder for *.c> <folder for lqg/*.h>
 #   copy_mass <folder for the design> <folder for main.c and the controller>   the example mass.c
-#   make_controller <design> <folder> <option of lqgen>…   NAME.h, by the lqgen that LQGEN names, else one built in build/packages/.lqgen
+#   make_controller <design> <folder> <option of lqgen>…   NAME.h, by lqg_find_lqgen's
 #   settle <folder>               its modes and times, at the end
 set -euo pipefail
 source "$1/codegen/cmake/setup.sh"
@@ -32,12 +32,7 @@ copy_library() {
 make_controller() {
   local design=$1 folder=$2
   shift 2
-  if [ -z "${LQGEN:-}" ]; then
-    LQGEN=$lqg_root/build/packages/.lqgen/codegen/lqgen
-    lqg_install_packages
-    lqg_configure "$lqg_root/build/packages/.lqgen" -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF >&2
-    lqg_compile "$lqg_root/build/packages/.lqgen" --target lqgen >&2
-  fi
+  lqg_find_lqgen
   "$LQGEN" "$design" -o "$folder" --only h --quiet "$@"
 }
 

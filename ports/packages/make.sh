@@ -8,6 +8,8 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
+source "$root/codegen/cmake/setup.sh"
+case ${1:-} in -h | --help) lqg_print_help "${BASH_SOURCE[0]}" && exit ;; esac
 output=${OUTPUT:-$root/build/packages}
 
 if [ $# = 0 ]; then

@@ -6,12 +6,15 @@
 #   ports/pil/run.sh <port> --build                    only compiles: what to flash is build/pil/<port>/pil_target.bin
 #   ports/pil/run.sh <port> --port DEVICE [option]…    a board that runs pil_target.bin, at a serial port such as /dev/ttyACM0
 #
-# The options are those at the top of host/main.c: --seconds S, --csv FILE, --svg FILE, --baud N, …
-# LQGEN names an lqgen that is there already; otherwise one is built in build/pil/host. Debian's packages, for Arm:
+# The options are those at the top of host/main.c: --seconds S, --csv FILE, --svg FILE, --baud N, … FOLDER is where all work is
+# done, default build/pil.
+# LQGEN names an lqgen that is there already; otherwise one is built in build/, which the other scripts share. Debian's packages, for Arm:
 # gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm; for RISC-V: gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf
 # qemu-system-misc.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
+
+case " $* " in *" -h "* | *" --help "*) lqg_print_help "${BASH_SOURCE[0]}" && exit ;; esac
 
 port=cortex-m4f
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then
@@ -19,8 +22,9 @@ if [ $# -gt 0 ] && [[ $1 != -* ]]; then
   shift
 fi
 toolchain=$lqg_root/ports/$port/toolchain.cmake
-host=$lqg_root/build/pil/host
-target=$lqg_root/build/pil/$port
+folder=${FOLDER:-$lqg_root/build/pil}
+host=$folder/host
+target=$folder/$port
 
 [ -f "$toolchain" ] || lqg_stop "There is no port $port: expected one of the folders of ports/ with a toolchain.cmake, as cortex-m4f"
 compiler=arm-none-eabi-gcc
@@ -38,14 +42,9 @@ build() {
   }
 }
 
-mkdir -p "$lqg_root/build/pil"
-if [ -n "${LQGEN:-}" ]; then
-  build "$host" -S "$lqg_root/ports/pil" -DLQG_LQGEN_EXECUTABLE="$LQGEN"
-else
-  lqg_install_packages
-  echo "Building lqgen and the host's program in $host (a few minutes the first time)"
-  build "$host" -S "$lqg_root/ports/pil"
-fi
+mkdir -p "$folder"
+lqg_find_lqgen
+build "$host" -S "$lqg_root/ports/pil" -DLQG_LQGEN_EXECUTABLE="$LQGEN"
 build "$target" --toolchain "$toolchain" -S "$lqg_root/ports/pil/target" -DCONTROLLER="$host/controller"
 
 case " $* " in

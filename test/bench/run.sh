@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the emitted controllers cost on the cores of ports/: prints a table for each core.
 #
-#   test/bench/run.sh [--all] [core]… [option of the compiler]…     after -O2 -std=c99, such as -Os or -std=gnu99
+#   test/bench/run.sh [--all] [core]… [DESIGN.toml]… [option of the compiler]…     after -O2 -std=c99, such as -Os or -std=gnu99
 #   test/bench/run.sh --update       writes the record, test/bench/record.md
 #   test/bench/run.sh --check        shows what differs from the record, and keeps it in FOLDER/changes.txt; fails where a
 #                                    figure has grown by more than 2 %
@@ -10,10 +10,11 @@
 # float, and where the FPU computes in double, too, those that are meant for it; --all has every design in both reals.
 # With them comes two_mass with the covariance carried as it is, which is the filter that others are compared by, and
 # three designs without their limits in each form of a constant gain; advance is called predict there.
-# Fused arithmetic is left out where the hardware has none.
+# Fused arithmetic is left out where the hardware has none. Design files that are named come in place of all these: each in both
+# styles and its own real. They have a filter and a regulator, or a filter and no input.
 #
-# LQGEN names an lqgen that is there already; otherwise one is built. FOLDER is where all work is done, default
-# build/bench. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
+# LQGEN names an lqgen that is there already; otherwise one is built in build/, which the other scripts share. FOLDER is where all
+# work is done, default build/bench. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
 # picolibc-riscv64-unknown-elf qemu-system-misc.
 #
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
@@ -54,7 +55,7 @@ wait_for_all() {
 # ---- the controllers ---------------------------------------------------------------------------------------------
 
 # The value of a key of a design file, and of "code" in a NAME.json.
-design_value() { sed -n "s/^$2 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$1"; }
+design_value() { sed -n "s/^[[:space:]]*$2 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$1"; }
 json_value() { sed -n "s/^ *\"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
 
 # make_controller <folder> <title> <design> <style> <real>: its header, reference samples and figures; prints what
@@ -63,8 +64,10 @@ make_controller() {
   local name arithmetic has_input=yes keeps_z='' predicts=''
   name=$(design_value "$3" name)
   arithmetic=$(design_value "$3" arithmetic)
-  grep -q '^B *=' "$3" || has_input=
-  "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet
+  grep -q '^[[:space:]]*B *=' "$3" || has_input=
+  "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet || lqg_stop "lqgen refuses $3"
+  grep -q "^static const .* y_in\[" "$1/${name}_test.c" && { [ -z "$has_input" ] || grep -q " ${name}_control(" "$1/$name.h"; } ||
+    lqg_stop "$3: expected a filter and a regulator, or a filter and no input, found only one of them"
   sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$1/${name}_test.c" >"$1/vectors.h"
   if grep -q "^static inline .*${name}_advance(" "$1/$name.h"; then
     keeps_z=yes
@@ -102,9 +105,24 @@ start_controllers_of_forms() {
   done
 }
 
+make_controllers_of_designs() {
+  local design real style
+  for design in "${designs[@]}"; do
+    real=$(design_value "$design" real)
+    for style in unrolled compact; do
+      start_controller "$(design_value "$design" name)" "$design" $style "${real:-float}"
+    done
+  done
+  wait_for_all
+}
+
 make_controllers() {
   local real design style
   controllers=()
+  if [ ${#designs[@]} -gt 0 ]; then
+    make_controllers_of_designs
+    return
+  fi
   start_carried_controller fused
   start_carried_controller plain
   for real in float double; do
@@ -207,18 +225,12 @@ measure_core() {
 # measure <core>…: all of them, in $folder/CORE.md.
 measure() {
   local core
-  [ -n "${LQGEN:-}" ] || make_lqgen
+  lqg_find_lqgen
   make_controllers
   for core in "$@"; do
     start "$folder/$core.md" measure_core "$core"
   done
   wait_for_all
-}
-
-make_lqgen() {
-  LQGEN=$folder/codegen/lqgen
-  lqg_configure "$folder" -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF >&2
-  lqg_compile "$folder" --target lqgen >&2
 }
 
 # ---- the record --------------------------------------------------------------------------------------------------
@@ -285,16 +297,22 @@ require_tools() {
 
 # ---- the command line --------------------------------------------------------------------------------------------
 
-all='' task=print options=(-O2 -std=c99) cores=()
+all='' task=print options=(-O2 -std=c99) cores=() designs=()
 for argument in "$@"; do
   case $argument in
     --all) all=yes ;;
     --update | --check) task=${argument#--} ;;
+    -h | --help) lqg_print_help "${BASH_SOURCE[0]}" && exit ;;
+    *.toml)
+      [ -f "$argument" ] || lqg_stop "There is no design file $argument"
+      designs+=("$argument") all=yes
+      ;;
     -*) options+=("$argument") ;;
     *) cores+=("$argument") ;;
   esac
 done
 [ ${#cores[@]} -gt 0 ] || cores=("${every_core[@]}")
+[ ${#designs[@]} = 0 ] || [ "$task" = print ] || lqg_stop "The record is of the shipped designs: expected --$task alone, found ${designs[*]}"
 mkdir -p "$folder"
 case $task in
   print) print "${cores[@]}" ;;

@@ -3,8 +3,9 @@
 #
 #   make.sh <root of the source tree> <output folder>
 #
-# Writes tinylqg-<version>-py3-none-<platform>.whl. LQG_BUILD names a build folder of TinyLQG whose lqgen may be taken;
-# without it everything is built in <output folder>/build. LQG_LICENSES names the folder of codegen/cmake/licenses.cmake. The tools come from PyPI, those and only those whose hashes are in
+# Writes tinylqg-<version>-py3-none-<platform>.whl. The lqgen in it is lqgen_portable, made
+# of the objects of a build folder's lqgen: of LQG_BUILD; else of that whose codegen/lqgen LQGEN names; else of the one that all
+# scripts share. LQG_LICENSES names the folder of codegen/cmake/licenses.cmake. The tools come from PyPI, those and only those whose hashes are in
 # tools.txt.
 set -euo pipefail
 root=$(cd "$1" && pwd)
@@ -15,12 +16,17 @@ source "$root/ports/packages/reproducible.sh"
 here=$root/ports/packages/python
 
 build=${LQG_BUILD:-}
-if [ -z "$build" ]; then
-  lqg_install_packages
-  build=$output/build
-  lqg_configure "$build" -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF
+if [ -z "$build" ] && [ -n "${LQGEN:-}" ]; then
+  build=$(dirname "$(dirname "$(realpath "$LQGEN")")")
+  [ -e "$build/CMakeCache.txt" ] ||
+    lqg_stop "LQGEN: the wheel needs an lqgen with MPFR inside. Expected codegen/lqgen in a build folder, found $LQGEN"
 fi
-lqg_compile "$build" --target lqgen_portable lqgen_libraries
+if [ -n "$build" ]; then
+  lqg_compile "$build" --target lqgen_portable lqgen_libraries
+else
+  build=$lqg_build
+  lqg_build_lqgen lqgen_portable lqgen_libraries
+fi
 
 tools=$output/tools
 if ! cmp -s "$here/tools.txt" "$tools/installed"; then
