@@ -17,6 +17,7 @@
 #include "emit/unit_test/unit_test.hpp"
 #include "design/solve.hpp"
 #include "input/design_file.hpp"
+#include "input/keys.hpp"
 #include "input/text.hpp"
 #include "watch.hpp"
 
@@ -39,10 +40,15 @@ bool wants(const Arguments& arguments, const char* what) {
   return std::find(arguments.only.begin(), arguments.only.end(), what) != arguments.only.end();
 }
 
+// The design file as messages and headers name it.
+std::string shown_path(const Arguments& arguments) {
+  return arguments.design_file == "-" ? "standard input" : arguments.design_file;
+}
+
 void report(const Arguments& arguments, const input::DesignFile& file, const design::Findings& findings) {
   for (const design::Finding& finding : findings)
     if (finding.severity == design::Severity::error || !arguments.quiet)
-      std::cerr << input::format(arguments.design_file, input::locate(file, finding.key), finding) << "\n";
+      std::cerr << input::format(shown_path(arguments), input::locate(file, finding.key), finding) << "\n";
 }
 
 void override_code(const Arguments& arguments, design::Code& code) {
@@ -74,7 +80,7 @@ bool overwrites_design(const Arguments& arguments, const std::vector<emit::File>
 }
 
 int generate(const Arguments& arguments) {
-  Watch watch(arguments.design_file, arguments.quiet, arguments.time_limit);
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   const input::DesignFile file = input::read_design_file(arguments.design_file);
   report(arguments, file, file.findings);
   if (!file.readable) return unreadable;
@@ -87,7 +93,9 @@ int generate(const Arguments& arguments) {
       design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
   std::optional<emit::Controller> controller;
   if (solution && !design::has_error(findings)) {
-    const std::string file_name = std::filesystem::path(arguments.design_file).filename().string();
+    const std::string file_name = shown_path(arguments) == arguments.design_file
+                                      ? std::filesystem::path(arguments.design_file).filename().string()
+                                      : shown_path(arguments);
     controller = emit::make_controller(std::move(problem), std::move(*solution),
                                        {file_name, emit::sha256(file.text)}, findings);
   }
@@ -112,13 +120,30 @@ int generate(const Arguments& arguments) {
   return written;
 }
 
+// Says what the command line's unknown options may mean, in their order; false where there are none.
+bool explain_unknown_options(const CLI::App& app) {
+  std::vector<std::string> known = {"--help"};
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  bool found = false;
+  for (const std::string& argument : app.remaining()) {
+    if (argument.size() < 2 || argument[0] != '-') continue;
+    const std::string name = argument.substr(0, argument.find('='));
+    const std::string near = input::nearest_word(known, name);
+    std::cerr << "lqgen: unknown option `" << input::printable(name) << "`"
+              << (near.empty() ? "; lqgen --help lists them" : ", did you mean `" + near + "`?") << "\n";
+    found = true;
+  }
+  return found;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};
   app.set_version_flag("--version", emit::version());
-  app.add_option("DESIGN", arguments.design_file, "design file (TOML)")->required()->option_text("DESIGN.toml");
+  app.add_option("DESIGN", arguments.design_file, "design file (TOML); - is standard input")->required()->option_text("DESIGN.toml");
   app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
   app.add_option("--only", arguments.only, "write only these")
       ->delimiter(',')->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))->option_text("h,test,json,html,proof");
@@ -132,12 +157,13 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0 && explain_unknown_options(app)) return wrong;
     return app.exit(error) == 0 ? written : wrong;
   }
   try {
     return generate(arguments);
   } catch (const std::exception& error) {
-    std::cerr << input::printable(arguments.design_file) << ": lqgen failed: " << input::printable(error.what()) << "\n";
+    std::cerr << input::printable(shown_path(arguments)) << ": lqgen failed: " << input::printable(error.what()) << "\n";
     return impossible;
   }
 }

@@ -99,6 +99,21 @@ void check_delay(const Values& values, Report& report) {
                                     " states together with the inputs on their way, found " + shown(nx + periods * nu));
 }
 
+// All in the left half-plane, and some outside of the unit circle: meant for s.
+void check_plane_of_poles(const Values& values, Report& report) {
+  for (const char* table : {"pole_placement", "observer"}) {
+    const auto found = values.poles.find(std::string(table) + ".poles");
+    if (found == values.poles.end()) continue;
+    const auto& poles = found->second;
+    const bool all_left = std::all_of(poles.begin(), poles.end(), [](const auto& pole) { return pole.real() < 0; });
+    const auto outside = std::find_if(poles.begin(), poles.end(), [](const auto& pole) { return std::abs(pole) >= 1; });
+    if (all_left && outside != poles.end())
+      report.error(found->first, "expected poles z inside of the unit circle, found " + shown(outside->real()) +
+                                     (outside->imag() == 0 ? "" : " ± " + shown(std::abs(outside->imag())) + "j") +
+                                     "; poles s of the continuous plane go to `continuous_poles`");
+  }
+}
+
 // A pole for every state, and of a regulator for every input on its way, too.
 void check_number_of_poles(const Values& values, Report& report) {
   const double nx = values.sizes.at(Size::nx), nu = values.sizes.at(Size::nu);
@@ -270,6 +285,7 @@ void check_consistency(Values& values, Report& report) {
   check_companions(values, report);
   check_numbers(values, report);
   check_delay(values, report);
+  check_plane_of_poles(values, report);
   check_number_of_poles(values, report);
   check_held_outputs(values, report);
   check_domain(values, report);

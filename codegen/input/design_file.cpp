@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -42,6 +43,14 @@ DesignFile refused(const std::string& text, const std::vector<Fault>& faults) {
   return file;
 }
 
+DesignFile read_stream(std::istream& stream) {
+  std::string text(largest_file + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) return unreadable("reading it failed");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse_design(text);
+}
+
 // The key above: of "plant.A[2][0]" "plant.A[2]", of "plant.A" "plant", of "plant" "".
 std::string above(const std::string& key) {
   const std::size_t cut = key.find_last_of(".[");
@@ -51,6 +60,7 @@ std::string above(const std::string& key) {
 }  // namespace
 
 DesignFile read_design_file(const std::string& path) {
+  if (path == "-") return read_stream(std::cin);
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return unreadable(error ? error.message() : "there is no such file");
@@ -58,11 +68,8 @@ DesignFile read_design_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(status)) return unreadable("it is not a regular file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return unreadable(std::generic_category().message(errno));
-  std::string text(largest_file + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) return unreadable("reading it failed");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  DesignFile file = parse_design(text);
+  DesignFile file = read_stream(stream);
+  if (!file.readable) return file;
   if (const Complaint complaint = check_file_name(std::filesystem::path(path).filename().string())) {
     Report(file).error("@", Location{0, 0}, *complaint);
     file.problem.reset();

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "input/toml_hint.hpp"
+
 // toml++ 3.3.0 runs into its own assertions on `[ = 1`: here they are always on, and are exceptions. That
 // holds only for a parser that is compiled here, not for one in a shared library.
 namespace {
@@ -104,6 +106,11 @@ Fault find_assertion(const std::string& text) {
           "not TOML: unexpected `" + text.substr(passes, 1) + "`"};
 }
 
+std::string_view line_of(std::string_view text, int line) {
+  for (; line > 1 && text.find('\n') != text.npos; --line) text.remove_prefix(text.find('\n') + 1);
+  return text.substr(0, text.find('\n'));
+}
+
 }  // namespace
 
 std::string describe(const Node& node) {
@@ -123,6 +130,8 @@ std::variant<Node, Fault> parse_toml(const std::string& text) {
   try {
     return convert(toml::parse(text));
   } catch (const toml::parse_error& error) {
+    const std::string hint = toml_hint(line_of(text, location(error.source().begin).line));
+    if (!hint.empty()) return Fault{location(error.source().begin), "not TOML: " + hint};
     std::string_view reason = error.description();
     if (reason.rfind(noise, 0) == 0) reason.remove_prefix(noise.size());
     return Fault{location(error.source().begin), "not TOML: " + std::string(reason)};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "input/foreign_words.hpp"
+
 namespace lqg::input {
 namespace {
 
@@ -182,6 +184,18 @@ std::string home_of(const KeyRule& rule) {
 
 }  // namespace
 
+std::string nearest_word(const std::vector<std::string>& words, const std::string& name) {
+  std::string best;
+  std::size_t best_distance = 0;
+  for (const std::string& word : words) {
+    if (name.size() > longest_name) continue;
+    const std::size_t distance = edit_distance(lower_case(name), lower_case(word));
+    if (distance > near_distance(std::max(word.size(), name.size()))) continue;
+    if (best.empty() || distance < best_distance) best = word, best_distance = distance;
+  }
+  return best;
+}
+
 const std::vector<KeyRule>& key_rules() { return rules; }
 
 std::string rule_path(const std::string& path) {
@@ -207,6 +221,12 @@ std::string parent_of(const std::string& path) {
 }
 
 Suggestion suggest(const std::string& parent, const std::string& name) {
+  const ForeignWord foreign = foreign_word(parent, name);
+  if (!foreign.sentence.empty()) return {"", "unknown key, " + foreign.sentence};
+  if (!foreign.path.empty()) {
+    const std::string home = parent_of(foreign.path);
+    return {foreign.path, "unknown key, did you mean `" + name_of(foreign.path) + "`" + (home == parent ? "" : " in [" + home + "]") + "?"};
+  }
   const KeyRule* near = nearest(parent, name);
   const KeyRule* other = elsewhere(name);
   if (near != nullptr && (other == nullptr || lower_case(name_of(near->path)) == lower_case(name)))

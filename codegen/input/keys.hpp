@@ -60,6 +60,9 @@ struct Suggestion {
   std::string message;  // "unknown key, did you mean `sample_time`?"
 };
 
+// The one of `words` that is nearest to `name` in spelling, capitals aside; "" if none is near.
+std::string nearest_word(const std::vector<std::string>& words, const std::string& name);
+
 // For the key `name`, unknown in the table `parent` ("" is the top).
 Suggestion suggest(const std::string& parent, const std::string& name);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "input/matrices.hpp"
+#include "input/text.hpp"
 #include "input/values.hpp"
 
 namespace lqg::input {
@@ -35,27 +36,44 @@ bool take_conjugate(std::vector<Pole>& poles, const Pole& pole) {
   return true;
 }
 
+Node with_name_as_index(Node item, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), item.text);
+  if (item.kind != Kind::text || found == names.end()) return item;
+  item.kind = Kind::number;
+  item.number = static_cast<double>(found - names.begin());
+  return item;
+}
+
+// What else than an index is good.
+std::string names_too(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? ", or one of " : ", ") + in_quotes(name);
+  return list;
+}
+
 }  // namespace
 
 std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node,
-                                             const std::map<Size, int>& sizes, Report& report) {
+                                             const std::map<Size, int>& sizes, const std::vector<std::string>& names,
+                                             Report& report) {
   const int size = sizes.at(rule.rows);
   const std::string wanted = size > 0 ? "a whole number from 0 to " + std::to_string(size - 1) + " (" +
                                             name_of(rule.rows) + " − 1)"
                                       : "a whole number ≥ 0";
   if (node.kind != Kind::array || node.items.empty()) {
-    report.error(rule.path, "expected an array of indices, found " + describe(node));
+    report.error(rule.path, "expected an array of indices or names, found " + describe(node));
     return {};
   }
   std::vector<int> indices;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    const Node& item = node.items[i];
+    const Node item = with_name_as_index(node.items[i], names);
     const bool is_number = item.kind == Kind::number;
     const bool good = is_number && item.number >= 0 && item.number == std::floor(item.number) &&
                       item.number < (size > 0 ? size : most_signals);
     std::string wrong;
     if (!good)
-      wrong = "expected " + wanted + ", found " + (is_number ? shown(item.number) : describe(item));
+      wrong = "expected " + wanted + names_too(names) + ", found " +
+              (is_number ? shown(item.number) : item.kind == Kind::text ? in_quotes(item.text) : describe(item));
     else if (std::find(indices.begin(), indices.end(), static_cast<int>(item.number)) != indices.end())
       wrong = "expected every index once, found " + shown(item.number) + " again";
     if (!wrong.empty()) {

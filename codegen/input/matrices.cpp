@@ -141,16 +141,17 @@ class MatrixReader {
                                     counted(columns, "number"));
       return false;
     }
-    const bool rows_good = check_count(rows, rows_, rule_.rows, "row");
+    const bool is_lying = rows == 1 && columns == rows_ && columns_ <= 0;
+    const bool rows_good = check_count(rows, rows_, rule_.rows, "row", is_lying ? "; a column is [[1], [2], [3]]" : "");
     return check_count(columns, columns_, rule_.columns, "column") && rows_good;
   }
 
-  bool check_count(int found, int wanted, Size size, const std::string& noun) const {
+  bool check_count(int found, int wanted, Size size, const std::string& noun, const std::string& hint = "") const {
     if (found > most_signals)
       report_.error(rule_.path, "expected at most " + counted(most_signals, noun) + " (" + name_of(size) +
                                     "), found " + std::to_string(found));
     else if (wanted > 0 && found != wanted)
-      report_.error(rule_.path, "expected " + sized(wanted, size, noun) + ", found " + std::to_string(found));
+      report_.error(rule_.path, "expected " + sized(wanted, size, noun) + ", found " + std::to_string(found) + hint);
     else
       return true;
     return false;
@@ -184,7 +185,9 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
   const auto [nx, columns] = shape("plant.A", -1);
   std::map<Size, int> sizes{{Size::none, 1}};
   sizes[Size::nx] = limited(nx == columns ? nx : -1);
-  sizes[Size::nu] = limited(shape("plant.B", 0).second);
+  // A row where a column was meant, as of one input, tells no number of inputs.
+  const auto [rows_of_B, columns_of_B] = shape("plant.B", 0);
+  sizes[Size::nu] = rows_of_B != nx && columns_of_B == nx ? -1 : limited(columns_of_B);
   sizes[Size::ny] = limited(shape("plant.C", 0).first);
   const auto integrated = nodes.find("lqr.integral.outputs");
   sizes[Size::integrals] = integrated == nodes.end() ? 0 : limited(static_cast<int>(integrated->second->items.size()));

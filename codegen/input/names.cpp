@@ -99,6 +99,11 @@ Complaint check_identifier(const std::string& name) {
   return {};
 }
 
+std::string in_lower_case(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return is_lower(c) || !is_letter(c) ? c : static_cast<char>(c - 'A' + 'a'); });
+  return name;
+}
+
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' ');
   return first == text.npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
@@ -109,7 +114,7 @@ std::string trimmed(const std::string& text) {
 Complaint check_design_name(const std::string& name) {
   if (const Complaint complaint = check_identifier(name)) return complaint;
   if (std::any_of(name.begin(), name.end(), [](char c) { return is_letter(c) && !is_lower(c); }))
-    return "expected lower case" + found(name);
+    return "expected lower case" + found(name) + "; did you mean " + in_quotes(in_lower_case(name)) + "?";
   if (contains(keywords, name)) return "expected a name that is no keyword of C or C++" + found(name);
   if (contains(headers, name)) return "expected a name that no standard header has" + found(name);
   if (contains(types, name))

@@ -122,14 +122,18 @@ class ValueReader {
       case Type::step: read_whole(rule, node, 1, design::most_steps); break;
       case Type::signals: read_signals(rule, node); break;
       case Type::indices:
-        if (auto indices = read_indices(rule, node, values_.sizes, report_)) values_.indices[rule.path] = *indices;
+        if (auto indices = read_indices(rule, node, values_.sizes, names_of(Size::ny), report_)) values_.indices[rule.path] = *indices;
         break;
       case Type::poles:
         if (auto poles = read_poles(rule.path, node, report_)) values_.poles[rule.path] = *poles;
         break;
+      case Type::mask:
+        if (const auto mask = mask_of_names(rule, node)) {
+          if (auto matrix = read_matrix(rule, *mask, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
+        }
+        break;
       case Type::matrix:
       case Type::weight:
-      case Type::mask:
       case Type::vector:
       case Type::positives:
       case Type::bounds:
@@ -142,6 +146,45 @@ class ValueReader {
   }
 
  private:
+  // Of the states or outputs: as the file has them, else "x0", "x1" …
+  std::vector<std::string> names_of(Size size) const {
+    const bool states = size == Size::nx;
+    std::vector<std::string> names;
+    const auto named = values_.signals.find(states ? "plant.states" : "plant.outputs");
+    if (named != values_.signals.end())
+      for (const design::Signal& signal : named->second) names.push_back(signal.name);
+    else
+      for (int i = 0; i < values_.sizes.at(size); ++i) names.push_back((states ? "x" : "y") + std::to_string(i));
+    return names;
+  }
+
+  // A mask whose rows may be lists of names, [["angle", "rate"]]: as rows of 0 and 1.
+  std::optional<Node> mask_of_names(const KeyRule& rule, const Node& node) {
+    Node mask = node;
+    if (node.kind != Kind::array) return mask;
+    const std::vector<std::string> names = names_of(rule.columns);
+    const auto is_name = [](const Node& entry) { return entry.kind == Kind::text; };
+    const auto has_names = [&](const Node& row) { return std::any_of(row.items.begin(), row.items.end(), is_name); };
+    if (!std::any_of(node.items.begin(), node.items.end(), has_names)) return mask;
+    for (std::size_t i = 0; i < mask.items.size(); ++i) {
+      Node& row = mask.items[i];
+      if (row.kind != Kind::array || (!row.items.empty() && !has_names(row))) continue;
+      std::vector<Node> entries(names.size(), Node{Kind::number, row.where, 0, "", {}, {}});
+      for (std::size_t j = 0; j < row.items.size(); ++j) {
+        const auto found = std::find(names.begin(), names.end(), row.items[j].text);
+        if (!is_name(row.items[j]) || found == names.end()) {
+          report_.error(rule.path + "[" + std::to_string(i) + "][" + std::to_string(j) + "]", row.items[j].where,
+                        "expected one of " + listed(names) + ", found " +
+                            (is_name(row.items[j]) ? in_quotes(row.items[j].text) : describe(row.items[j])));
+          return {};
+        }
+        entries[static_cast<std::size_t>(found - names.begin())].number = 1;
+      }
+      row.items = entries;
+    }
+    return mask;
+  }
+
   // False where the key speaks of inputs or outputs and there are none. For the tables [lqr], [limits],
   // [kalman] that is said once for all of their keys.
   bool has_its_matrix(const KeyRule& rule) {

@@ -22,5 +22,6 @@ if [ -z "$build" ]; then
 fi
 
 rm -f "$output"/*.deb
-(cd "$build" && cpack -G DEB -B "$output")
+# Everything is built: cpack, told that Ninja did it, does not ask make once more.
+(cd "$build" && cpack -G DEB -B "$output" -D CPACK_CMAKE_GENERATOR=Ninja)
 rm -rf "$output/_CPack_Packages"

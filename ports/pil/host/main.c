@@ -1,4 +1,4 @@
-/* Processor in the loop: the robot of ports/pc is simulated here, its controller runs on a target at the other end of a line.
+/* Processor in the loop: the plant is here (plant.h), its controller runs on a target at the other end of a line.
  *
  *     pil [option…] --port DEVICE [--baud 115200]
  *     pil [option…] -- COMMAND…                     the target is a program, the line its standard input and output
@@ -6,7 +6,7 @@
  *     --seconds S    of simulated time, default 10
  *     --patience S   that an answer may take, default 2
  *     --csv FILE     what every sample took
- *     --svg FILE     pitch, voltage and what every sample took, as curves
+ *     --svg FILE     the robot's pitch, the first input and what every sample took, as curves
  *
  * Every u, every status and a CRC of the controller's state after every sample are compared with those of the same controller
  * that runs here. Exit status 0: all bits were the same, and the robot stood at the end; 1: they were not, or it did not; 2: the
@@ -17,13 +17,10 @@
 #include <string.h>
 
 #include "../../pc/chart.h"
-#include "../../pc/robot.h"
-#include "../../pc/scenario.h"
 #include "controller.h"
+#include "plant.h"
 #include "target.h"
 #include "timing.h"
-
-#define DEGREES (180.0 / 3.14159265358979323846)
 
 enum { GOOD = 0, BAD = 1, USAGE = 2, NO_TARGET = 3, NO_FILE = 4 };
 
@@ -87,8 +84,7 @@ typedef struct {
     unsigned done;             /* that have been */
     unsigned different;        /* of these: not the bits of the host */
     unsigned first_different;
-    double *pitch, *voltage;   /* °, V */
-    robot_t robot;
+    double *value, *input;     /* plant_value, u[0] */
 } run_t;
 
 /* The same sample here, with the u of the target applied. */
@@ -110,20 +106,19 @@ static int run_loop(target_t *target, timing_t *timing, run_t *run)
 
     controller_init(&loop);
     for (unsigned k = 0; k < run->count; k++) {
-        const double seconds = k * (double)controller_sample_time;
         float y[CONTROLLER_NY];
         answer_t answer;
 
-        scenario_read_sensors(&run->robot, seconds, y);
+        plant_read_sensors(k, y);
         if (target_run_sample(target, (uint16_t)(k & 0xFFFF), y, &answer) != 0)
             return -1;
         if (!has_our_bits(&loop, y, &answer) && run->different++ == 0)
             run->first_different = k;
         timing_add(timing, k, &answer);
-        run->pitch[k] = run->robot.pitch * DEGREES;
-        run->voltage[k] = (double)answer.u[0];
+        run->value[k] = plant_value();
+        run->input[k] = (double)answer.u[0];
         run->done = k + 1;
-        robot_run(&run->robot, (double)answer.u[0], scenario_push(seconds), (double)controller_sample_time);
+        plant_apply(k, answer.u);
     }
     return 0;
 }
@@ -133,8 +128,8 @@ static int run_loop(target_t *target, timing_t *timing, run_t *run)
 static int write_files(const options_t *options, const timing_t *timing, const run_t *run)
 {
     char title[32];
-    const chart_curve_t curves[] = {{"pitch [°]", run->pitch, NULL},
-                                    {"voltage [V]", run->voltage, NULL},
+    const chart_curve_t curves[] = {{plant_quantity, run->value, NULL},
+                                    {"first input", run->input, NULL},
                                     {title, timing->rows[TIMING_ALL], NULL}};
     const int count = (int)run->done;
     int status = GOOD;
@@ -144,7 +139,7 @@ static int write_files(const options_t *options, const timing_t *timing, const r
         fprintf(stderr, "%s cannot be written\n", options->csv);
         status = NO_FILE;
     }
-    if (options->svg && chart_write_svg(options->svg, "Balancing robot, processor in the loop", curves, 3, count,
+    if (options->svg && chart_write_svg(options->svg, "Processor in the loop", curves, 3, count,
                                         (double)controller_sample_time) != 0) {
         fprintf(stderr, "%s cannot be written\n", options->svg);
         status = NO_FILE;
@@ -154,7 +149,7 @@ static int write_files(const options_t *options, const timing_t *timing, const r
 
 static int report(const timing_t *timing, const run_t *run)
 {
-    const int stands = scenario_stands(&run->robot);
+    int is_well;
 
     printf("%u samples of %g s\n\n", run->done, (double)controller_sample_time);
     timing_print(timing, run->done);
@@ -162,10 +157,8 @@ static int report(const timing_t *timing, const run_t *run)
         printf("\n  %u samples had OTHER BITS than here, the first of them number %u.\n", run->different, run->first_different);
     else
         printf("\n  Every u, status and state of the target had the bits of this machine's.\n");
-    printf("  After %.1f s the robot %s: pitch %.2f degrees, %.1f cm from where it began.\n",
-           run->done * (double)controller_sample_time, stands ? "stands" : "HAS FALLEN", run->robot.pitch * DEGREES,
-           run->robot.wheel * 4.0);
-    return stands && run->different == 0 ? GOOD : BAD;
+    is_well = plant_report(run->done * (double)controller_sample_time);
+    return is_well && run->different == 0 ? GOOD : BAD;
 }
 
 /* ---- a session ------------------------------------------------------------------------------------------ */
@@ -183,7 +176,7 @@ static int run_session(const options_t *options, target_t *target, timing_t *tim
     }
     if (target_start(target) != 0 || run_loop(target, timing, run) != 0)
         return NO_TARGET;
-    printf("  %s on the target, the robot here: ", hello.name);
+    printf("  %s on the target, %s: ", hello.name, plant_place);
     status = report(timing, run);
     written = write_files(options, timing, run);
     return status != GOOD ? status : written;
@@ -194,22 +187,24 @@ int main(int argc, char **argv)
     options_t options = {.seconds = 10.0, .patience = 2.0, .baud = 115200.0};
     target_t target = {.line = {.file = -1}};
     timing_t timing = {.count = 0};
-    run_t run = {.robot = scenario_start};
+    run_t run = {.count = 0};
     int status = NO_TARGET;
 
     if (read_command_line(argc, argv, &options) != 0)
         return USAGE;
     target.patience = options.patience;
     run.count = (unsigned)(options.seconds / (double)controller_sample_time + 0.5);
-    run.pitch = calloc(run.count, sizeof run.pitch[0]);
-    run.voltage = calloc(run.count, sizeof run.voltage[0]);
-    if (run.pitch && run.voltage &&
+    if (run.count > plant_samples())
+        run.count = plant_samples();
+    run.value = calloc(run.count, sizeof run.value[0]);
+    run.input = calloc(run.count, sizeof run.input[0]);
+    if (run.value && run.input &&
         (options.command ? line_start(&target.line, options.command)
                          : line_open(&target.line, options.port, (unsigned long)options.baud)) == 0)
         status = run_session(&options, &target, &timing, &run);
     line_close(&target.line);
     timing_end(&timing);
-    free(run.pitch);
-    free(run.voltage);
+    free(run.value);
+    free(run.input);
     return status;
 }

@@ -31,6 +31,7 @@ std::vector<BadDesign> wrong_shapes() {
       {"A of 257 states",
        {{7, "A = [" + row_of_zeros(257) + "]"}},
        {"7:5: plant.A: expected a square matrix, found 1 row of 257 numbers"}},
+      {"B as a row", {{8, "B = [[0, 1, 0, 0]]"}}, {"8:5: plant.B: expected 4 rows (nx), found 1; a column is [[1], [2], [3]]"}},
       {"B a row short", {{8, "B = [[0], [1], [0]]"}}, {"8:5: plant.B: expected 4 rows (nx), found 3"}},
       {"B that is a list",
        {{8, "B = [0, 1, 0, 0]"}},

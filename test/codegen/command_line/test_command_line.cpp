@@ -89,6 +89,29 @@ void test_command_line_that_is_wrong() {
     expect_refusal(wrong, run_lqgen({"base.toml", "-o", "out", "--time-limit", seconds}));
 }
 
+void test_misspelt_options_are_explained_in_their_order() {
+  const Outcome outcome = run_lqgen({"base.toml", "--sytle", "compact", "--quite", "--zzzz"});
+  TEST_ASSERT_EQUAL_INT(wrong, outcome.status);
+  TEST_ASSERT_EQUAL_STRING(
+      "lqgen: unknown option `--sytle`, did you mean `--style`?\nlqgen: unknown option `--quite`, did you mean `--quiet`?\n"
+      "lqgen: unknown option `--zzzz`; lqgen --help lists them\n",
+      outcome.err.c_str());
+}
+
+// The header is the file's, but for its name.
+void test_dash_reads_standard_input() {
+  const std::string command = "exec \"$0\" - -o piped --only h --quiet <base.toml";
+  TEST_ASSERT_EQUAL_INT(written, run({"/bin/sh", "-c", command, lqgen}, folder).status);
+  TEST_ASSERT_EQUAL_INT(written, run_lqgen({"base.toml", "-o", "named", "--only", "h", "--quiet"}).status);
+  std::string piped = read_file(folder / "piped/base.h");
+  const std::string name = "standard input";
+  for (std::size_t at = piped.find(name); at != piped.npos; at = piped.find(name)) piped.replace(at, name.size(), "base.toml");
+  TEST_ASSERT_EQUAL_STRING(read_file(folder / "named/base.h").c_str(), piped.c_str());
+  const Outcome bad = run({"/bin/sh", "-c", "echo | exec \"$0\" -", lqgen}, folder);
+  TEST_ASSERT_EQUAL_INT(wrong, bad.status);
+  TEST_ASSERT_EQUAL_STRING_LEN("standard input:1:1: ", bad.err.c_str(), 20);
+}
+
 void test_help_and_version_are_no_errors() {
   for (const char* option : {"--help", "--version"}) {
     const Outcome outcome = run_lqgen({option});
@@ -264,6 +287,8 @@ int main(int count, char** arguments) {
   RUN_TEST(test_only_what_is_asked_for_is_written);
   RUN_TEST(test_quiet_leaves_notes_out_and_errors_in);
   RUN_TEST(test_command_line_that_is_wrong);
+  RUN_TEST(test_misspelt_options_are_explained_in_their_order);
+  RUN_TEST(test_dash_reads_standard_input);
   RUN_TEST(test_help_and_version_are_no_errors);
   RUN_TEST(test_design_file_whose_name_is_no_text);
   RUN_TEST(test_design_file_whose_name_is_odd_and_whose_folder_is_worse);

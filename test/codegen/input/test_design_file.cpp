@@ -344,10 +344,20 @@ void test_slight_asymmetry_is_taken_out_with_a_note() {
   TEST_ASSERT_TRUE(file.problem->regulator->Q(0, 1) == file.problem->regulator->Q(1, 0));
 }
 
+// The same file with numbers and with names is the same problem.
+void test_names_stand_for_indices() {
+  std::string text = full;
+  text.replace(text.find("[kalman]"), 0, "structure = [[\"v\"], []]\ntrack = [\"angle\"]\n");
+  const input::DesignFile file = input::parse_design(text);
+  TEST_ASSERT_TRUE(file.problem.has_value());
+  TEST_ASSERT_TRUE(file.problem->regulator->track == std::vector<int>({0}));
+  expect_matrix({0, 1, 0, 0}, file.problem->regulator->structure);
+}
+
 void test_everything_that_is_wrong_comes_in_the_order_of_the_file() {
   expect_lines(
       "d.toml:1:1: lqr: expected [lqr], [kalman] or both, found neither\n"
-      "d.toml:1:8: name: expected lower case, found \"A\"\n"
+      "d.toml:1:8: name: expected lower case, found \"A\"; did you mean \"a\"?\n"
       "d.toml:2:9: plant.sample_time: missing\n"
       "d.toml:2:9: note: plant.domain: missing, taken for \"continuous\"\n"
       "d.toml:2:15: plant.A: expected a square matrix, found 1 row of 2 numbers\n"
@@ -443,5 +453,6 @@ int main() {
   RUN_TEST(test_file_that_cannot_be_read_is_told_from_one_that_is_wrong);
   RUN_TEST(test_bytes_of_the_file_are_kept_for_its_hash);
   RUN_TEST(test_file_of_many_megabytes_is_refused);
+  RUN_TEST(test_names_stand_for_indices);
   return UNITY_END();
 }

@@ -49,6 +49,20 @@ void test_key_of_another_table_names_that_table() {
   expect("lqr", "process_noise", "unknown key here; `process_noise` belongs to [kalman]");
 }
 
+// MATLAB: lqr, kalman, ss, margin. python-control: lqe(A, G, C, QN, RN), dt.
+void test_word_of_another_tool_names_the_key() {
+  expect("plant", "Ts", "unknown key, did you mean `sample_time`?");
+  expect("", "dt", "unknown key, did you mean `sample_time` in [plant]?");
+  expect("kalman", "QN", "unknown key, did you mean `process_noise`?");
+  expect("kalman", "R", "unknown key, did you mean `measurement_noise`?");
+  expect("lqr", "RN", "unknown key, did you mean `measurement_noise` in [kalman]?");
+  expect("require", "phase_margin", "unknown key, did you mean `phase_margin_deg`?");
+  expect("lqr", "K", "unknown key, K is what lqgen computes: did you mean `Q` and `R` in [lqr], or `poles` in [pole_placement]?");
+  for (const char* table : {"plant", "lqr", "kalman", "limits", "require"})
+    for (const char* word : {"Ts", "QN", "umax", "phase_margin", "x0"})
+      TEST_ASSERT_NOT_NULL_MESSAGE(find_rule(suggest(table, word).path), word);
+}
+
 void test_key_like_no_other_gets_no_advice() {
   expect("plant", "mass", "unknown key");
   expect("lqr", "k", "unknown key");
@@ -64,6 +78,7 @@ int main() {
   RUN_TEST(test_misspelt_key_names_the_nearest_of_its_table);
   RUN_TEST(test_capitals_alone_are_the_nearest);
   RUN_TEST(test_key_of_another_table_names_that_table);
+  RUN_TEST(test_word_of_another_tool_names_the_key);
   RUN_TEST(test_key_like_no_other_gets_no_advice);
   return UNITY_END();
 }
