@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "design/loop/compensator.hpp"
-#include "design/loop/input_noise.hpp"
 #include "design/loop/open_loop.hpp"
 #include "design/numeric/digits.hpp"
 #include "design/numeric/poles.hpp"
@@ -69,8 +68,8 @@ void note_settling(const Problem& problem, const DesignRun& run, Findings& findi
 // u acts a sample later than the design knows.
 bool is_stable_when_late(const OpenLoop& loop) {
   const Index n = loop.A.rows(), nu = loop.B.cols();
+  if (n > 100) return true;  // its poles would take as long as the rest of the design
   const RealMatrix late = above(beside(loop.A, loop.B), beside(-loop.C, zeros(nu, nu)));
-  if (n > 100) return true;  // as long as the rest of the design
   for (const ComplexReal& pole : eigenvalues(late))
     if (!(size_of(pole) < 1)) return false;
   return true;
@@ -151,15 +150,16 @@ std::string key_of_limit(const Limits& limits, Index i) {
 }
 
 void note_noise_at_limits(const Problem& problem, const DesignRun& run, Findings& findings) {
-  if (!run.has_steady_loop || !has_noise(problem.estimator)) return;
-  const Samples& samples = run.stages.back().samples;
-  const Eigen::VectorXd rms = rms_of_inputs(problem, samples, compensator(problem, run.solution));
-  for (Index i = 0; i < rms.size(); ++i)
-    if (rms(i) > reach_of(*problem.limits, i) / 2)
+  if (!run.solution.loop.rms) return;
+  const std::vector<double>& rms = run.solution.loop.rms->u;
+  for (std::size_t j = 0; j < rms.size(); ++j) {
+    const Index i = static_cast<Index>(j);
+    if (rms[j] > reach_of(*problem.limits, i) / 2)
       add_note(findings, key_of_limit(*problem.limits, i),
-               "the noises alone move " + name_of_input(problem, i) + " by " + short_number(rms(i))
+               "the noises alone move " + name_of_input(problem, i) + " by " + short_number(rms[j])
                    + " rms, and it is limited to " + short_number(reach_of(*problem.limits, i))
                    + ": the loop is at its limits without end; look at the noises, and at R");
+  }
 }
 
 // What of the inputs a reference of 1 asks for: held for ever, with as many inputs as outputs that have one, and at once.
