@@ -38,8 +38,9 @@
  *
  * Closed loop, opened at the plant's input:
  *
- *   gain margin         14.08 dB
- *   phase margin        44.95°
+ *   gain margin         14.08 dB, up 14.08
+ *   phase margin        44.95° at 21.77 rad/s
+ *   delay margin        3.603 samples, 0.03603 s
  *   disk margin         0.7929
  *   cost per sample     0.09448
  *
@@ -91,7 +92,7 @@ typedef struct {
 
 LQG_STRICT_BEGIN
 #if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter")  /* as written: few values wait in registers */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")  /* as written: few values wait in registers */
 #endif
 
 /* x̂ = x0, its covariance P0; nothing applied yet. */

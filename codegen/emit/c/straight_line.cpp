@@ -171,7 +171,7 @@ FunctionBodies straight_line_bodies(const Controller& controller) {
   bodies.includes = std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n\n" : "") +
                     "#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
   bodies.options = R"(#if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter")  /* as written: few values wait in registers */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")  /* as written: few values wait in registers */
 #endif
 )";
   if (controller.keeps.any) bodies.init = initial_state(controller);
