@@ -68,6 +68,7 @@ struct EstimatorSolution {
   SampledNoise noise;
   RealMatrix L, M, L_predictor;
   RealMatrix P_prior, P_posterior, S;
+  RealMatrix L_continuous, P_continuous;  // of the unsampled filter x̂' = A x̂ + B u + L (y − Cx̂ − Du), with noise that is continuous
   Poles poles;  // of A − L_predictor C
   std::vector<RealMatrix> L_schedule, M_schedule;  // of sample 0, 1, …; L and M from the end on
   std::optional<StructureReport> structure;

@@ -2,6 +2,7 @@
 
 #include "design/finding.hpp"
 #include "design/numeric/factor.hpp"
+#include "design/sampled/noise.hpp"
 
 namespace lqg::design {
 
@@ -16,6 +17,14 @@ RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
   // The inputs on their way are known: no error.
   if (result.failure == RiccatiFailure::none) result.X = padded(result.X, all, all);
   return result;
+}
+
+RiccatiResult solve_continuous_estimator(const Problem& problem, const RealMatrix& start) {
+  const SampledNoise noise = noise_of(problem);
+  const RealMatrix G = real(problem.plant.G);
+  return solve_continuous_riccati({real(problem.plant.A).transpose(), real(problem.plant.C).transpose(), congruence(G, noise.W),
+                                   noise.V, multiply(G, noise.Swv)},
+                                  start);
 }
 
 EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior) {

@@ -35,6 +35,16 @@ bool has_steady_filter(const Problem& problem, const Samples& samples, DesignRun
   return on_limit.empty() && !has_error(result.findings);
 }
 
+// What other tools call the Kalman gain of a continuous plant. Nothing here is made of it: where it is not found, it is left out.
+void add_continuous_gain(const Problem& problem, const DesignRun* coarser, EstimatorSolution& filter) {
+  if (problem.plant.domain == Domain::discrete || problem.estimator->noise == Noise::discrete) return;
+  const RealMatrix start = coarser && coarser->solution.estimator ? coarser->solution.estimator->P_continuous : RealMatrix();
+  const RiccatiResult found = solve_continuous_estimator(problem, start);
+  if (found.failure != RiccatiFailure::none) return;
+  filter.P_continuous = found.X;
+  filter.L_continuous = found.K.transpose();
+}
+
 void run_steady(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
   if (!has_steady_filter(last.problem, last.samples, result)) return;
   const bool has_start = coarser && coarser->solution.estimator;
@@ -46,6 +56,7 @@ void run_steady(const SampledStage& last, const DesignRun* coarser, DesignRun& r
   take_condition(found, result.solution);
   result.solution.estimator = filter_of(last.samples, found.X);
   result.estimator_poles = poles_of_filter(last.samples, result.solution.estimator->L_predictor);
+  add_continuous_gain(last.problem, coarser, *result.solution.estimator);
   if (last.problem.estimator->structure.size() > 0)
     keep_estimator_structure(last.problem, last.samples, coarser, result);
 }

@@ -1,8 +1,10 @@
 #include "emit/report/json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "design/numeric/digits.hpp"
 #include "design/sampled/reference.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/plan/realisation.hpp"
@@ -113,6 +115,19 @@ Json lqr(const Controller& controller) {
   return out;
 }
 
+// The steady filter as a system of its own, from [u; y − D u] to x̂: x⁺ = A x + B […], x̂ = C x + D […].
+Json observer(const Controller& controller) {
+  const design::EstimatorSolution& estimator = *controller.solution.estimator;
+  const design::SampledPlant& plant = controller.solution.plant;
+  const design::Digits scope(std::max(50u, controller.solution.numerics.digits));
+  const design::Index nx = plant.A.rows(), nu = plant.B.cols(), ny = plant.C.rows();
+  const design::RealMatrix told = controller.is_predictor ? design::zeros(nx, ny) : estimator.L;
+  return {{"A", rows(plant.A - design::multiply(estimator.L_predictor, plant.C))},
+          {"B", rows(design::beside(plant.B, estimator.L_predictor))},
+          {"C", rows(design::identity(nx) - design::multiply(told, plant.C))},
+          {"D", rows(design::beside(design::zeros(nx, nu), told))}};
+}
+
 // A filter that never becomes steady has its form alone.
 Json kalman(const Controller& controller) {
   Json out = {{"form", controller.is_predictor ? "predictor" : "filter"}};
@@ -123,6 +138,9 @@ Json kalman(const Controller& controller) {
   add(out, "P_prior", estimator.P_prior);
   add(out, "P_posterior", estimator.P_posterior);
   add(out, "S", estimator.S);
+  add(out, "L_continuous", estimator.L_continuous);
+  add(out, "P_continuous", estimator.P_continuous);
+  out["observer"] = observer(controller);
   out["poles"] = poles(estimator.poles);
   add(out, "schedule", estimator.L_schedule);
   if (estimator.structure) out["structure"] = structure(*estimator.structure, controller.problem.plant.sample_time);

@@ -215,6 +215,8 @@ std::string matrices(const Controller& controller) {
     add("P before the outputs", estimator.P_prior);
     add("P after the outputs", estimator.P_posterior);
     add("S, of the innovations", estimator.S);
+    add("L of the continuous equation", estimator.L_continuous);
+    add("P of the continuous equation", estimator.P_continuous);
   }
   return out;
 }

@@ -3,7 +3,9 @@
 
 #include "design/gains/estimator.hpp"
 #include "design/numeric/factor.hpp"
+#include "design/numeric/poles.hpp"
 #include "design/rounding.hpp"
+#include "design/sampled/noise.hpp"
 #include "problems.hpp"
 
 using namespace lqg::design;
@@ -173,6 +175,45 @@ void test_singular_initial_covariance_has_exact_zeros_in_D0() {
   TEST_ASSERT_TRUE(found.D0(1) == 9);
 }
 
+// A double integrator pushed by white noise of density q, its position seen in white noise of density r: L = (√2 (q/r)^¼, (q/r)^½).
+// (B. D. O. Anderson and J. B. Moore, Optimal Filtering, 1979, have its P.)
+void test_continuous_gain_of_a_double_integrator() {
+  Problem problem = double_integrator(0.1);
+  problem.plant.G = Eigen::Vector2d(0, 1);
+  problem.estimator->noise = Noise::continuous;
+  problem.estimator->W = MatrixXd::Constant(1, 1, 16);
+  problem.estimator->V = MatrixXd::Constant(1, 1, 1);
+  const Solution found = solved(problem);
+  const Digits scope(50);
+  expect_rounded(above(RealMatrix::Constant(1, 1, 2 * sqrt(Real(2))), RealMatrix::Constant(1, 1, Real(4))),
+                 found.estimator->L_continuous, "L_continuous");
+  problem.plant.sample_time = 1e-7;
+  const RealMatrix of_samples = solved(problem).estimator->L_predictor / Real(1e-7);
+  expect_small(distance(of_samples, found.estimator->L_continuous), 1e-6, "L_predictor / T");
+  problem.estimator->noise = Noise::discrete;
+  TEST_ASSERT_EQUAL(0, solved(problem).estimator->L_continuous.size());
+}
+
+// Shared noise and several outputs: the equation holds, and the filter is stable.
+void test_continuous_gain_satisfies_its_equation() {
+  int tried = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Problem problem = random_problem(seed);
+    if (problem.plant.domain == Domain::discrete || problem.estimator->noise == Noise::discrete) continue;
+    const EstimatorSolution& filter = *solved_random_problem(seed).estimator;
+    const Digits scope(50);
+    const SampledNoise noise = noise_of(problem);
+    const RealMatrix A = real(problem.plant.A), C = real(problem.plant.C), G = real(problem.plant.G);
+    const RealMatrix &P = filter.P_continuous, &L = filter.L_continuous, drive = congruence(G, noise.W);
+    const RealMatrix turned = multiply(A, P);
+    expect_small(distance(turned + turned.transpose() + drive, congruence(L, noise.V)), rounding, "A P + P Aᵀ + GWGᵀ − L V Lᵀ");
+    expect_small(distance(multiply(L, noise.V), multiply_transpose(P, C) + multiply(G, noise.Swv)), rounding, "L V − P Cᵀ − G Swv");
+    for (const ComplexReal& pole : eigenvalues(A - multiply(L, C))) TEST_ASSERT_TRUE(pole.re < 0);
+    ++tried;
+  }
+  TEST_ASSERT_TRUE(tried >= 3);
+}
+
 }  // namespace
 
 int main() {
@@ -186,5 +227,7 @@ int main() {
   RUN_TEST(test_noise_of_rank_one_has_one_column);
   RUN_TEST(test_online_covariance_tends_to_the_steady_one);
   RUN_TEST(test_singular_initial_covariance_has_exact_zeros_in_D0);
+  RUN_TEST(test_continuous_gain_of_a_double_integrator);
+  RUN_TEST(test_continuous_gain_satisfies_its_equation);
   return UNITY_END();
 }

@@ -4,10 +4,11 @@
 
 #include <unity.h>
 
-#include "emit/text/wording.hpp"
 #include "design_text.hpp"
+#include "design/rounding.hpp"
 #include "emit/c/preamble.hpp"
 #include "emit/report/json.hpp"
+#include "emit/text/wording.hpp"
 
 using namespace lqg_test;
 using lqg::design::RealMatrix;
@@ -73,6 +74,34 @@ void expect_regulator(const json& found, const lqg::design::RegulatorSolution& r
   expect_poles(found["lqr"]["poles"], regulator.poles, "lqr.poles");
 }
 
+// The observer's x̂ is that of the filter's own equations, over a few samples of any u and y.
+void expect_observer(const json& found, const Controller& controller) {
+  const auto matrix = [&](const char* key) {
+    const json& rows = found["kalman"]["observer"][key];
+    Eigen::MatrixXd out(rows.size(), rows[0].size());
+    for (int i = 0; i < out.rows(); ++i)
+      for (int j = 0; j < out.cols(); ++j) out(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].get<double>();
+    return out;
+  };
+  const lqg::design::EstimatorSolution& filter = *controller.solution.estimator;
+  const auto doubles = [](const RealMatrix& of) { return lqg::design::to_doubles(of); };
+  const Eigen::MatrixXd A = doubles(controller.solution.plant.A), B = doubles(controller.solution.plant.B),
+                        C = doubles(controller.solution.plant.C), L = doubles(filter.L), M = doubles(filter.M);
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(A.rows()), x = state;
+  lqg_test::Random random(1);
+  for (int k = 0; k < 5; ++k) {
+    Eigen::VectorXd u(B.cols()), y(C.rows());
+    for (double& each : u) each = random.uniform();
+    for (double& each : y) each = random.uniform();
+    const Eigen::VectorXd innovation = y - C * x, heard = controller.is_predictor ? x : Eigen::VectorXd(x + L * innovation);
+    const Eigen::VectorXd both = (Eigen::VectorXd(u.size() + y.size()) << u, y).finished();
+    const double size = 1e-9 * (1 + x.norm() + state.norm());
+    TEST_ASSERT_DOUBLE_WITHIN(size, 0, (matrix("C") * state + matrix("D") * both - heard).norm());
+    x = A * (x + L * innovation) + B * u + M * innovation;
+    state = matrix("A") * state + matrix("B") * both;
+  }
+}
+
 void expect_new_margins(const json& found, const lqg::design::LoopSolution& loop, double sample_time) {
   const lqg::design::Margins& margins = loop.at_input;
   const auto times = [](const std::optional<double>& value, double factor) {
@@ -106,6 +135,7 @@ void expect_all(const json& found, const Controller& controller) {
   expect_number(found["loop"], "gain_margin_dB", solution.loop.at_input.gain_dB);
   expect_number(found["loop"], "phase_margin_deg", solution.loop.at_input.phase_deg);
   expect_number(found["loop"], "disk_margin", solution.loop.at_input.disk);
+  if (solution.estimator) expect_observer(found, controller);
   expect_new_margins(found["loop"], solution.loop, controller.problem.plant.sample_time);
   expect_number(found["loop"], "cost_per_sample", solution.loop.cost_per_sample);
   expect_number(found["loop"], "cost_per_second", solution.loop.cost_per_second);
