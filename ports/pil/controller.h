@@ -3,9 +3,17 @@
 #ifndef PIL_CONTROLLER_H
 #define PIL_CONTROLLER_H
 
+#include <math.h>
 #include <stddef.h>
 
+#include "lqg/arithmetic.h"
+#include "lqg/status.h"
+#include "lqg/version.h"
+
+/* On a machine of 64 bits an odd number of floats had padding behind it, of no stated bits. */
+#pragma pack(push, 4)
 #include CONTROLLER_HEADER
+#pragma pack(pop)
 
 #define CONTROLLER_JOIN_NOW(a, b) a##b
 #define CONTROLLER_JOIN(a, b) CONTROLLER_JOIN_NOW(a, b)

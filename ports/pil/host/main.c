@@ -3,7 +3,7 @@
  *     pil [option…] --port DEVICE [--baud 115200]
  *     pil [option…] -- COMMAND…                     the target is a program, the line its standard input and output
  *
- *     --seconds S    of simulated time, default 10
+ *     --seconds S    of simulated time, default 10 for the robot, all samples for another design
  *     --patience S   that an answer may take, default 2
  *     --csv FILE     what every sample took
  *     --svg FILE     the robot's pitch, the first input and what every sample took, as curves
@@ -184,7 +184,7 @@ static int run_session(const options_t *options, target_t *target, timing_t *tim
 
 int main(int argc, char **argv)
 {
-    options_t options = {.seconds = 10.0, .patience = 2.0, .baud = 115200.0};
+    options_t options = {.patience = 2.0, .baud = 115200.0};
     target_t target = {.line = {.file = -1}};
     timing_t timing = {.count = 0};
     run_t run = {.count = 0};
@@ -193,9 +193,7 @@ int main(int argc, char **argv)
     if (read_command_line(argc, argv, &options) != 0)
         return USAGE;
     target.patience = options.patience;
-    run.count = (unsigned)(options.seconds / (double)controller_sample_time + 0.5);
-    if (run.count > plant_samples())
-        run.count = plant_samples();
+    run.count = plant_samples(options.seconds);
     run.value = calloc(run.count, sizeof run.value[0]);
     run.input = calloc(run.count, sizeof run.input[0]);
     if (run.value && run.input &&

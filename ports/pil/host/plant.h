@@ -8,8 +8,8 @@
 extern const char plant_place[];     /* "the robot here": where the other half of the loop is */
 extern const char plant_quantity[];  /* "pitch [°]": what plant_value is */
 
-/* So many samples there are at most. */
-unsigned plant_samples(void);
+/* So many samples are in these seconds, or in a run whose length nobody has said, 0. */
+unsigned plant_samples(double seconds);
 
 /* y of sample k; then the u that came of it. They are asked for in order, from 0 on. */
 void plant_read_sensors(unsigned k, float y[CONTROLLER_NY]);
