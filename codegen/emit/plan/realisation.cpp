@@ -79,6 +79,10 @@ std::optional<Controller> in_chosen_form(Controller controller, design::Findings
   if (design::has_error(findings)) return std::nullopt;
   design::check_rounded_form(controller.problem, form, controller.solution, findings);
   if (design::has_error(findings)) return std::nullopt;
+  if (!controller.problem.estimator->spike)
+    design::add_note(findings, "code.realisation",
+                     "this form keeps no x̂ to compare outputs with, so a spike is let in whatever its size; "
+                     "\"physical\" leaves it out, kalman.spike = inf says that none comes");
   return controller::with_form(std::move(controller), form);
 }
 

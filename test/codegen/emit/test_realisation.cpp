@@ -2,15 +2,19 @@
 // numbers of NAME.json say the same.
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include <unity.h>
 
+#include "design/solve.hpp"
 #include "design_text.hpp"
 #include "emit/c/header.hpp"
+#include "emit/plan/plan.hpp"
 #include "emit/plan/realisation.hpp"
 #include "emit/report/json.hpp"
 #include "emitted.hpp"
+#include "input/design_file.hpp"
 
 using namespace lqg_test;
 using Eigen::MatrixXd;
@@ -235,6 +239,21 @@ int main(void)
     }
 }
 
+// The physical form has a threshold by default: who leaves it is told, unless the file says that no spike comes.
+void test_a_form_without_a_threshold_for_spikes_says_so() {
+  const std::string text = toml(two_springs("filter")) + "realisation = \"modal\"\n";
+  for (const bool is_ruled_out : {false, true}) {
+    lqg::design::Problem problem = *lqg::input::parse_design(text).problem;
+    if (is_ruled_out) problem.estimator->spike = std::numeric_limits<double>::infinity();
+    lqg::design::Findings findings;
+    const auto solution = lqg::design::solve(problem, findings);
+    findings.clear();
+    TEST_ASSERT_TRUE(lqg::emit::make_controller(problem, *solution, {}, findings).has_value());
+    TEST_ASSERT_EQUAL_size_t(is_ruled_out ? 0 : 1, findings.size());
+    if (!is_ruled_out) TEST_ASSERT_TRUE(findings[0].message.find("a spike is let in") != std::string::npos);
+  }
+}
+
 void test_cheapest_takes_the_fewest_multiply_adds_and_physical_when_they_are_even() {
   const Controller controller = in_form(two_springs("filter"), "cheapest");
   const lqg::emit::FormChoice& forms = *controller.forms;
@@ -284,6 +303,7 @@ int main() {
   RUN_TEST(test_nothing_is_said_of_forms_when_none_is_asked_for);
   RUN_TEST(test_missing_outputs_mean_the_same_in_every_form);
   RUN_TEST(test_state_set_by_hand_is_the_estimate);
+  RUN_TEST(test_a_form_without_a_threshold_for_spikes_says_so);
   RUN_TEST(test_cheapest_takes_the_fewest_multiply_adds_and_physical_when_they_are_even);
   RUN_TEST(test_cheapest_does_not_buy_operations_with_errors);
   return UNITY_END();
