@@ -12,6 +12,7 @@
 #   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design: default 10000000 honest samples
 #   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
 #                                                many of each part; test/mutants
+#   test/campaign.sh <build> proofs              test/proof/prove.sh of every design of this project, in both styles
 #   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 72 random
 #                                                designs, flipped once in closed loop: default all, or so many of each; test/flips
 #
@@ -38,6 +39,7 @@ test/campaign.sh <build> <campaign>             on two processors
   spikes [samples]  default 10000000             1 hour
   mutants [count]   default all of each part     2 hours
   flips [count]     default all of each part    2 minutes
+  proofs                                        15 minutes
 END
 }
 
@@ -210,9 +212,7 @@ mutants() {
   for name in "$lqg_root"/src/*.c; do
     parts+=("$(basename "$name")")
   done
-  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
-  count=${#parts[@]}
-  [ "$count" -gt 0 ] || refuse "no part of mutants is called ${PARTS:-}"
+  keep_parts
   for part in "${parts[@]}"; do
     name=$(compgen -G "$lqg_root/*/designs/${part%.*}.toml" || true)
     case $part in
@@ -222,12 +222,11 @@ mutants() {
   done
 }
 
-# A part for each design and style, but for straight-line code of several plants and the compact style of other numbers than x̂,
-# which there are not; another for each random design. PARTS as above.
-flips() {
-  local sample=(--sample "$(number 999999 "$@")") parts=() part name style run=$lqg_root/test/flips/flips.py
-  lqg_has_command python3 || refuse "Not found: python3"
-  for name in "$lqg_root"/codegen/designs/*.toml "$lqg_root"/test/designs/*.toml; do
+# parts_of <design file>…: parts gets each design in each style, but for straight-line code of several plants and the compact style
+# of other numbers than x̂, which there are not.
+parts_of() {
+  local name style
+  for name in "$@"; do
     for style in unrolled compact; do
       case $style in
         unrolled) ! grep -q '^\[\[stage\]\]' "$name" || continue ;;
@@ -236,16 +235,42 @@ flips() {
       parts+=("$(basename "$name" .toml).$style")
     done
   done
+}
+
+# keep_parts: those that PARTS asks for.
+keep_parts() {
+  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
+  count=${#parts[@]}
+  [ "$count" -gt 0 ] || refuse "no part of $campaign is called ${PARTS:-}"
+}
+
+# A part for each design and style, another for each random design. PARTS as above.
+flips() {
+  local sample=(--sample "$(number 999999 "$@")") parts=() part name run=$lqg_root/test/flips/flips.py
+  lqg_has_command python3 || refuse "Not found: python3"
+  parts_of "$lqg_root"/codegen/designs/*.toml "$lqg_root"/test/designs/*.toml
   for name in {1..72}; do
     parts+=("$name.unrolled")
   done
-  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
-  count=${#parts[@]}
-  [ "$count" -gt 0 ] || refuse "no part of flips is called ${PARTS:-}"
+  keep_parts
   for part in "${parts[@]}"; do
     name=${part%.*}
     [[ $name =~ ^[0-9]+$ ]] || name=$(compgen -G "$lqg_root/*/designs/$name.toml")
     start "$part" python3 -B "$run" "$build" "$name" "${part##*.}" "${sample[@]}"
+  done
+}
+
+# A part for each design and style. PARTS as above.
+proofs() {
+  local parts=() part design
+  lqg_has_command frama-c || refuse "Not found: frama-c"
+  export LQGEN=$build/codegen/lqgen
+  [ -x "$LQGEN" ] || refuse "Not found: $LQGEN"
+  parts_of "$lqg_root"/codegen/designs/*.toml "$lqg_root"/test/designs/*.toml "$lqg_root"/test/proof/designs/*.toml
+  keep_parts
+  for part in "${parts[@]}"; do
+    design=$(find "$lqg_root"/codegen/designs "$lqg_root"/test/designs "$lqg_root"/test/proof/designs -name "${part%.*}.toml")
+    start "$part" "$lqg_root/test/proof/prove.sh" "$design" --style "${part#*.}" -o .
   done
 }
 
@@ -264,6 +289,7 @@ main() {
   case $campaign in
     soak | random | fuzz | options | spikes | mutants | flips) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
     bits) ;;
+    proofs) [ $# = 0 ] || refuse "proofs: expected nothing more, found: $*" ;;
     *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;
   esac
   mkdir -p "${FOLDER:-$build/campaign}/$campaign"
@@ -281,6 +307,7 @@ main() {
     options) options "$@" ;;
     mutants) mutants "$@" ;;
     flips) flips "$@" ;;
+    proofs) proofs ;;
   esac
   finish_all
 }
