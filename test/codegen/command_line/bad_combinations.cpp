@@ -23,7 +23,7 @@ std::vector<BadDesign> wrong_together() {
        {{18, "R = [[-0.1]]"}},
        {"18:5: lqr.R: expected a positive semidefinite matrix, found [0][0] = -0.1"}},
       {"N too large for Q and R",
-       {{19, "N = [[1], [0], [0], [0]]"}},
+       {{19, "N = [[5], [0], [0], [0]]"}},
        {"19:5: lqr.N: expected [Q N; Nᵀ R] positive semidefinite, found the eigenvalue …"}},
       {"W negative",
        {{23, "process_noise = [-0.01]"}},

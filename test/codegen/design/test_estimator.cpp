@@ -180,6 +180,7 @@ void test_singular_initial_covariance_has_exact_zeros_in_D0() {
 void test_continuous_gain_of_a_double_integrator() {
   Problem problem = double_integrator(0.1);
   problem.plant.G = Eigen::Vector2d(0, 1);
+  problem.plant.H = problem.estimator->Swv = MatrixXd::Zero(1, 1);
   problem.estimator->noise = Noise::continuous;
   problem.estimator->W = MatrixXd::Constant(1, 1, 16);
   problem.estimator->V = MatrixXd::Constant(1, 1, 1);

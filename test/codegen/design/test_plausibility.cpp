@@ -152,6 +152,7 @@ void test_rounding_that_moves_the_slowest_pole() {
   problem.regulator->Q = Eigen::Vector2d(2.7e5, 1).asDiagonal();
   problem.regulator->R *= 1e8;
   problem.estimator->W *= 1e-16;
+  problem.code.real = Scalar::float32;
   expect_note(problem, "code.real", "moves the slowest pole");
   problem.code.real = Scalar::float64;
   for (const Finding& finding : notes_of(problem))

@@ -44,7 +44,7 @@ class Loops(InFolder):
         self.assertGreater(closed, 10)
 
     def test_outputs_follow_their_references(self):
-        for name in ("servo", "delayed", "alone"):
+        for name in ("slew_limit", "delayed", "alone"):
             design = design_of(SOURCE / "test" / "designs" / f"{name}.toml")
             plant, controller = design.to_control("sensed"), design.to_control("controller", references=True)
             final = numpy.real(closed_with_reference(plant, controller).dcgain()).reshape(-1)
