@@ -1,22 +1,15 @@
 /* Every bit of a controller's state, flipped once, in closed loop: after RECOVERY_SAMPLES the loop with the flip is where
- * its twin is that had none and hears the same noise. plant.h, which flips.py writes, has the plant and the controller.
+ * its twin is that had none and hears the same noise. closed_loop.h has the loop.
  *
  *     flips [sample [list]]      sample: so many flips, evenly; 0: all
  *
  * Exit status 0: all flips are forgotten, or the plant is beyond what u can bring back; 1: some are not. */
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct member {
-    const char *name;
-    size_t offset, size, each;
-    int is_real;
-};
-
-#include "plant.h"
+#include "closed_loop.h"
 
 /* The loops are apart by what the noise explains when no state differs by more standard deviations of its estimate. The
  * promise is made for one; three leave room for what P and the roundings add. */
@@ -34,17 +27,6 @@ static const struct instant {
     int sample, phase;
 } instants[] = {{0, 0}, {0, 1}, {40, 1}, {300, 2}};
 enum { INSTANTS = sizeof instants / sizeof *instants, LAST_INSTANT = 300, SAMPLES = LAST_INSTANT + PROMISED + WATCHED + 1 };
-
-struct loop {
-    OF(t) controller;
-    double x[NX];
-    real u[NU + 1]; /* that acts */
-};
-
-/* What is drawn for a sample: of G w and v, and u of an estimator alone. */
-struct drawn {
-    double noise[NX + NY], u[NU + 1];
-};
 
 static struct drawn drawn[SAMPLES];
 static struct loop twin[SAMPLES + 1]; /* before each sample */
@@ -72,42 +54,13 @@ static void draw_all(void)
         double white[NX + NY];
         for (int i = 0; i < NX + NY; i++)
             white[i] = normal(&seed);
-        for (int i = 0; i < NX + NY; i++) {
-            drawn[k].noise[i] = 0;
-            for (int j = 0; j <= i; j++)
-                drawn[k].noise[i] += factor[i * (NX + NY) + j] * white[j];
-        }
+        colour(&drawn[k], white);
         for (int j = 0; j < NU; j++)
             drawn[k].u[j] = uniform(&seed);
     }
 }
 
-/* ---- one sample ------------------------------------------------------------------------------------------------------ */
-
-static void measure(const struct loop *loop, const struct drawn *now, real y[NY])
-{
-    for (int i = 0; i < NY; i++) {
-        double sum = now->noise[NX + i];
-        for (int j = 0; j < NX; j++)
-            sum += C[i * NX + j] * loop->x[j];
-        for (int j = 0; j < NU; j++)
-            sum += D[i * NU + j] * (double)loop->u[j];
-        y[i] = (real)sum;
-    }
-}
-
-static void advance_plant(struct loop *loop, const struct drawn *now)
-{
-    double next[NX];
-    for (int i = 0; i < NX; i++) {
-        next[i] = now->noise[i];
-        for (int j = 0; j < NX; j++)
-            next[i] += A[i * NX + j] * loop->x[j];
-        for (int j = 0; j < NU; j++)
-            next[i] += B[i * NU + j] * (double)loop->u[j];
-    }
-    memcpy(loop->x, next, sizeof next);
-}
+/* ---- a flip ------------------------------------------------------------------------------------------------------ */
 
 struct flip {
     const struct member *of;
@@ -115,77 +68,26 @@ struct flip {
     struct instant at;
 };
 
-static void flip_bit(struct loop *loop, const struct flip *flip, int sample, int phase)
+struct moment {
+    const struct flip *flip;
+    int sample;
+};
+
+static void flip_bit(struct loop *loop, int phase, const void *of)
 {
-    if (!flip || flip->at.sample != sample || flip->at.phase != phase)
+    const struct moment *now = of;
+    const struct flip *flip = now->flip;
+    if (!flip || flip->at.sample != now->sample || flip->at.phase != phase)
         return;
     unsigned char *byte = (unsigned char *)&loop->controller + flip->of->offset + (size_t)flip->number * flip->of->each;
     byte[flip->bit / 8] ^= (unsigned char)(1u << flip->bit % 8);
 }
 
-#if !defined KEEPS_Z || defined IS_PREDICTOR
-static void choose_input(struct loop *loop, const struct drawn *now)
+static void run(struct loop *loop, const struct flip *flip, int sample)
 {
-#ifdef HAS_REGULATOR
-    (void)now;
-    OF(control)(&loop->controller, loop->u);
-#else
-    for (int j = 0; j < NU; j++)
-        loop->u[j] = (real)now->u[j];
-#endif
-}
-#endif
-
-/* Filter form: y is sampled while the last u acts; predictor form: while the new one does. */
-#ifdef KEEPS_Z
-static void run_controller(struct loop *loop, const struct drawn *now, const struct flip *flip, int sample)
-{
-    real y[NY];
-    flip_bit(loop, flip, sample, 0);
-#ifdef IS_PREDICTOR
-    choose_input(loop, now);
-    flip_bit(loop, flip, sample, 1);
-    flip_bit(loop, flip, sample, 2);
-    measure(loop, now, y);
-    OF(advance)(&loop->controller, y);
-#else
-    measure(loop, now, y);
-    OF(control)(&loop->controller, y, loop->u);
-    flip_bit(loop, flip, sample, 1);
-    flip_bit(loop, flip, sample, 2);
-    OF(advance)(&loop->controller);
-#endif
-}
-#else
-static void run_controller(struct loop *loop, const struct drawn *now, const struct flip *flip, int sample)
-{
-    real y[NY];
-    flip_bit(loop, flip, sample, 0);
-#ifdef IS_PREDICTOR
-    choose_input(loop, now);
-    flip_bit(loop, flip, sample, 1);
-#endif
-    measure(loop, now, y);
-    OF(update)(&loop->controller, y);
-#ifdef IS_PREDICTOR
-    flip_bit(loop, flip, sample, 2);
-#else
-    flip_bit(loop, flip, sample, 1);
-    choose_input(loop, now);
-    flip_bit(loop, flip, sample, 2);
-#endif
-#ifdef HAS_INPUT
-    OF(predict)(&loop->controller, loop->u);
-#else
-    OF(predict)(&loop->controller);
-#endif
-}
-#endif
-
-static void run_sample(struct loop *loop, const struct flip *flip, int sample)
-{
-    run_controller(loop, &drawn[sample], flip, sample);
-    advance_plant(loop, &drawn[sample]);
+    const struct moment now = {flip, sample};
+    const struct visitor visitor = {flip_bit, &now};
+    run_sample(loop, &drawn[sample], visitor);
 }
 
 /* ---- what is asked --------------------------------------------------------------------------------------------------- */
@@ -245,30 +147,6 @@ static double distance(const struct loop *a, const struct loop *b)
     return most;
 }
 
-/* |w · x| of an unstable mode, wᵀA = λ wᵀ, grows by |λ| a sample, and all that u can do against it within its limits is less. */
-static int is_beyond_u(const struct loop *loop)
-{
-    for (int m = 0; m < MODES; m++) {
-        const double *re = &mode_re[m * NX], *im = &mode_im[m * NX];
-        double x_re = 0, x_im = 0, against = 0;
-        for (int i = 0; i < NX; i++) {
-            x_re += re[i] * loop->x[i];
-            x_im += im[i] * loop->x[i];
-        }
-        for (int j = 0; j < NU; j++) {
-            double u_re = 0, u_im = 0;
-            for (int i = 0; i < NX; i++) {
-                u_re += re[i] * B[i * NU + j];
-                u_im += im[i] * B[i * NU + j];
-            }
-            against += hypot(u_re, u_im) * fmax(fabs(u_min[j]), fabs(u_max[j]));
-        }
-        if ((mode_size[m] - 1) * hypot(x_re, x_im) > against)
-            return 1;
-    }
-    return 0;
-}
-
 /* u has no limit, and a wrong one has driven the plant to where its controller's own state may not be. */
 static int is_beyond_bounds(const struct loop *loop)
 {
@@ -289,7 +167,7 @@ static enum outcome follow(const struct flip *flip, int *samples)
     int quiet = 0;
     *samples = 0;
     for (int k = flip->at.sample; k < end; k++) {
-        run_sample(&loop, flip, k);
+        run(&loop, flip, k);
         if (!is_limited(&loop) || (k > flip->at.sample && !is_finite(&loop))) /* a flip alone can make a number infinite */
             return UNSOUND;
         if (is_same(&loop, &twin[k + 1]))
@@ -317,7 +195,7 @@ static void run_twin(void)
     OF(init)(&twin[0].controller);
     for (int k = 0; k < SAMPLES; k++) {
         twin[k + 1] = twin[k];
-        run_sample(&twin[k + 1], NULL, k);
+        run(&twin[k + 1], NULL, k);
     }
 }
 
