@@ -9,7 +9,8 @@
 #   test/campaign.sh <build> fuzz [seconds]      the library's and the design files' fuzzer: default 3600 each
 #   test/campaign.sh <build> options [compiler]  test/options/options.sh: options of gcc and clang-19 that may change arithmetic,
 #                                                alone and two by two, at four levels
-#   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design: default 10000000 honest samples
+#   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design, and honest samples of its compiled
+#                                                header, test/flips/honest.c: default 100000000
 #   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
 #                                                many of each part; test/mutants
 #   test/campaign.sh <build> proofs              test/proof/prove.sh of every design of this project, in both styles
@@ -36,7 +37,7 @@ test/campaign.sh <build> <campaign>             on two processors
   random [designs]  default 1000                10 minutes
   fuzz [seconds]    default 3600, of each        1 hour
   options [compiler] default both                6 hours
-  spikes [samples]  default 10000000             1 hour
+  spikes [samples]  default 100000000            3 minutes
   mutants [count]   default all of each part     2 hours
   flips [count]     default all of each part    2 minutes
   proofs                                        15 minutes
@@ -109,12 +110,24 @@ end_all() {
 
 # ---- the campaigns -----------------------------------------------------------------------------------------------
 
+# Two parts for each shipped design. PARTS: a regular expression of those to take.
 spikes() {
-  local samples design
-  samples=$(number 10000000 "$@")
-  count=$(find "$lqg_root/codegen/designs" -name '*.toml' | wc -l)
-  for design in "$lqg_root"/codegen/designs/*.toml; do
-    start "$(basename "$design" .toml)" "$build/test/simulate/spikes" "$design" "$samples"
+  local samples parts=() part name design program=$build/test/simulate/spikes run=$lqg_root/test/flips/honest.py
+  samples=$(number 100000000 "$@")
+  [ -x "$program" ] || refuse "Not found: $program"
+  lqg_has_command python3 || refuse "Not found: python3"
+  for name in "$lqg_root"/codegen/designs/*.toml; do
+    parts+=("$(basename "$name" .toml)".{spikes,honest})
+  done
+  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
+  count=${#parts[@]}
+  [ "$count" -gt 0 ] || refuse "no part of spikes is called ${PARTS:-}"
+  for part in "${parts[@]}"; do
+    design=$lqg_root/codegen/designs/${part%.*}.toml
+    case $part in
+      *.spikes) start "$part" "$program" "$design" ;;
+      *.honest) start "$part" python3 -B "$run" "$build" "$design" unrolled --samples "$samples" ;;
+    esac
   done
 }
 
@@ -201,7 +214,7 @@ options() {
   done
 }
 
-# A part for each header, another for each file of the library. PARTS: a regular expression of those to take.
+# A part for each header, another for each file of the library. PARTS as above.
 mutants() {
   local sample=(--sample "$(number 999999 "$@")") parts=() part name run=$lqg_root/test/mutants/mutants.py
   lqg_has_command python3 || refuse "Not found: python3"
