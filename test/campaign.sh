@@ -110,6 +110,28 @@ end_all() {
 
 # ---- the campaigns -----------------------------------------------------------------------------------------------
 
+# parts_of <design file>…: parts gets each design in each style, but for straight-line code of several plants and the compact style
+# of other numbers than x̂, which there are not.
+parts_of() {
+  local name style
+  for name in "$@"; do
+    for style in unrolled compact; do
+      case $style in
+        unrolled) ! grep -q '^\[\[stage\]\]' "$name" || continue ;;
+        compact) ! grep -q '^realisation' "$name" || continue ;;
+      esac
+      parts+=("$(basename "$name" .toml).$style")
+    done
+  done
+}
+
+# keep_parts: those that PARTS asks for.
+keep_parts() {
+  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
+  count=${#parts[@]}
+  [ "$count" -gt 0 ] || refuse "no part of $campaign is called ${PARTS:-}"
+}
+
 # Two parts for each shipped design. PARTS: a regular expression of those to take.
 spikes() {
   local samples parts=() part name design program=$build/test/simulate/spikes run=$lqg_root/test/flips/honest.py
@@ -119,9 +141,7 @@ spikes() {
   for name in "$lqg_root"/codegen/designs/*.toml; do
     parts+=("$(basename "$name" .toml)".{spikes,honest})
   done
-  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
-  count=${#parts[@]}
-  [ "$count" -gt 0 ] || refuse "no part of spikes is called ${PARTS:-}"
+  keep_parts
   for part in "${parts[@]}"; do
     design=$lqg_root/codegen/designs/${part%.*}.toml
     case $part in
@@ -233,28 +253,6 @@ mutants() {
       *) start "$part" python3 -B "$run" "$build" header "$name" "${part#*.}" "${sample[@]}" ;;
     esac
   done
-}
-
-# parts_of <design file>…: parts gets each design in each style, but for straight-line code of several plants and the compact style
-# of other numbers than x̂, which there are not.
-parts_of() {
-  local name style
-  for name in "$@"; do
-    for style in unrolled compact; do
-      case $style in
-        unrolled) ! grep -q '^\[\[stage\]\]' "$name" || continue ;;
-        compact) ! grep -q '^realisation' "$name" || continue ;;
-      esac
-      parts+=("$(basename "$name" .toml).$style")
-    done
-  done
-}
-
-# keep_parts: those that PARTS asks for.
-keep_parts() {
-  mapfile -t parts < <(printf '%s\n' "${parts[@]}" | grep -E -- "${PARTS:-}")
-  count=${#parts[@]}
-  [ "$count" -gt 0 ] || refuse "no part of $campaign is called ${PARTS:-}"
 }
 
 # A part for each design and style, another for each random design. PARTS as above.
