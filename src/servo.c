@@ -103,14 +103,14 @@ static lqg_status reset_unless_bounded(const lqg_servo_t *servo, lqg_real xi[], 
 }
 
 /* ξ_i + H_i (u − v) */
-static lqg_real conditioned(const lqg_servo_t *servo, unsigned i, const lqg_real xi[], const lqg_real u[],
-                            const lqg_real v[])
+static lqg_real corrected(const lqg_servo_t *servo, const lqg_real H[], unsigned i, const lqg_real xi[],
+                          const lqg_real u[], const lqg_real v[])
 {
     LQG_STRICT_BODY
     lqg_real sum = xi[i];
 
     for (unsigned j = 0; j < servo->nu; j++)
-        sum = multiply_add(servo->H[i * servo->nu + j], u[j] - v[j], sum);
+        sum = multiply_add(H[i * servo->nu + j], u[j] - v[j], sum);
     return sum;
 }
 
@@ -119,7 +119,7 @@ lqg_status lqg_servo_advance(const lqg_servo_t *servo, lqg_real xi[], lqg_real e
 {
     LQG_STRICT_BODY
     for (unsigned i = 0; i < servo->nxi; i++) {
-        xi[i] = multiply_add(servo->T, error[i], conditioned(servo, i, xi, u, demand));
+        xi[i] = multiply_add(servo->T, error[i], corrected(servo, servo->H, i, xi, u, demand));
         error[i] = 0;
     }
     if (servo->nxi)
@@ -141,7 +141,7 @@ lqg_status lqg_servo_set_input(const lqg_servo_t *servo, const lqg_real x[], con
         for (unsigned i = 0; i < servo->nu; i++)
             demand[i] = law(servo, i, x, r, xi, u_applied);
         for (unsigned i = 0; i < servo->nxi; i++)
-            xi[i] = conditioned(servo, i, xi, u, demand);
+            xi[i] = corrected(servo, servo->H_input ? servo->H_input : servo->H, i, xi, u, demand);
         copy(demand, u, servo->nu);
     }
     return status | reset_unless_bounded(servo, xi, error, demand, u_applied, u);

@@ -49,8 +49,9 @@ class Scales {
 
   VectorXd integrals() const {
     VectorXd scales = error_scales() * controller_.problem.plant.sample_time;
-    for (const Gains& law : controller_.laws)
-      scales = scales.cwiseMax(law[2].size() ? VectorXd(design::to_doubles(law[2]).cwiseAbs() * (law_of_states(law) + inputs_)) : scales);
+    for (const Gains& law : controller_.laws)  // by H, and by H_input as much as a load, or set_input, may need
+      for (const design::RealMatrix* H : {&law[2], &law[3]})
+        if (H->size() > 0) scales = scales.cwiseMax(VectorXd(design::to_doubles(*H).cwiseAbs() * (law_of_states(law) + inputs_)));
     return scales;
   }
 

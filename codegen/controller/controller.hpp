@@ -60,7 +60,7 @@ struct Memory {
   bool gain_row = false;    // which of the filter's gains is in force
 };
 
-// The gains of one sample: of a law {K, Nbar, H}, of a filter with given gains {L, M, variances of the innovations if a
+// The gains of one sample: of a law {K, Nbar, H, H_input}, of a filter with given gains {L, M, variances of the innovations if a
 // gate needs them}.
 using Gains = std::vector<design::RealMatrix>;
 

@@ -32,9 +32,9 @@ void cut_off_what_is_held(std::vector<Gains>& rows, bool is_double) {
   while (rows.size() > 1 && is_same(rows[rows.size() - 2], rows.back(), is_double)) rows.pop_back();
 }
 
-// H = −Kξ⁺ = −(KξᵀKξ + ε)⁻¹Kξᵀ, ε → 0: of all δξ that bring −Kξ δξ as near as possible to u − v the smallest is
-// H (u − v). 10⁻⁴⁰ is nothing beside a singular value that matters, and all beside one that is rounding.
-RealMatrix anti_windup(const Controller& controller, const RealMatrix& K) {
+// H_input = −Kξ⁺ = −(KξᵀKξ + ε)⁻¹Kξᵀ, ε → 0: of all δξ that bring −Kξ δξ as near as possible to u − v the smallest is
+// H_input (u − v). 10⁻⁴⁰ is nothing beside a singular value that matters, and all beside one that is rounding.
+RealMatrix conditioning(const Controller& controller, const RealMatrix& K) {
   const RealMatrix Kxi = K.middleCols(controller.size.nx, controller.size.nxi);
   RealMatrix gram = design::transpose_multiply(Kxi, Kxi);
   const Real largest = gram.size() ? design::largest_entry(gram) : Real(0);
@@ -47,7 +47,7 @@ RealMatrix anti_windup(const Controller& controller, const RealMatrix& K) {
 RealMatrix feed_forward(const Controller& controller, const RealMatrix& K) {
   const design::RegulatorSolution& regulator = *controller.solution.regulator;
   if (regulator.Nbar.size() == 0 || regulator.K_schedule.empty()) return regulator.Nbar;
-  return design::feed_forward(controller.problem, K, {regulator.Nx, regulator.Nu});
+  return design::feed_forward(controller.problem, K, regulator.Gamma, {regulator.Nx, regulator.Nu});
 }
 
 // C L = I − V S⁻¹ of an optimal gain, hence S = (I − C L)⁻¹ V; infinite where V is nothing beside S in all digits.
@@ -67,7 +67,8 @@ std::vector<Gains> law_gains(const Controller& controller) {
   const design::RegulatorSolution& regulator = *controller.solution.regulator;
   std::vector<Gains> rows;
   const auto add = [&](const RealMatrix& K) {
-    rows.push_back({K, feed_forward(controller, K), anti_windup(controller, K)});
+    const RealMatrix H_input = conditioning(controller, K);
+    rows.push_back({K, feed_forward(controller, K), regulator.H.size() > 0 ? regulator.H : H_input, H_input});
   };
   for (const RealMatrix& K : regulator.K_schedule) add(K);
   add(regulator.K);

@@ -97,6 +97,7 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
   model.nr = controller.size.nr;
   model.Nbar = convert<S>(gains[1], round);
   model.H = convert<S>(gains[2], round);
+  model.H_input = convert<S>(gains[3], round);
   model.integral = controller.integrated;
   for (const int output : model.integral)
     model.wanted.push_back(static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));

@@ -147,7 +147,7 @@ void check_numbers(const Controller& controller, design::Findings& findings) {
   for (const Gains& row : controller.laws) {
     if (check.has_failed()) return;
     for (const auto& [what, at] : {std::pair("a gain K", 0), std::pair("Nbar, of the references,", 1),
-                                   std::pair("H, of the integrals at a limit,", 2)})
+                                   std::pair("H, of the integrals at a limit,", 2), std::pair("H_input, of the integrals,", 3)})
       check.keep(law, what, row[static_cast<std::size_t>(at)], true);
   }
   if (controller.has.regulator && controller.problem.limits) check_limits(controller, check);

@@ -58,6 +58,8 @@ struct Integral {
 constexpr int most_steps = 100000;
 
 // J = Σ xᵀQx + uᵀRu + 2xᵀNu, of the samples or of the continuous trajectory.
+enum class AntiWindup { model, conditioning };
+
 struct Regulator {
   Eigen::MatrixXd Q, R, N;          // Q and R are empty where Q_output or bryson give them
   Eigen::MatrixXd Q_output;         // ny × ny instead of Q, or empty: yᵀ Q_output y with y = Cx + Du
@@ -70,6 +72,7 @@ struct Regulator {
   Eigen::MatrixXd structure;        // nu × nx of 0 and 1, or empty: the entries of K that may differ from 0
   std::optional<Integral> integral;
   std::vector<int> track;           // outputs that follow r by feed-forward
+  AntiWindup anti_windup = AntiWindup::model;  // what ξ is made true to where a limit holds u: the state, or u
   Eigen::MatrixXd input_rate;       // nu × nu, or empty: the weight on Δu, a sample
   std::optional<WantedPoles> poles; // [pole_placement]: K has these poles; no weight is there then
 };

@@ -58,7 +58,9 @@ struct RegulatorSolution {
   Poles poles;                         // of z⁺ = A z + B u under u = −K z
   std::vector<RealMatrix> K_schedule;  // with a horizon or stages: K of step 0, 1, …; K from its end on
   RealMatrix X0;                       // the cost to go from step 0, with a schedule
-  RealMatrix Nx, Nu, Nbar;             // with `track`: the set point (x, u) of r; Nbar = Nu + Kx Nx, over all r
+  RealMatrix Nx, Nu, Nbar;             // with `track`: the set point (x, u) of r; Nbar = Nu + (Kx − Kξ Γ) Nx, over all r
+  RealMatrix Gamma;                    // with `integral`: ξ + Γ x is what of ξ the model does not explain; or empty
+  RealMatrix H;                        // with Γ: ξ + H (u − v) keeps it true where u was applied in place of v
   std::optional<StructureReport> structure;
 };
 

@@ -45,6 +45,8 @@ void visit_regulator(A& regulator, Visit visit) {
   visit("lqr.Nx", Place::target, regulator.Nx);
   visit("lqr.Nu", Place::target, regulator.Nu);
   visit("lqr.Nbar", Place::target, regulator.Nbar);
+  visit("lqr.Gamma", Place::report, regulator.Gamma);
+  visit("lqr.H", Place::target, regulator.H);
 }
 
 template <typename A, typename Visit>

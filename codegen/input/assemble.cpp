@@ -98,6 +98,7 @@ design::Regulator regulator(const Values& values, const design::Plant& plant) {
   if (values.has("lqr.integral"))
     result.integral = design::Integral{indices(values, "lqr.integral.outputs"), *values.matrix("lqr.integral.Q")};
   result.track = indices(values, "lqr.track");
+  if (values.text("lqr.anti_windup") == "conditioning") result.anti_windup = design::AntiWindup::conditioning;
   result.input_rate = empty_or(values, "lqr.input_rate");
   return result;
 }

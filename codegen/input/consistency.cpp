@@ -34,6 +34,7 @@ void check_tables(const Values& values, Report& report) {
     if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
   for (const char* key : {"kalman", "observer", "lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"})
     if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
+  if (values.has("lqr.anti_windup") && !values.has("lqr.integral")) report.error("lqr.anti_windup", "needs lqr.integral");
 }
 
 // Of several ways to say the same thing exactly one; nothing is said of a table that is not there.

@@ -55,6 +55,7 @@ const std::vector<KeyRule> rules = {
     {"lqr.integral.outputs", Type::indices, ny, no, required},
     {"lqr.integral.Q", Type::weight, integrals, integrals, required},
     {"lqr.track", Type::indices, ny},
+    {"lqr.anti_windup", Type::word, no, no, optional, {"model", "conditioning"}},
     {"lqr.input_rate", Type::weight, nu, nu},
 
     {"kalman", Type::table},

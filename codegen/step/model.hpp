@@ -52,7 +52,8 @@ struct Model {
   std::vector<int> wanted;     // and which r it has to follow
   Vector<S> error_limit;       // nxi: an r − y that is not below it does not count; or empty
   std::vector<int> xi_bound;   // nxi: as x_bound
-  Matrix<S> H;                 // nxi × nu: ξ + H (u − v) makes the law give u, or nearly, where it gave v
+  Matrix<S> H;                 // nxi × nu: ξ + H (u − v) is ξ where u was applied in place of v
+  Matrix<S> H_input;           // nxi × nu: ξ + H_input (u − v) makes the law give u, or nearly, where it gave v
   S T = S(0);                  // s, the sample time, of ξ⁺ = ξ + T (r − y)
 };
 

@@ -27,11 +27,11 @@ void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, const s
     observe_alone(model, state, S(y(output)), used[static_cast<std::size_t>(output)], output, listener);
 }
 
-// ξ + H (u − v): the law that gave v with ξ gives u with this one, or as nearly as it can.
+// ξ + H (u − v)
 template <class S>
-S conditioned(const Model<S>& model, const State<S>& state, const Vector<S>& u, const Vector<S>& v, int i) {
-  S sum = state.xi(i);
-  for (int j = 0; j < model.nu; ++j) sum = multiply_add(S(model.H(i, j)), S(u(j) - v(j)), sum);
+S corrected(const Matrix<S>& H, const Vector<S>& xi, const Vector<S>& u, const Vector<S>& v, int i) {
+  S sum = xi(i);
+  for (int j = 0; j < H.cols(); ++j) sum = multiply_add(S(H(i, j)), S(u(j) - v(j)), sum);
   return sum;
 }
 
@@ -48,7 +48,7 @@ void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Bounds
   if (!model.integral.empty()) listener.section("ξ ← ξ + H (u − what the law asked for) + T (r − y)");
   const int nxi = static_cast<int>(model.integral.size());
   for (int i = 0; i < nxi; ++i) {
-    state.xi(i) = multiply_add(model.T, S(state.error(i)), conditioned(model, state, u, state.demand, i));
+    state.xi(i) = multiply_add(model.T, S(state.error(i)), corrected(model.H, state.xi, u, state.demand, i));
     listener.name(state.xi(i), "xi", i);
     state.error(i) = S(0);
   }
@@ -93,14 +93,14 @@ auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Liste
   if (state.u.size()) state.u = u;
   if (nxi) {
     const Vector<S> r = reference(model, state, listener);
-    listener.section("ξ ← ξ + H (u − what the law asks for): it asks for u next");
+    listener.section("ξ ← ξ + H_input (u − what the law asks for): it asks for u next");
     Vector<S> v(model.nu), xi(nxi);
     for (int i = 0; i < model.nu; ++i) {
       v(i) = law(model, state, r, i);
       listener.name(v(i), "law", i);
     }
     for (int i = 0; i < nxi; ++i) {
-      xi(i) = conditioned(model, state, u, v, i);
+      xi(i) = corrected(model.H_input, state.xi, u, v, i);
       listener.name(xi(i), "xi", i);
       bounds.add(S(xi(i)), model.xi_bound, i, listener);
     }

@@ -4,8 +4,9 @@
  *     v = u[k−1] − K z + Nbar r,  z = [x̂; ξ; u[k−1]]       where changes of u are weighed
  *     ξ⁺ = ξ + T (r − y)          of the outputs that are integrated
  *
- * When something else than v was applied, ξ is corrected so that the law would have asked for what was applied, or
- * nearly: ξ does not wind up, whatever held u back, and a loop that was led by hand goes on where the hand was.
+ * When something else than v was applied, H (u − v) is added to ξ: with an H of the model, what the plant's state lacks for it; with
+ * −Kξ⁺ ("conditioning"), what the law needs to ask for u. So ξ does not wind up, whatever held u back. After a time in which the loop
+ * was led by hand, `set_input` lets it go on where the hand was.
  *
  * Each sample: `observe` with the outputs, `control`, `advance` with the input that was applied; beside a filter that
  * is update, control, predict. The state of the law is a few arrays of the caller, the same in every call:
@@ -42,7 +43,8 @@ typedef struct {
     lqg_real T;                 /* s, sample time */
     const lqg_real *K;          /* nu × nz, nz = nx + nxi (+ nu) */
     const lqg_real *Nbar;       /* nu × nr; NULL: r acts by ξ alone */
-    const lqg_real *H;          /* nxi × nu, ξ per input: −Kξ⁺, Kξ the columns of K that belong to ξ */
+    const lqg_real *H;          /* nxi × nu, ξ per input: what ξ is given for an input that was not applied */
+    const lqg_real *H_input;    /* nxi × nu, ξ per input: −Kξ⁺, Kξ the columns of K that belong to ξ; NULL: H */
     const unsigned *output;     /* nxi: the output that each ξ integrates */
     const unsigned *reference;  /* nxi: the r that it has to follow */
     const lqg_real *u_min;      /* nu, finite or −∞; NULL: no lower limits */

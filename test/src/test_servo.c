@@ -335,12 +335,12 @@ static void test_advance_takes_its_own_row_of_H_for_each_integral(void)
 
 /* ---- set_input -------------------------------------------------------------------------------------------------- */
 
-/* H for a law that one ξ can lead to any u of one input: −Kξ⁺. */
+/* H_input for a law that one ξ can lead to any u of one input: −Kξ⁺. H is another one. */
 static void test_after_set_input_the_law_goes_on_at_that_input(void)
 {
-    static const lqg_real K_one[] = {1, 2, -4}, H_one[] = {0.25f};
+    static const lqg_real K_one[] = {1, 2, -4}, H_one[] = {7}, H_input[] = {0.25f};
     const lqg_real u[1] = {10};
-    const lqg_servo_t servo = {.nx = NX, .nu = 1, .nr = NR, .nxi = 1, .T = 1, .K = K_one, .Nbar = Nbar, .H = H_one,
+    const lqg_servo_t servo = {.nx = NX, .nu = 1, .nr = NR, .nxi = 1, .T = 1, .K = K_one, .Nbar = Nbar, .H = H_one, .H_input = H_input,
                                .output = output, .reference = reference};
     state_t s = some;
     lqg_real next[1];

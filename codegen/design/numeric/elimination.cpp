@@ -77,4 +77,11 @@ Eliminated eliminated(const RealMatrix& A_given, const RealMatrix& b_given) {
 
 Eliminated eliminated(const RealMatrix& A) { return eliminated(A, zeros(A.rows(), 0)); }
 
+RealMatrix without_rounding(RealMatrix solution) {
+  const Real least = negligible(0.6) * largest_entry(solution);
+  for (Index i = 0; i < solution.size(); ++i)
+    if (abs(solution.data()[i]) <= least) solution.data()[i] = 0;
+  return solution;
+}
+
 }  // namespace lqg::design

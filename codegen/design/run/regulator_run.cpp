@@ -7,6 +7,7 @@
 #include "design/gains/regulator.hpp"
 #include "design/run/design_run_parts.hpp"
 #include "design/run/sparse_gain_run.hpp"
+#include "design/sampled/anti_windup.hpp"
 #include "design/sampled/reference.hpp"
 
 namespace lqg::design {
@@ -101,7 +102,19 @@ void run_feed_forward(const SampledStage& last, DesignRun& result) {
   RegulatorSolution& regulator = *result.solution.regulator;
   regulator.Nx = point->Nx;
   regulator.Nu = point->Nu;
-  regulator.Nbar = feed_forward(last.problem, regulator.K, *point);
+  regulator.Nbar = feed_forward(last.problem, regulator.K, regulator.Gamma, *point);
+}
+
+void run_anti_windup(const SampledStage& last, DesignRun& result) {
+  RegulatorSolution& regulator = *result.solution.regulator;
+  const auto Gamma = state_share_of_integrals(last.problem, last.samples.plant, regulator.K);
+  if (!Gamma)
+    return add_note(result.findings, "lqr.integral",
+                    "without its integrals the loop has a pole at 1, so the model does not tell what a limited input costs "
+                    "them: at a limit they follow the input (anti_windup = \"conditioning\")");
+  regulator.Gamma = *Gamma;
+  if (last.problem.regulator->anti_windup == AntiWindup::model)
+    regulator.H = anti_windup(last.problem, last.samples.plant, regulator.Gamma);
 }
 
 void run_placed(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
@@ -121,6 +134,7 @@ void run_regulator(const Problem& problem, const std::vector<SampledStage>& stag
                      DesignRun& result) {
   if (!has_cost(problem.regulator)) return run_placed(problem, stages.back().samples, coarser, result);
   run_optimal(problem, stages, coarser, result);
+  if (problem.regulator->integral && !has_error(result.findings)) run_anti_windup(stages.back(), result);
   if (!problem.regulator->track.empty() && !has_error(result.findings))
     run_feed_forward(stages.back(), result);
 }

@@ -22,14 +22,6 @@ Freedom least(const Freedom& of, const RealMatrix& W) {
   return {of.particular + multiply(of.null, solved.particular), multiply(of.null, solved.null)};
 }
 
-// A plant that rests anywhere needs no input for it: what elimination leaves of such a zero is one.
-RealMatrix without_rounding(RealMatrix a) {
-  const Real least = negligible(0.6) * largest_entry(a);
-  for (Index i = 0; i < a.size(); ++i)
-    if (abs(a.data()[i]) <= least) a.data()[i] = 0;
-  return a;
-}
-
 }  // namespace
 
 const std::vector<int>& integrated_outputs(const Problem& problem) {
@@ -67,11 +59,14 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
   return SetPoint{point.topRows(nx), point.bottomRows(nu)};
 }
 
-RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const SetPoint& set_point) {
-  const Index nu = K.rows();
-  const RealMatrix of_state = multiply(K.leftCols(set_point.Nx.rows()), set_point.Nx);
-  if (problem.regulator->input_rate.size() == 0) return set_point.Nu + of_state;
-  return of_state + multiply(K.rightCols(nu), set_point.Nu);
+RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const RealMatrix& Gamma, const SetPoint& set_point) {
+  const Index nx = set_point.Nx.rows();
+  const bool gives_change = problem.regulator->input_rate.size() > 0;
+  const RealMatrix rest = gives_change ? above(set_point.Nx, set_point.Nu) : set_point.Nx;
+  RealMatrix of_rest = beside(K.leftCols(nx), K.rightCols(rest.rows() - nx));
+  if (Gamma.size() > 0) of_rest -= multiply(K.middleCols(nx, Gamma.rows()), Gamma);
+  const RealMatrix out = multiply(of_rest, rest);
+  return gives_change ? out : RealMatrix(set_point.Nu + out);
 }
 
 }  // namespace lqg::design

@@ -1,9 +1,11 @@
 #include "emit/c/compact_constants.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 
+#include "controller/gains.hpp"
 #include "controller/model_of.hpp"
 #include "emit/text/wording.hpp"
 
@@ -236,6 +238,9 @@ std::string servo_constants(const Controller& controller) {
   const std::string NAME = upper(controller.problem.name), SERVO = NAME + "_SERVO";
   const std::string K = tables.add("K", stacked(controller.laws, 0)), Nbar = tables.add("NBAR", stacked(controller.laws, 1));
   const std::string H = tables.add("H", stacked(controller.laws, 2));
+  const std::vector<controller::Place> places = controller::changing_places(controller.laws, is_double);
+  if (std::any_of(places.begin(), places.end(), [](const controller::Place& place) { return place.matrix == 3; }))
+    tables.add("H_INPUT", stacked(controller.laws, 3));  // set_input, which is no call of the library, reads it
   const auto model = controller::model_of<double>(controller, [](const Real& value) { return design::to_double(value); });
   const std::string output = index_array(SERVO + "_OUTPUT", model.integral, tables.text);
   const std::string wanted = index_array(SERVO + "_REFERENCE", model.wanted, tables.text);
@@ -248,8 +253,8 @@ std::string servo_constants(const Controller& controller) {
   return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
          fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.size.nr), std::to_string(controller.size.nxi),
                  controller.has.input_change ? "1" : "0", NAME + "_SAMPLE_TIME"}) +
-         ",  /* nx, nu, nr, nxi, gives_change, T */\n    " + fields({K, Nbar, H, output, wanted}) +
-         ",  /* K, Nbar, H, output, reference */\n    " + fields({u_min, u_max, u_step, xi_scale, error_limit}) +
+         ",  /* nx, nu, nr, nxi, gives_change, T */\n    " + fields({K, Nbar, H, "NULL", output, wanted}) +
+         ",  /* K, Nbar, H, H_input, output, reference */\n    " + fields({u_min, u_max, u_step, xi_scale, error_limit}) +
          "  /* u_min, u_max, u_step, xi_scale, error_limit */\n};\n";
 }
 

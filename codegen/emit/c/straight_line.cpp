@@ -77,8 +77,8 @@ std::string rows(const Controller& controller, const Printed& printed) {
   std::string out;
   if (printed.reads("law[")) out += "    const {real} *const law = {NAME}_LAW[{law_row}];\n";
   if (printed.reads("gains[")) out += "    const {real} *const gains = {NAME}_GAINS[{filter_row}];\n";
-  const char* const names[] = {"K", "Nbar", "H"};
-  for (std::size_t k = 0; k < 3 && controller.style == design::Style::compact; ++k)
+  const char* const names[] = {"K", "Nbar", "H", "H_input"};
+  for (std::size_t k = 0; k < std::size(names) && controller.style == design::Style::compact; ++k)
     if (printed.reads(std::string(names[k]) + "["))
       out += fill("    const {real} *const {matrix} = {NAME}_SERVO_{MATRIX} + {law_row} * {size};\n",
                   {{"matrix", names[k]}, {"MATRIX", upper(names[k])}, {"size", std::to_string(controller.laws.front()[k].size())}});

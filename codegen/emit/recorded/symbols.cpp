@@ -41,7 +41,7 @@ std::pair<int, int> place_in_strict_triangle(int k) {
 }
 
 // Entries that change from sample to sample are read from a row of their table: of those entries alone in straight-line
-// code, of all of K, Nbar or H where the library's loops run over it.
+// code, of all of K, Nbar, H or H_input where the library's loops run over it.
 void read_row(const Controller& controller, const std::vector<Gains>& rows, const char* table,
               const std::vector<const char*>& names, const std::vector<step::Matrix<Expr>*>& matrices) {
   const bool compact = controller.style == design::Style::compact;
@@ -60,7 +60,7 @@ SymbolicModel symbolic_model(const Controller& controller) {
   SymbolicModel model = controller::model_of<Expr>(controller, [&](const design::Real& value) {
     return Expr(rounded_to_target(value, is_double));
   });
-  read_row(controller, controller.laws, "law", {"K", "Nbar", "H"}, {&model.K, &model.Nbar, &model.H});
+  read_row(controller, controller.laws, "law", {"K", "Nbar", "H", "H_input"}, {&model.K, &model.Nbar, &model.H, &model.H_input});
   step::Matrix<Expr> variance = model.variance;
   read_row(controller, controller.filters, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance});
   if (controller.has.gate) model.variance = variance;

@@ -109,6 +109,8 @@ Json lqr(const Controller& controller) {
   add(out, "Nx", regulator.Nx);
   add(out, "Nu", regulator.Nu);
   add(out, "Nbar", regulator.Nbar);
+  add(out, "Gamma", regulator.Gamma);
+  add(out, "H", regulator.H);
   add(out, "integral", design::integrated_outputs(controller.problem));
   add(out, "references", design::reference_outputs(controller.problem));
   if (regulator.structure) out["structure"] = structure(*regulator.structure, controller.problem.plant.sample_time);

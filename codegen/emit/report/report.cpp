@@ -203,6 +203,8 @@ std::string matrices(const Controller& controller) {
     add("N of the samples", regulator.cost.N);
     add("K", regulator.K);
     add("Nbar", regulator.Nbar);
+    add("Γ, of ξ + Γ x̂, what the model does not explain", regulator.Gamma);
+    add("H, of ξ + H (u − v)", regulator.H);
     add("X, the Riccati solution", regulator.X);
   }
   if (solution.estimator) {

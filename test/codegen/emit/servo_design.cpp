@@ -43,6 +43,7 @@ DesignText limited_double_integrator() {
 void integrate_position(Problem& problem, Solution& solution) {
   problem.regulator->integral = lqg::design::Integral{{0}, Eigen::MatrixXd::Identity(1, 1)};
   solution.regulator->K = matrix({{4, 3, -2}});
+  solution.regulator->H = matrix({{0.3}});
 }
 
 void weigh_changes(Problem& problem, Solution& solution) {

@@ -161,31 +161,51 @@ void run_in_both_styles(Controller controller, const std::string& body,
   }
 }
 
-// 500 samples at the limit with an error of 1000: without a correction ξ were 50000, and the input at its limit for ever.
-// With it the law asks for the limit itself one sample after the error has gone: 2 ξ = 0.5.
+// 500 samples at the limit of 0.5 with an error of 1000, before a plant that does not move: without a correction ξ were 50000. With it ξ
+// stays where H takes back in each sample what the error adds, 2 ξ = 0.5 + 100/0.3.
+// Once the error has gone, a sample leaves 1 − 2 · 0.3 of what is beyond the limit.
 void test_an_integral_does_not_wind_up_at_a_limit() {
   run_in_both_styles(changed(limited_double_integrator(), integrate_position), R"(
-    self.r[0] = 1000;
-    for (int k = 0; k < 501; k++) {
+    float most = 0;
+    for (int k = 0; k < 520; k++) {
         self.r[0] = k < 500 ? 1000 : 0;
         (void)loop_update(&self, y);
         self.x[0] = self.x[1] = 0;
         (void)loop_control(&self, u);
         (void)loop_predict(&self, u);
+        most = self.xi[0] > most ? self.xi[0] : most;
     }
-    printf("%.9g", (double)self.xi[0]);
-)", [](const std::string& xi) { TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.25, std::strtod(xi.c_str(), nullptr)); });
+    printf("%.9g %.9g", (double)most, (double)self.xi[0]);
+)", [](const std::string& text) {
+    double most = 0, xi = 0;
+    TEST_ASSERT_EQUAL_INT(2, std::sscanf(text.c_str(), "%lf %lf", &most, &xi));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, (0.5 + 100 / 0.3) / 2, most);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.25, xi);
+  });
 }
 
-// With x̂ = 0 the law is 2 ξ: after the correction it asks for the 0.25 that was applied.
-void test_the_law_asks_for_what_was_applied() {
-  run_in_both_styles(changed(limited_double_integrator(), integrate_position), R"(
+// With x̂ = 0 the law is 2 ξ = 6, and 0.25 is applied.
+void expect_integral_after_another_input(void (*change)(Problem&, Solution&), double expected) {
+  const auto is_expected = [&](const std::string& xi) { TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected, std::strtod(xi.c_str(), nullptr)); };
+  run_in_both_styles(changed(limited_double_integrator(), change), R"(
     self.xi[0] = 3;
     (void)loop_control(&self, u);
     u[0] = 0.25f;
     (void)loop_predict(&self, u);
     printf("%.9g", (double)self.xi[0]);
-)", [](const std::string& xi) { TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.125, std::strtod(xi.c_str(), nullptr)); });
+)", is_expected);
+}
+
+// 3 + 0.3 (0.25 − 6)
+void test_another_input_than_asked_for_acts_on_the_integral_by_H() {
+  expect_integral_after_another_input(integrate_position, 1.275);
+}
+
+void test_conditioned_law_asks_for_what_was_applied() {
+  expect_integral_after_another_input([](Problem& problem, Solution& solution) {
+    integrate_position(problem, solution);
+    solution.regulator->H.resize(0, 0);
+  }, 0.125);
 }
 
 void test_control_goes_on_where_the_hand_was() {
@@ -282,7 +302,8 @@ int main() {
   RUN_TEST(test_gains_of_a_transient);
   RUN_TEST(test_gains_that_do_not_change_are_no_table);
   RUN_TEST(test_an_integral_does_not_wind_up_at_a_limit);
-  RUN_TEST(test_the_law_asks_for_what_was_applied);
+  RUN_TEST(test_another_input_than_asked_for_acts_on_the_integral_by_H);
+  RUN_TEST(test_conditioned_law_asks_for_what_was_applied);
   RUN_TEST(test_control_goes_on_where_the_hand_was);
   RUN_TEST(test_inputs_on_their_way_follow_the_hand);
   RUN_TEST(test_an_input_moves_no_faster_than_its_slew_limit);

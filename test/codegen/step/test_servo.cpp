@@ -37,6 +37,7 @@ Model<S> random_law(Random& random) {
   model.K = random_matrix(random, model.nu, model.nx + nxi + (model.gives_change ? model.nu : 0));
   if (random.one_in(2)) model.Nbar = random_matrix(random, model.nu, model.nr);
   model.H = random_matrix(random, nxi, model.nu);
+  model.H_input = random_matrix(random, nxi, model.nu);
   model.T = rounded<S>(0.1);
   model.D.resize(ny, 0);
   const Vector<S> positive = Vector<S>::Constant(model.nu, rounded<S>(0.3));
@@ -75,14 +76,14 @@ class Comparison {
  public:
   explicit Comparison(const Model<S>& model)
       : model_(model), state_(lqg::step::initial_state(model)), K_(row_major(model.K)), Nbar_(row_major(model.Nbar)),
-        H_(row_major(model.H)), u_min_(row_major(model.u_min)), u_max_(row_major(model.u_max)),
+        H_(row_major(model.H)), H_input_(row_major(model.H_input)), u_min_(row_major(model.u_min)), u_max_(row_major(model.u_max)),
         u_step_(row_major(model.u_step)), error_limit_(row_major(model.error_limit)), output_(model.integral.begin(), model.integral.end()),
         reference_(model.wanted.begin(), model.wanted.end()), xi_(output_.size()), error_(output_.size()),
         demand_(static_cast<std::size_t>(state_.demand.size())), u_applied_(static_cast<std::size_t>(state_.u.size())) {
     for (const int bound : model.xi_bound) xi_scale_.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
     const auto size = [](auto count) { return static_cast<unsigned>(count); };
     servo_ = {size(model.nx), size(model.nu), size(model.nr), size(output_.size()), model.gives_change ? 1u : 0u, number(model.T),
-              pointer(K_), pointer(Nbar_), pointer(H_), output_.data(), reference_.data(), pointer(u_min_), pointer(u_max_), pointer(u_step_),
+              pointer(K_), pointer(Nbar_), pointer(H_), pointer(H_input_), output_.data(), reference_.data(), pointer(u_min_), pointer(u_max_), pointer(u_step_),
               pointer(xi_scale_), pointer(error_limit_)};
     lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
   }
@@ -150,7 +151,7 @@ class Comparison {
 
   const Model<S>& model_;
   State<S> state_;
-  Numbers K_, Nbar_, H_, u_min_, u_max_, u_step_, error_limit_, xi_scale_;
+  Numbers K_, Nbar_, H_, H_input_, u_min_, u_max_, u_step_, error_limit_, xi_scale_;
   std::vector<unsigned> output_, reference_;
   Numbers xi_, error_, demand_, u_applied_;
   lqg_servo_t servo_{};
