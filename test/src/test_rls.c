@@ -208,6 +208,39 @@ static void test_limits_keep_correlations(void)
     }
 }
 
+/* Three variances that depend on each other grow without excitation until each is at its limit. */
+static void test_limits_hold_variances_that_are_correlated(void)
+{
+    const lqg_real limits[3] = {4, 5, 6}, variances[3] = {4, 4, 4}, none[3] = {0};
+    const lqg_real excited[2][3] = {{1, 1, 1}, {1, -1, 0.5f}};
+    const lqg_rls_t rls = {3, 0.9f, 1, NULL, variances, limits};
+    rls_state_t s = begun(&rls);
+
+    for (unsigned sample = 0; sample < 2; sample++)
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&rls, &s, excited[sample], 1));
+    TEST_ASSERT_TRUE(s.U[0] != 0 && s.U[1] != 0 && s.U[2] != 0);
+    for (unsigned sample = 0; sample < 200; sample++) {
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&rls, &s, none, 0));
+        for (unsigned i = 0; i < 3; i++)
+            TEST_ASSERT_TRUE(ud_covariance(s.U, s.d, 3, i, i) <= (double)limits[i] * (1 + 100 * EPSILON));
+    }
+    for (unsigned i = 0; i < 3; i++)
+        TEST_ASSERT_DOUBLE_WITHIN(0.01 * (double)limits[i], (double)limits[i], ud_covariance(s.U, s.d, 3, i, i));
+}
+
+static void test_parameter_that_is_not_finite_begins_all_anew(void)
+{
+    const lqg_real phi[2] = {1, 2};
+    const lqg_rls_t rls = {2, 0.9f, 1, theta0, P0, NULL};
+    rls_state_t s = begun(&rls);
+    const rls_state_t first = s;
+
+    update(&rls, &s, phi, 1);
+    s.theta[1] = NAN;
+    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE | LQG_STATE_RESET, update(&rls, &s, phi, 1));
+    TEST_ASSERT_EQUAL_MEMORY(&first, &s, sizeof s);
+}
+
 static void test_init_begins_within_the_limits(void)
 {
     const lqg_real limits[2] = {50, 8}, variances[2] = {1e6f, 1};
@@ -274,15 +307,21 @@ static void test_nothing_behind_the_parameters_is_touched(void)
     const lqg_rls_t rls = {NTHETA, 0.75f, 1, start, variances, limits};
     rls_state_t s, untouched;
     lqg_real work[LQG_RLS_WORK(MAX_NTHETA)];
+    lqg_real theta[NTHETA], U[LQG_RLS_U(NTHETA)], d[NTHETA], exact[LQG_RLS_WORK(NTHETA)]; /* nothing behind them */
 
     memset(&untouched, 0xff, sizeof untouched); /* NaNs */
     s = untouched;
     lqg_rls_init(&rls, s.theta, s.U, s.d);
+    lqg_rls_init(&rls, theta, U, d);
     for (unsigned k = 0; k < 20; k++) {
         const lqg_real phi[MAX_NTHETA] = {1, (lqg_real)(k % 2), (lqg_real)(k % 3), NAN, NAN, NAN};
         memset(work, 0xff, sizeof work);
         TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, s.theta, s.U, s.d, phi, 1, work));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, theta, U, d, phi, 1, exact));
     }
+    TEST_ASSERT_EQUAL_MEMORY(theta, s.theta, sizeof theta);
+    TEST_ASSERT_EQUAL_MEMORY(U, s.U, sizeof U);
+    TEST_ASSERT_EQUAL_MEMORY(d, s.d, sizeof d);
     TEST_ASSERT_EQUAL_MEMORY(untouched.theta + NTHETA, s.theta + NTHETA, sizeof s.theta - NTHETA * sizeof *s.theta);
     TEST_ASSERT_EQUAL_MEMORY(untouched.U + LQG_RLS_U(NTHETA), s.U + LQG_RLS_U(NTHETA), sizeof s.U - LQG_RLS_U(NTHETA) * sizeof *s.U);
     TEST_ASSERT_EQUAL_MEMORY(untouched.d + NTHETA, s.d + NTHETA, sizeof s.d - NTHETA * sizeof *s.d);
@@ -297,6 +336,8 @@ int main(void)
     RUN_TEST(test_forgetting_follows_a_plant_that_changes);
     RUN_TEST(test_limits_hold_what_is_not_excited_and_leave_the_rest_alone);
     RUN_TEST(test_limits_keep_correlations);
+    RUN_TEST(test_limits_hold_variances_that_are_correlated);
+    RUN_TEST(test_parameter_that_is_not_finite_begins_all_anew);
     RUN_TEST(test_init_begins_within_the_limits);
     RUN_TEST(test_nothing_changes_to_the_bit_when_a_sample_is_hostile);
     RUN_TEST(test_begins_anew_when_forgetting_without_limits_overflows);

@@ -248,22 +248,23 @@ static void test_a_plant_that_varies_follows_the_textbook(void)
 static void test_innovation_and_its_variance_are_those_of_the_textbook(void)
 {
     textbook_t textbook;
-    const model_t model = with_output(&two_mass, 1);
     lqg_real y[1] = {0.75f}, u[1] = {0.5f}, nu[1], s[1];
     const lqg_watch_t watch = {NULL, 0, NULL, nu, s, NULL, NULL, NULL, NULL};
 
-    for (unsigned filter = PLAIN; filter < FILTERS; filter++) {
-        make_loop(&tested, &model, filter, LQG_FILTER_FORM);
-        textbook_init(&model, &textbook);
-        textbook_update(&model, &textbook, y, tested.state.u_applied);
-        loop_update(&tested, y);
-        textbook_predict(&model, &textbook, u);
-        loop_predict(&tested, u);
-        textbook_update(&model, &textbook, y, u);
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&tested, y, &watch));
-        TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, textbook.innovation[0], (double)nu[0]);
-        TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, textbook.S[0], (double)s[0]);
-    }
+    for (unsigned filter = PLAIN; filter < FILTERS; filter++)
+        for (unsigned output = 0; output < 2; output++) {
+            const model_t model = with_output(&two_mass, output);
+            make_loop(&tested, &model, filter, LQG_FILTER_FORM);
+            textbook_init(&model, &textbook);
+            textbook_update(&model, &textbook, y, tested.state.u_applied);
+            loop_update(&tested, y);
+            textbook_predict(&model, &textbook, u);
+            loop_predict(&tested, u);
+            textbook_update(&model, &textbook, y, u);
+            TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&tested, y, &watch));
+            TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, textbook.innovation[0], (double)nu[0]);
+            TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, textbook.S[0], (double)s[0]);
+        }
 }
 
 /* The first output alone, `sigmas` standard deviations from what is expected. */
@@ -295,6 +296,31 @@ static void test_gate_leaves_out_what_lies_beyond_it_and_counts(void)
             TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_with_outlier(&tested, -1e6, &watch));
             TEST_ASSERT_EQUAL_UINT32(2, gated[0]);
         }
+}
+
+static void test_gate_may_be_less_than_one_standard_deviation(void)
+{
+    const unsigned char first[MAX_NY] = {1, 0};
+    const lqg_watch_t watch = {first, 0.5f, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+
+    for (unsigned filter = 0; filter < FILTERS; filter++) {
+        make_running_loop(&tested, &two_mass, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_with_outlier(&tested, 0.51, &watch));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_with_outlier(&tested, 0.49, &watch));
+    }
+}
+
+/* 2² s = 1² with s = 0.25, all of them exact. */
+static void test_output_right_at_the_gate_is_let_in(void)
+{
+    const unsigned char second[MAX_NY] = {0, 1};
+    const lqg_watch_t watch = {second, 2, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+    const lqg_real at[MAX_NY] = {0, 1}, beyond[MAX_NY] = {0, 1.0001f};
+
+    make_loop(&tested, &two_mass, STEADY, LQG_FILTER_FORM);
+    memset(tested.state.x, 0, sizeof tested.state.x);
+    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update_watched(&tested, beyond, &watch));
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, update_watched(&tested, at, &watch));
 }
 
 static void test_a_gated_output_does_not_come_in_by_way_of_one_that_is_freed_of_its_noise(void)
@@ -419,6 +445,8 @@ int main(void)
     RUN_TEST(test_a_plant_that_varies_follows_the_textbook);
     RUN_TEST(test_innovation_and_its_variance_are_those_of_the_textbook);
     RUN_TEST(test_gate_leaves_out_what_lies_beyond_it_and_counts);
+    RUN_TEST(test_gate_may_be_less_than_one_standard_deviation);
+    RUN_TEST(test_output_right_at_the_gate_is_let_in);
     RUN_TEST(test_a_gated_output_does_not_come_in_by_way_of_one_that_is_freed_of_its_noise);
     RUN_TEST(test_heard_tells_which_outputs_were_used);
     RUN_TEST(test_a_gated_output_is_one_that_is_not_used);
