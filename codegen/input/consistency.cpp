@@ -34,7 +34,6 @@ void check_tables(const Values& values, Report& report) {
     if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
   for (const char* key : {"kalman", "observer", "lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"})
     if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
-  if (values.has("lqr.anti_windup") && !values.has("lqr.integral")) report.error("lqr.anti_windup", "needs lqr.integral");
 }
 
 // Of several ways to say the same thing exactly one; nothing is said of a table that is not there.
@@ -72,6 +71,7 @@ void check_companions(const Values& values, Report& report) {
     if (values.has(key) && !good) report.error(key, std::string("needs ") + what);
   };
   const bool schedule = values.text("kalman.gain") == "schedule";
+  needs("lqr.anti_windup", values.has("lqr.integral"), "lqr.integral");
   needs("lqr.Q_final", values.number("lqr.horizon", 0) > 0, "lqr.horizon > 0");
   needs("kalman.horizon", schedule || values.number("kalman.horizon", 0) == 0, "kalman.gain = \"schedule\"");
   const std::string gain = values.text("kalman.gain");

@@ -69,6 +69,7 @@ Q_final = [1, 2]
 structure = [[1, 0], [0, 1]]
 integral = { outputs = [1, 0], Q = [[2, 0.5], [0.5, 3]] }
 track = [1]
+anti_windup = "conditioning"
 input_rate = [5, 6]
 [kalman]
 process_noise = [7]
@@ -204,6 +205,7 @@ void test_rarer_keys_of_plant_and_regulator_are_read() {
   TEST_ASSERT_TRUE(regulator.integral->outputs == std::vector<int>({1, 0}) && regulator.track == std::vector<int>({1}));
   expect_matrix({2, 0.5, 0.5, 3}, regulator.integral->Q);
   expect_matrix({5, 0, 0, 6}, regulator.input_rate);
+  TEST_ASSERT_TRUE(regulator.anti_windup == design::AntiWindup::conditioning);
 }
 
 void test_rarer_keys_of_the_estimator_and_the_rest_are_read() {
@@ -246,6 +248,7 @@ void test_what_is_left_out_has_its_default() {
   expect_signal("y0", "", p.plant.outputs[0]);
   expect_matrix({0}, p.plant.H);
   TEST_ASSERT_TRUE(p.plant.delay == 0 && p.stages.empty() && !p.requirements.max_pole);
+  TEST_ASSERT_TRUE(p.regulator->anti_windup == design::AntiWindup::model);
   TEST_ASSERT_TRUE(p.regulator->horizon == 0 && !p.regulator->integral && p.regulator->track.empty());
   expect_matrix({0}, p.regulator->N);
   expect_matrix({0}, p.estimator->Swv);
