@@ -219,6 +219,23 @@ static void test_init_copies_the_description(void)
     }
 }
 
+/* Three outputs and an E whose entries below the diagonal differ, against E y without an E: both sums are exact. */
+static void test_E_mixes_each_output_with_those_before_it(void)
+{
+    static const lqg_real one[1] = {1}, C[3] = {1, 2, 0.5f}, V[3] = {1, 2, 4}, E[9] = {1, 0, 0, 0.5f, 1, 0, 0.25f, -2, 1};
+    const lqg_real y[3] = {3, -1, 8}, mixed[3] = {3, 0.5f, 10.75f};
+    const lqg_kalman_ud_t with = {.plant = {1, 0, 3, one, NULL, C, NULL}, .E = E, .V = V, .d0 = one};
+    lqg_kalman_ud_t without = with;
+    lqg_real x[2], d[2], innovation[3], work[LQG_KALMAN_UD_WORK(1, 3, 0)];
+
+    without.E = NULL;
+    lqg_kalman_ud_init(&with, &x[0], NULL, &d[0], NULL, innovation);
+    lqg_kalman_ud_init(&without, &x[1], NULL, &d[1], NULL, innovation);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&with, &x[0], NULL, &d[0], NULL, innovation, y, work));
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&without, &x[1], NULL, &d[1], NULL, innovation, mixed, work));
+    TEST_ASSERT_TRUE(x[0] == x[1] && d[0] == d[1] && x[0] != 0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -231,5 +248,6 @@ int main(void)
     RUN_TEST(test_ud_keeps_P_positive_where_plain_loses_it);
     RUN_TEST(test_ud_goes_on_when_the_variance_of_a_state_dies_out);
     RUN_TEST(test_init_copies_the_description);
+    RUN_TEST(test_E_mixes_each_output_with_those_before_it);
     return UNITY_END();
 }

@@ -402,6 +402,20 @@ static void test_gate_opens_for_an_output_that_is_left_out_again_and_again_and_n
         }
 }
 
+static void test_gate_is_never_wider_than_the_widest(void)
+{
+    const lqg_real same[MAX_NY] = {1, 1};
+    const unsigned char first[MAX_NY] = {1, 0};
+
+    for (unsigned filter = 0; filter < FILTERS; filter++) {
+        lqg_real widening[MAX_NY] = {INFINITY, 1};
+        const lqg_watch_t watch = {first, 3, NULL, NULL, NULL, widening, same, same, NULL};
+        make_running_loop(&tested, &two_mass, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update_with_outlier(&tested, 0, &watch));
+        TEST_ASSERT_TRUE(widening[0] == (lqg_real)1208925819614629174706176.0f); /* 2⁸⁰ */
+    }
+}
+
 /* P grows by itself while nothing is heard; of a constant gain the gate does. */
 static void test_silence_opens_the_gate_of_a_constant_gain_only(void)
 {
@@ -451,6 +465,7 @@ int main(void)
     RUN_TEST(test_heard_tells_which_outputs_were_used);
     RUN_TEST(test_a_gated_output_is_one_that_is_not_used);
     RUN_TEST(test_gate_opens_for_an_output_that_is_left_out_again_and_again_and_narrows_again);
+    RUN_TEST(test_gate_is_never_wider_than_the_widest);
     RUN_TEST(test_silence_opens_the_gate_of_a_constant_gain_only);
     RUN_TEST(test_an_output_that_is_no_number_is_not_the_gate_s_business);
     return UNITY_END();
