@@ -1,4 +1,5 @@
 /* The filters that carry P, against the textbook and against each other. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -236,6 +237,19 @@ static void test_E_mixes_each_output_with_those_before_it(void)
     TEST_ASSERT_TRUE(x[0] == x[1] && d[0] == d[1] && x[0] != 0);
 }
 
+/* 1/d is not finite for a d that small: U says that its state has nothing in common with the others. */
+static void test_variance_too_small_to_divide_by_is_that_of_a_state_by_itself(void)
+{
+    static const lqg_real identity[4] = {1, 0, 0, 1}, C[2] = {1, 0}, V[1] = {1}, G[2] = {1, 1}, d0[2] = {1, 0}, U0[1] = {0};
+    const lqg_real tiny = (sizeof(lqg_real) == sizeof(float) ? (lqg_real)FLT_MIN : (lqg_real)DBL_MIN) / 16;
+    const lqg_kalman_ud_t kalman = {.plant = {2, 0, 1, identity, NULL, C, NULL}, .V = V, .nq = 1, .G = G, .w = &tiny, .U0 = U0, .d0 = d0};
+    lqg_real x[2], U[1], d[2], innovation[1], work[LQG_KALMAN_UD_WORK(2, 1, 1)];
+
+    lqg_kalman_ud_init(&kalman, x, U, d, NULL, innovation);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_predict(&kalman, x, U, d, NULL, innovation, NULL, work));
+    TEST_ASSERT_TRUE(d[1] == tiny && U[0] == 0 && d[0] == 1);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -249,5 +263,6 @@ int main(void)
     RUN_TEST(test_ud_goes_on_when_the_variance_of_a_state_dies_out);
     RUN_TEST(test_init_copies_the_description);
     RUN_TEST(test_E_mixes_each_output_with_those_before_it);
+    RUN_TEST(test_variance_too_small_to_divide_by_is_that_of_a_state_by_itself);
     return UNITY_END();
 }
