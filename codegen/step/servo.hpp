@@ -84,7 +84,6 @@ template <class S, class Listener>
 auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   const int nxi = static_cast<int>(model.integral.size());
   BoundsCheck<S> bounds;
-  for (int i = 0; i < model.nu; ++i) bounds.add(S(u(i)), listener);
   for (int i = 0; i < model.delayed; ++i) {
     const int at = model.nx - model.delayed + i;
     state.x(at) = u(i % model.nu);
@@ -107,6 +106,7 @@ auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Liste
     state.xi = xi;
     state.demand = u;
   }
+  for (int i = 0; i < model.nu; ++i) bounds.add(S(u(i)), listener);
   return bounds.is_within();
 }
 
