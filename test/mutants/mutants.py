@@ -107,7 +107,11 @@ class Library:
             file.write_text(text)
         helpers = [file for file in sorted(tests.glob("*.c")) if file.stem in ("model", "textbook", "loop", "bits")]
         self.helpers = [compiled(file, self.options) for file in [unity(build) / "unity.c", *helpers]]
-        self.tests = [compiled(file, self.options) for file in sorted(tests.glob("test_*.c")) if file.stem != SLOW]
+        names_of_tests = [file for file in sorted(tests.glob("test_*.c")) if file.stem != SLOW]
+        self.tests = [compiled(file, self.options) for file in names_of_tests]
+        # What lies behind an array of a test is watched only if the test is compiled so, too.
+        self.watched = {built: compiled(file, [*self.options, "-O1", *SANITIZERS], "watched_")
+                        for built, file in zip(self.tests, names_of_tests)}
 
     # Tests of the file's own name first: they kill most.
     def tests_for(self, file: Path) -> list[Path]:
@@ -125,6 +129,7 @@ class Library:
             return None
         others = [built for name, built in self.objects.items() if name != file]
         for test in self.tests_for(file):
+            test = self.watched[test] if options[1:] else test
             need(*CC, *options, test, "mutant.o", *others, *self.helpers, "-lm", "-o", "program")
             if not passes(Path("program")):
                 return False
@@ -143,8 +148,8 @@ def options(build: Path) -> list:
     return ["-std=c99", "-w", "-DUNITY_INCLUDE_DOUBLE", "-I", ".", "-I", ROOT / "include", "-I", unity(build)]
 
 
-def compiled(file: Path, options: list) -> Path:
-    made = Path(file.stem + ".o")
+def compiled(file: Path, options: list, prefix: str = "") -> Path:
+    made = Path(prefix + file.stem + ".o")
     need(*CC, *options, "-O1", "-c", file, "-o", made)
     return made
 

@@ -161,6 +161,10 @@ static void test_plain_begins_P_anew_when_the_variance_of_an_innovation_is_not_p
     TEST_ASSERT_EQUAL_UINT(LQG_INNOVATION_NOT_POSITIVE | LQG_COVARIANCE_RESET, loop_update(&loop, y));
     TEST_ASSERT_TRUE(same_state(&begun, &loop.state));
     TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&loop, y));
+    for (unsigned i = 0; i < LQG_TRIANGLE(4); i++)
+        loop.state.P[i] = 0;
+    loop.state.P[0] = -loop.plain.kalman.V[0]; /* s = 0 */
+    TEST_ASSERT_EQUAL_UINT(LQG_INNOVATION_NOT_POSITIVE | LQG_COVARIANCE_RESET, loop_update(&loop, y));
 }
 
 /* Process noise that makes up for it heals it, too. */

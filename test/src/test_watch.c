@@ -117,6 +117,29 @@ static void test_one_output_alone_is_a_mask_with_one_output_even_when_w_and_v_ar
         }
 }
 
+static void test_one_output_that_is_left_out_has_nothing_for_the_prediction(void)
+{
+    for (unsigned filter = 0; filter < FILTERS; filter++) {
+        make_running_loop(&tested, &cross_noise, filter);
+        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update_output(&tested, 0, NAN, NULL));
+        TEST_ASSERT_TRUE(tested.state.innovation[0] == 0);
+    }
+}
+
+/* Without a gate a constant gain needs no variances. */
+static void test_variance_that_nobody_gives_is_told_as_zero(void)
+{
+    const lqg_real y[MAX_NY] = {0.5f, -0.25f};
+    lqg_real s[MAX_NY] = {7, 7};
+    const lqg_watch_t watch = {NULL, 0, NULL, NULL, s, NULL, NULL, NULL, NULL};
+    state_t *state = &tested.state;
+
+    make_running_loop(&tested, &two_mass, STEADY);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_steady_update_watched(&tested.steady.kalman, state->x, state->u_applied,
+                                                                    state->innovation, y, NULL, &watch, state->work));
+    TEST_ASSERT_TRUE(s[0] == 0 && s[1] == 0);
+}
+
 static void test_an_output_not_used_is_one_that_is_no_number_but_goes_unreported(void)
 {
     const lqg_real y[MAX_NY] = {INFINITY, -0.25f}, one_is_nan[MAX_NY] = {NAN, -0.25f};
@@ -453,6 +476,8 @@ int main(void)
     RUN_TEST(test_watch_over_all_outputs_changes_no_bit_of_the_update);
     RUN_TEST(test_outputs_one_by_one_change_no_bit_of_the_update);
     RUN_TEST(test_one_output_alone_is_a_mask_with_one_output_even_when_w_and_v_are_correlated);
+    RUN_TEST(test_one_output_that_is_left_out_has_nothing_for_the_prediction);
+    RUN_TEST(test_variance_that_nobody_gives_is_told_as_zero);
     RUN_TEST(test_an_output_not_used_is_one_that_is_no_number_but_goes_unreported);
     RUN_TEST(test_an_output_that_E_mixes_with_an_unused_one_is_left_out_and_reported);
     RUN_TEST(test_sensors_of_two_rates_follow_the_textbook);
