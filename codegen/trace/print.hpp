@@ -43,10 +43,11 @@ class Printer {
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
+  // Whether it has a statement of its own; other operations are computed inside of the one that uses them.
+  bool is_declared(int node) const;
   Operations operations() const;
 
  private:
-  bool is_declared(int node) const;
   bool is_status(int node) const;
   std::string name_of(int node) const;
   std::string print(int node, int level) const;

@@ -1,0 +1,161 @@
+#include "emit/plan/library_cost.hpp"
+
+#include <algorithm>
+
+#include "controller/gains.hpp"
+#include "controller/model_of.hpp"
+#include "controller/state_fields.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+// Measured by test/bench/library_figures.sh, which prints them anew: bytes, of float, fused float, double, fused double.
+struct Variants {
+  long bytes[4];
+  long of(const Controller& controller) const { return bytes[(controller.target.is_double ? 2 : 0) + (controller.target.is_fused ? 1 : 0)]; }
+};
+struct FilterFigures {
+  Variants flash;            // init, update and predict with all that they call
+  long unwatched;            // update without a watch, which is one call more
+  Variants update, predict;  // the deepest reach of their stack
+};
+constexpr FilterFigures steady = {{{1812, 1768, 2284, 2324}}, 28, {{156, 156, 244, 244}}, {{128, 128, 168, 192}}};
+constexpr FilterFigures plain = {{{3004, 2908, 3780, 3720}}, 28, {{180, 172, 292, 276}}, {{184, 184, 256, 280}}};
+constexpr FilterFigures factored = {{{3576, 3464, 4556, 4608}}, 32, {{196, 196, 296, 328}}, {{160, 160, 248, 256}}};
+constexpr Variants law_flash = {{200, 196, 280, 304}}, law_stack = {{36, 36, 100, 120}};
+constexpr Variants servo_flash = {{1108, 1124, 1528, 1608}};  // beside a filter, with which it shares a function
+constexpr Variants observe_flash = {{144, 144, 152, 152}};
+constexpr Variants servo_stack = {{100, 100, 188, 240}};
+
+const FilterFigures& figures_of(step::Filter filter) {
+  return filter == step::Filter::plain ? plain : filter == step::Filter::ud ? factored : steady;
+}
+
+long bytes_of_real(const Controller& controller) { return controller.target.is_double ? 8 : 4; }
+long rounded_up(long bytes) { return (bytes + 7) / 8 * 8; }
+long triangle(long n) { return n * (n + 1) / 2; }
+
+long numbers_of(const std::vector<Gains>& rows) {
+  long numbers = 0;
+  for (const design::RealMatrix& matrix : rows.empty() ? Gains{} : rows.front())
+    numbers += static_cast<long>(matrix.size()) * static_cast<long>(rows.size());
+  return numbers;
+}
+
+// L and the variances; M where predict needs it.
+long numbers_of_filters(const Controller& controller) {
+  const long M = controller.keeps.innovation ? 0 : static_cast<long>(controller.filters.front()[1].size());
+  return numbers_of(controller.filters) - M * static_cast<long>(controller.filters.size());
+}
+
+// Numbers in flash: the constants of a filter.
+long filter_constants(const Controller& controller) {
+  const long nx = controller.size.nx, nu = controller.size.nu, ny = controller.size.ny;
+  const long stages = static_cast<long>(controller.stage_starts.size());
+  long numbers = stages * (nx * nx + nx * nu + ny * nx + (controller.has.feedthrough ? ny * nu : 0));
+  numbers += nx + ny;  // the bounds
+  if (controller.has.gate) numbers += 2 * ny;
+  if (controller.has.range) numbers += 2 * ny;
+  if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
+  if (controller.filter == step::Filter::steady) return numbers + numbers_of_filters(controller);
+  const design::OnlineSolution& online = *controller.solution.online;
+  const long innovation = controller.keeps.innovation ? nx * nx + nx * ny : 0;
+  const long noise = controller.filter == step::Filter::plain ? triangle(nx) : (nx + 1) * online.G.cols();
+  return numbers + triangle(nx) + stages * (ny + (online.E.isIdentity(0) ? 0 : ny * ny) + innovation + noise);
+}
+
+// The arrays, and what points to them.
+long constants_of(const Controller& controller) {
+  long numbers = 0, bytes = 0;
+  if (controller.has.filter) {
+    numbers += filter_constants(controller);
+    bytes += (controller.filter == step::Filter::steady ? 48 : 76) * static_cast<long>(controller.stage_starts.size());
+  }
+  if (controller.has.regulator) {
+    numbers += numbers_of(controller.laws) + controller.size.nu * (controller.problem.limits ? 2 : 0) +
+               controller.size.nu * (controller.has.rate_limit ? 1 : 0) + 2 * controller.size.nxi;
+    bytes += controller.has.servo ? 64 + 8 * controller.size.nxi : 20;
+  }
+  return bytes + bytes_of_real(controller) * numbers;
+}
+
+bool is_watched(const Controller& controller) { return controller.has.gate || controller.size.nxi > 0; }
+bool remembers(const Controller& controller) { return controller.size.nxi > 0 || controller.has.last_input; }
+
+// The functions in the header.
+long calls_of(const Controller& controller) {
+  const long covariance = carries_covariance(controller) ? 1 : 0, ny = controller.has.gate ? controller.size.ny : 0;
+  const long rows = controller.keeps.gain_row ? 1 : 0, laws = has_law_table(controller) ? 1 : 0, servo = controller.has.servo ? 1 : 0;
+  const long init = 30 + 6 * ny + 16 * covariance + 32 * servo + (controller.size.nr ? 8 + 2 * controller.size.nr : 0);
+  const long reset = 36 + 14 * ny + 16 * covariance + 40 * servo + 4 * controller.size.nr;
+  long bytes = init;
+  if (controller.has.filter) {
+    bytes += reset + 28 * covariance;
+    bytes += (is_watched(controller) ? 106 : 54) + 12 * covariance + (controller.size.nxi ? 60 : 0) + 76 * rows +
+             (controller.has.range ? 60 : 0);
+    bytes += 50 + 16 * covariance + (remembers(controller) ? 36 : 0) + 68 * rows + 40 * laws;
+  }
+  if (controller.has.regulator)
+    bytes += 16 + 32 * servo + 60 * laws + (controller.has.feedthrough ? 40 : 0) + (controller.has.filter ? 0 : 120 + 80 * servo);
+  return bytes + (controller.target.is_double ? 24 : 0);
+}
+
+long flash_of_library(const Controller& controller) {
+  long bytes = 0;
+  if (controller.has.filter)
+    bytes += figures_of(controller.filter).flash.of(controller) + (is_watched(controller) ? 0 : figures_of(controller.filter).unwatched);
+  if (controller.has.regulator && controller.has.servo)
+    bytes += servo_flash.of(controller) + (controller.size.nxi ? observe_flash.of(controller) : 0);
+  else if (controller.has.regulator) bytes += law_flash.of(controller);
+  return bytes;
+}
+
+// How long work[] is, in bytes.
+long work_of(const Controller& controller) {
+  const long nx = controller.size.nx, ny = controller.size.ny, real = bytes_of_real(controller);
+  switch (controller.filter) {
+    case step::Filter::steady: return rounded_up(real * std::max(nx, ny));
+    case step::Filter::plain: return rounded_up(real * std::max(nx * nx, nx + ny));
+    case step::Filter::ud: return rounded_up(real * std::max((nx + 2) * (nx + controller.solution.online->G.cols()), nx + ny));
+    default: return 0;
+  }
+}
+
+// The frames in the header, and the deepest calls from them.
+long stack_of_loops(const Controller& controller) {
+  const long law = !controller.has.regulator  ? 0
+                   : controller.has.servo ? 24 + servo_stack.of(controller)
+                                          : law_stack.of(controller);
+  const long tables = (controller.keeps.gain_row ? 56 : 0) + (has_law_table(controller) ? (controller.has.servo ? 64 : 24) : 0);
+  if (!controller.has.filter)
+    return law + tables + 24 + rounded_up(bytes_of_real(controller) * static_cast<long>(controller.solution.plant.C.rows()));
+  const FilterFigures& figures = figures_of(controller.filter);
+  const long ny = controller.size.ny, covariance = carries_covariance(controller) ? 8 : 0, real = bytes_of_real(controller);
+  const long work = work_of(controller);
+  const long update = work + (is_watched(controller) ? 72 : 16) + covariance + tables +
+                      (controller.size.nxi ? rounded_up(real * ny) + rounded_up(ny) + 8 : 0) +
+                      (controller.has.range ? rounded_up(real * ny) : 0);
+  const long predict = work + 16 + covariance + (remembers(controller) ? 8 : 0) + tables;
+  const long unwatched = is_watched(controller) ? 0 : figures.unwatched - 4;
+  return std::max({law, update + unwatched + figures.update.of(controller), predict + figures.predict.of(controller)});
+}
+
+}  // namespace
+
+long bytes_of_software_floats(const Controller& controller, bool divides) {
+  if (!controller.target.is_double) return 0;
+  const long sums = 888, products = 596, products_and_quotients = 1060, comparisons = 272, fused = 32, bridges = 24;
+  return sums + (divides ? products_and_quotients : products) + comparisons + bridges + (controller.target.is_fused ? fused : 0);
+}
+
+CodeCost cost_of_loops(const Controller& controller) {
+  CodeCost cost;
+  const long calls = calls_of(controller);
+  cost.flash = flash_of_library(controller) + calls + calls / 6 + constants_of(controller) + bytes_of_memset +
+               bytes_of_software_floats(controller, carries_covariance(controller));
+  cost.stack = stack_of_loops(controller) + 8;
+  return cost;
+}
+
+}  // namespace lqg::emit
