@@ -44,8 +44,9 @@
  *   disk margin         0.7929
  *   cost per sample     0.09448
  *
- * One sample takes 31 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 1127 bytes of
- * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
+ * One sample takes 31 multiply-adds and 36 bytes of RAM. By arm-none-eabi-gcc 12.2 at -O2, for a
+ * Cortex-M4F, at most 1186 bytes of flash and 32 bytes of stack.
+ * Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef DOUBLE_INTEGRATOR_H
 #define DOUBLE_INTEGRATOR_H

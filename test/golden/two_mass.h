@@ -55,8 +55,9 @@
  *   cost per sample     0.00816
  *   cost per second     0.01635
  *
- * One sample takes 45 multiply-adds and 36 bytes of RAM; on a Cortex-M4F at -O2 about 1282 bytes of
- * flash and 0 bytes of stack. Style: unrolled. Arithmetic: plain. Digits of the design: 100.
+ * One sample takes 45 multiply-adds and 36 bytes of RAM. By arm-none-eabi-gcc 12.2 at -O2, for a
+ * Cortex-M4F, at most 1427 bytes of flash and 36 bytes of stack.
+ * Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef TWO_MASS_H
 #define TWO_MASS_H
