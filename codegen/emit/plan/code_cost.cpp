@@ -22,7 +22,8 @@ long triangle(long n) { return n * (n + 1) / 2; }
 
 // What a compiler does not do as it is counted here; most of it where P is carried as it is, fused or in double.
 long with_margin(const Controller& controller, long bytes) {
-  const bool is_hard = controller.filter == step::Filter::plain && (controller.target.is_fused || controller.target.is_double);
+  const bool is_hard =
+      controller.filter == step::Filter::plain && (controller.target.is_fused || controller.target.is_double);
   return bytes + bytes / 16 + (is_hard ? bytes / 32 : 0);
 }
 
@@ -50,7 +51,8 @@ long selections_in(const Listing& listing) {
 }
 
 // Its own flash and frame; its operations are added to `cost`.
-FunctionCost add_function(CodeCost& cost, const Controller& controller, const TracedFunction& function, bool is_weigh = false) {
+FunctionCost add_function(CodeCost& cost, const Controller& controller, const TracedFunction& function,
+                          bool is_weigh = false) {
   if (!function.graph) return {};
   const trace::Printer printer(*function.graph, function.results());
   Listing listing = listing_of(function, printer, is_weigh, controller.size.ny);
@@ -76,16 +78,19 @@ Beginning beginning_of(const Controller& controller) {
     values += field.count;
     for (const double value : field.initial) not_zero += value != 0;
   }
-  const long bytes = state_bytes(controller), kept = controller.has.gate ? controller.size.ny : 0, references = controller.size.nr;
+  const long bytes = state_bytes(controller), references = controller.size.nr;
+  const long kept = controller.has.gate ? controller.size.ny : 0;
   // GCC clears what it holds for mostly zeros; {0} for more than one counts as such.
   const bool is_cleared = kept > 1 || not_zero < values / 4, is_short = bytes <= (is_cleared ? 28 : 64);
   Beginning beginning;
   beginning.flash = 20 + 2 * kept + 28 + 12 * (kept + references);
-  const long set = controller.target.is_double ? not_zero : std::max(0L, not_zero - kept);  // a loop sets the floats of a gate
+  // A loop sets the floats of a gate.
+  const long set = controller.target.is_double ? not_zero : std::max(0L, not_zero - kept);
   if (is_cleared) beginning.flash += 11 * set + (is_short ? 0 : bytes_of_memset);
   else beginning.flash += bytes + (is_short ? 0 : bytes_of_memcpy);
   if (kept > 0 || !is_short)
-    beginning.stack = (4 * (kept + references) + 7) / 8 * 8 + (kept < 4 ? 16 : kept < 8 ? 24 : 32) + (is_short ? 0 : stack_of_memset);
+    beginning.stack = (4 * (kept + references) + 7) / 8 * 8 + (kept < 4 ? 16 : kept < 8 ? 24 : 32) +
+                      (is_short ? 0 : stack_of_memset);
   return beginning;
 }
 
@@ -153,17 +158,21 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   const long calls = controller.target.is_double ? stack_of_double : 0;
   CodeCost cost, aside;  // aside: for the output or the sample that is not as expected
   const long weigh = controller.has.gate ? add_function(aside, controller, trace_weigh(controller), true).stack : 0;
-  const long recover = carries_covariance(controller) ? add_function(aside, controller, trace_begin_covariance(controller)).stack : 0;
-  const long heard = (controller.target.is_fused ? 8 : 4) * (controller.size.nxi + controller.size.nr);  // kept for the integrals
-  const long update = add_function(cost, controller, traced.update).stack + (traced.update.asked.empty() ? 0 : weigh) + heard +
+  const long recover =
+      carries_covariance(controller) ? add_function(aside, controller, trace_begin_covariance(controller)).stack : 0;
+  // Kept for the integrals.
+  const long heard = (controller.target.is_fused ? 8 : 4) * (controller.size.nxi + controller.size.nr);
+  const long update = add_function(cost, controller, traced.update).stack +
+                      (traced.update.asked.empty() ? 0 : weigh) + heard +
                       (carries_covariance(controller) || controller.target.is_fused ? 8 : 0);
   const long control = add_function(cost, controller, traced.control).stack;
   const long predict = add_function(cost, controller, traced.predict).stack;
   cost.ram = state_bytes(controller);
   cost.stack = std::max({update + calls, control + calls, predict + calls, recover + std::max(calls, beginning.stack)});
-  const long entries = static_cast<long>(controller::changing_places(controller.laws, controller.target.is_double).size() * controller.laws.size() +
-                                         controller::changing_places(controller.filters, controller.target.is_double).size() * controller.filters.size());
-  long tables = entries;
+  const auto entries = [&](const std::vector<Gains>& gains) {
+    return static_cast<long>(controller::changing_places(gains, controller.target.is_double).size() * gains.size());
+  };
+  long tables = entries(controller.laws) + entries(controller.filters);
   if (controller.has.gate)
     for (const Eigen::VectorXd* values : {&controller.bounds.innovation, &controller.gate.widen, &controller.gate.narrow})
       if (!is_same_for_all(*values)) tables += controller.size.ny;

@@ -15,7 +15,8 @@ long control_flow_in_float(const Listing& listing, const Traffic& count) {
   if (listing.answers) return 36 * count.selections - 8 - (listing.is_alone ? 40 : 0);
   if (listing.asks) return 20 + 66 * count.questions + 14 * std::max(0L, count.selections - count.questions);
   if (count.status_selections > 0)
-    return (count.selections > 4 ? 80 : count.selections > 3 ? 36 : 0) + 38 * count.selections + 14 * std::max(0L, count.status_selections - count.selections);
+    return (count.selections > 4 ? 80 : count.selections > 3 ? 36 : 0) + 38 * count.selections +
+           14 * std::max(0L, count.status_selections - count.selections);
   return 12 + 12 * count.comparisons + 4 * count.selections;
 }
 
