@@ -24,7 +24,7 @@ static lqg_status reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_re
     return LQG_STATE_RESET;
 }
 
-/* y_i − C_i x̂ − D_i u, 0 where output i is left out: it counts as one that came as expected. */
+/* y_i − C_i x̂ − D_i u, 0 where output i is left out: it is treated as an innovation of 0. */
 static lqg_real innovate(const lqg_kalman_steady_t *kalman, unsigned i, const lqg_real x[],
                          const lqg_real u_applied[], lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch,
                          lqg_status *status)

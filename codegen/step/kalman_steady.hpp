@@ -5,7 +5,7 @@
 
 namespace lqg::step {
 
-// The innovation of output i, 0 where the output is not used: it counts as one that came as expected.
+// The innovation of output i, 0 where the output is not used: it is treated as an innovation of 0.
 template <class S>
 struct Innovation {
   S value;

@@ -14,7 +14,7 @@
  *   x[nx]           the estimate
  *   P, or U and d   its covariance
  *   u_applied[nu]   the input applied last, for D u; MAY be NULL when D is NULL
- *   innovation[ny]  what `predict` has yet to hear of the last update, for M; MAY be NULL when M is NULL
+ *   innovation[ny]  the last innovation, kept for the next `predict`, for M; MAY be NULL when M is NULL
  *
  * A reset (LQG_STATE_RESET) is an init: it restores all of them. It happens when, after an update or a prediction,
  *
@@ -120,7 +120,7 @@ void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg
 lqg_status lqg_kalman_steady_update(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
                                     lqg_real innovation[], const lqg_real y[], lqg_real work[]);
 
-/* The same, of some outputs, with a gate: an output left out counts as one that came as expected.
+/* The same, of some outputs, with a gate: an output left out is treated as an innovation of 0.
  *
  * y[ny]  in: outputs that are not used are not looked at
  * s[ny]  in: variances of the innovations, the diagonal of S; MAY be NULL without a gate

@@ -15,7 +15,7 @@
  *   NULL         Only where a comment allows it.
  *   Aliasing     Arrays MUST NOT overlap unless a comment allows it. Inputs are never written to.
  *   Units        Any, as long as they belong together; in and out they are those of the plant.
- *   MUST         What a caller breaks at his own risk: it is not checked on the target.
+ *   MUST         Undefined behaviour if violated: it is not checked on the target.
  *   Failure      Never stops anything. The status says what was left out, limited or reset (lqg/status.h).
  *   Time         Loops have fixed lengths: the number of operations does not depend on the data.
  *   Order        Filter form: update(y), control(u), predict(u). Predictor form: control(u), update(y),

@@ -49,8 +49,8 @@ void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real
  *
  * Where a parameter is not excited, forgetting lets its P_ii grow by 1/λ a sample. Beyond its limit, row and
  * column i are scaled, P ← Σ P Σ with Σ_ii = 2/(1 + P_ii/limit_i) ≤ √(limit_i/P_ii): correlations and
- * definiteness stay, and so does what is known of the other parameters. P_ii comes to rest within a share (1
- * − λ)² of its limit.
+ * definiteness stay, and so does what is known of the other parameters. P_ii settles at its limit, or below it
+ * by a share of (1 − λ)² at most.
  *
  * phi[ntheta]  in
  * y            in; where it or φ is not finite, or too large, the sample is left out and nothing changes

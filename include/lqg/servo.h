@@ -5,8 +5,8 @@
  *     ξ⁺ = ξ + T (r − y)          of the outputs that are integrated
  *
  * When something else than v was applied, H (u − v) is added to ξ: with an H of the model, what the plant's state lacks for it; with
- * −Kξ⁺ ("conditioning"), what the law needs to ask for u. So ξ does not wind up, whatever held u back. After a time in which the loop
- * was led by hand, `set_input` lets it go on where the hand was.
+ * −Kξ⁺ ("conditioning"), what the law needs to ask for u. So ξ does not wind up, whatever held u back. Transfer from manual
+ * to automatic control is bumpless by `set_input`.
  *
  * Each sample: `observe` with the outputs, `control`, `advance` with the input that was applied; beside a filter that
  * is update, control, predict. The state of the law is a few arrays of the caller, the same in every call:
