@@ -157,7 +157,7 @@ void test_auto_takes_the_loops_when_straight_line_code_does_not_fit() {
   design.style = "auto", design.real = "float";
   std::string text = toml(design);
   TEST_ASSERT_TRUE(controller_of(text).style == lqg::design::Style::unrolled);
-  text.replace(text.find("flash = 1000000"), 15, "flash = 4500");
+  text.replace(text.find("flash = 1000000"), 15, "flash = 6000");
   TEST_ASSERT_TRUE(controller_of(text).style == lqg::design::Style::compact);
 }
 
