@@ -86,10 +86,10 @@ std::vector<int> lasting_states(const Controller& controller) {
 
 // What is unknown of a state in the long run, and what is rounding beside its scale.
 VectorXd standard_deviations(const Controller& controller, const MatrixXd& P) {
-  const int negligible = controller.target.is_double ? bound_to_negligible_of_double : bound_to_negligible_of_float;
+  const int below = controller.target.is_double ? bound_to_negligible_of_double : bound_to_negligible_of_float;
   VectorXd within(controller.size.nx);
   for (int i = 0; i < within.size(); ++i) {
-    const double least = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - negligible);
+    const double least = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - below);
     within(i) = P.size() ? std::max(std::sqrt(std::max(P(i, i), 0.0)), least) : least;
   }
   return within;

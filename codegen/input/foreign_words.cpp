@@ -1,7 +1,8 @@
 #include "input/foreign_words.hpp"
 
-#include <algorithm>
 #include <string_view>
+
+#include "input/text.hpp"
 
 namespace lqg::input {
 namespace {
@@ -12,7 +13,7 @@ struct Word {
   std::string_view only_in = "";  // this table, "" for all
 };
 
-constexpr Word words[] = {
+constexpr Word known_words[] = {
     {"ts", "plant.sample_time"},
     {"dt", "plant.sample_time"},
     {"period", "plant.sample_time"},
@@ -55,18 +56,13 @@ constexpr Word words[] = {
     {"precision", "code.real"},
 };
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 }  // namespace
 
 ForeignWord foreign_word(const std::string& table, const std::string& name) {
   if (name == "K") return {"", "K is what lqgen computes: did you mean `Q` and `R` in [lqr], or `poles` in [pole_placement]?"};
   if (name == "L") return {"", "L is what lqgen computes: did you mean `process_noise` and `measurement_noise` in [kalman], or `poles` in [observer]?"};
-  for (const Word& word : words)
-    if (word.name == lower_case(name) && (word.only_in.empty() || word.only_in == table)) return {std::string(word.path), ""};
+  for (const Word& word : known_words)
+    if (word.name == in_lower_case(name) && (word.only_in.empty() || word.only_in == table)) return {std::string(word.path), ""};
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "input/foreign_words.hpp"
+#include "input/text.hpp"
 
 namespace lqg::input {
 namespace {
@@ -123,12 +124,6 @@ std::string name_of(const std::string& path) {
   return dot == path.npos ? path : path.substr(dot + 1);
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 // Insertions, deletions, exchanges of one letter and swaps of two neighbours that turn a into b.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -152,7 +147,7 @@ std::size_t near_distance(std::size_t length) {
   return length <= 2 ? 0 : length <= 4 ? 1 : length <= 8 ? 2 : 3;
 }
 
-constexpr std::size_t longest_name = 32;
+constexpr std::size_t longest_word = 32;
 
 // The key of the table `parent` that is nearest to `name` in spelling, capitals aside; nullptr if none is
 // near.
@@ -160,9 +155,9 @@ const KeyRule* nearest(const std::string& parent, const std::string& name) {
   const KeyRule* best = nullptr;
   std::size_t best_distance = 0;
   for (const KeyRule& rule : rules) {
-    if (parent_of(rule.path) != parent || name.size() > longest_name) continue;
-    const std::string known = lower_case(name_of(rule.path));
-    const std::size_t distance = edit_distance(lower_case(name), known);
+    if (parent_of(rule.path) != parent || name.size() > longest_word) continue;
+    const std::string known = in_lower_case(name_of(rule.path));
+    const std::size_t distance = edit_distance(in_lower_case(name), known);
     if (distance > near_distance(std::max(known.size(), name.size()))) continue;
     if (best == nullptr || distance < best_distance) best = &rule, best_distance = distance;
   }
@@ -189,8 +184,8 @@ std::string nearest_word(const std::vector<std::string>& words, const std::strin
   std::string best;
   std::size_t best_distance = 0;
   for (const std::string& word : words) {
-    if (name.size() > longest_name) continue;
-    const std::size_t distance = edit_distance(lower_case(name), lower_case(word));
+    if (name.size() > longest_word) continue;
+    const std::size_t distance = edit_distance(in_lower_case(name), in_lower_case(word));
     if (distance > near_distance(std::max(word.size(), name.size()))) continue;
     if (best.empty() || distance < best_distance) best = word, best_distance = distance;
   }
@@ -230,7 +225,7 @@ Suggestion suggest(const std::string& parent, const std::string& name) {
   }
   const KeyRule* near = nearest(parent, name);
   const KeyRule* other = elsewhere(name);
-  if (near != nullptr && (other == nullptr || lower_case(name_of(near->path)) == lower_case(name)))
+  if (near != nullptr && (other == nullptr || in_lower_case(name_of(near->path)) == in_lower_case(name)))
     return {near->path, "unknown key, did you mean `" + name_of(near->path) + "`?"};
   if (other == nullptr) return {"", "unknown key"};
   return {other->path, "unknown key here; `" + name + "` " + home_of(*other)};

@@ -99,11 +99,6 @@ Complaint check_identifier(const std::string& name) {
   return {};
 }
 
-std::string in_lower_case(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return is_lower(c) || !is_letter(c) ? c : static_cast<char>(c - 'A' + 'a'); });
-  return name;
-}
-
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' ');
   return first == text.npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);

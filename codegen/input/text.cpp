@@ -193,6 +193,13 @@ std::string in_quotes(std::string_view text) {
   return "\"" + printable(text.substr(0, at)) + (at < text.size() ? "…\"" : "\"");
 }
 
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
 std::vector<Fault> check_text(std::string_view text) { return Scanner(text).scan(); }
 
 }  // namespace lqg::input

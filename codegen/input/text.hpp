@@ -29,6 +29,9 @@ std::string printable(std::string_view text);
 // The same, quoted and cut after 60 characters.
 std::string in_quotes(std::string_view text);
 
+// With a to z in place of A to Z.
+std::string in_lower_case(std::string_view text);
+
 // Everything that must not reach the TOML parser: bytes that are not UTF-8, control characters, characters
 // beyond ASCII outside comments and strings of one line (toml++ 3.3.0 has undefined behaviour there), keys of
 // very many parts (a tree too deep to take down again). At most one fault a line.

@@ -36,15 +36,15 @@ Real exact_disk(const ComplexMatrix& T) {
 }
 
 // A cell of the grid with one minimum in it; where that is, roughly, and the disk there.
-struct Place {
+struct DiskAt {
   Real low, high, angle, disk;
 };
 
 // The cells around the local minima of the rough disk on the grid, each with the grid's value. Where it is flat to the
 // rounding of double, as without any feedback, there is nothing to refine: of these places the least one, an empty cell.
-std::vector<Place> disk_places(const Search& search) {
-  std::vector<Place> places;
-  std::optional<Place> flat;
+std::vector<DiskAt> disk_places(const Search& search) {
+  std::vector<DiskAt> places;
+  std::optional<DiskAt> flat;
   std::vector<Real> sizes;
   for (const ComplexMatrix& T : search.responses) sizes.push_back(rough_disk(T));
   for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
@@ -53,14 +53,14 @@ std::vector<Place> disk_places(const Search& search) {
     if (std::max<Real>(sizes[i - 1], sizes[i + 1]) > here * (1 + 1e-9))
       places.push_back({search.angles[i - 1], search.angles[i + 1], angle, here});
     else if (!flat || here < flat->disk)
-      flat = Place{angle, angle, angle, here};
+      flat = DiskAt{angle, angle, angle, here};
   }
   if (flat) places.push_back(*flat);
   return places;
 }
 
 // Where f is least in a cell, and how much. Its slope cannot be had of several channels: μ has kinks, and few digits.
-std::pair<Real, Real> least_in(const Place& place, const Function& f) {
+std::pair<Real, Real> least_in(const DiskAt& place, const Function& f) {
   const Real width = place.high - place.low;
   const auto at = [&](double share) { return to_double(f(place.low + share * width)); };
   boost::uintmax_t most = 40;
@@ -69,8 +69,8 @@ std::pair<Real, Real> least_in(const Place& place, const Function& f) {
 }
 
 // One channel: where the slope of f is 0, in all digits.
-void refine_one(const std::vector<Place>& places, const Function& f, const Fineness& fineness, DiskMargin& margin) {
-  for (const Place& place : places) {
+void refine_one(const std::vector<DiskAt>& places, const Function& f, const Fineness& fineness, DiskMargin& margin) {
+  for (const DiskAt& place : places) {
     const Function slope = slope_of(f, fineness.step * (place.high - place.low));
     const bool has_minimum = slope(place.low) < 0 && slope(place.high) > 0;
     margin.as_expected = margin.as_expected && has_minimum;
@@ -81,11 +81,11 @@ void refine_one(const std::vector<Place>& places, const Function& f, const Finen
 }
 
 // The balanced disk is never more: a place where it is more than the least disk so far has nothing less.
-void refine_many(std::vector<Place> places, const Evaluate& evaluate, DiskMargin& margin) {
+void refine_many(std::vector<DiskAt> places, const Evaluate& evaluate, DiskMargin& margin) {
   const Function lower = at_angle(rough_disk, evaluate), f = at_angle(exact_disk, evaluate);
-  for (Place& place : places) std::tie(place.angle, place.disk) = least_in(place, lower);
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.disk < b.disk; });
-  for (const Place& place : places) {
+  for (DiskAt& place : places) std::tie(place.angle, place.disk) = least_in(place, lower);
+  std::sort(places.begin(), places.end(), [](const DiskAt& a, const DiskAt& b) { return a.disk < b.disk; });
+  for (const DiskAt& place : places) {
     report_progress("disk margin", static_cast<long>(&place - places.data()), static_cast<long>(places.size()));
     if (place.disk < margin.least) margin.least = std::min<Real>(margin.least, f(place.angle));
   }
@@ -98,11 +98,11 @@ DiskMargin disk_margin(const Search& search, const Evaluate& evaluate, const Fin
   const Evaluate& enough = channels > most_for_a_search ? search.evaluate : evaluate;
   const Function f = at_angle(exact_disk, enough);
   DiskMargin margin = {std::min<Real>(f(Real(0)), f(pi()))};
-  std::vector<Place> places = disk_places(search);
-  const auto by_disk = [](const Place& a, const Place& b) { return a.disk < b.disk; };
+  std::vector<DiskAt> places = disk_places(search);
+  const auto by_disk = [](const DiskAt& a, const DiskAt& b) { return a.disk < b.disk; };
   if (places.empty()) return margin;
   const Real bound = std::min_element(places.begin(), places.end(), by_disk)->disk * 1.1;
-  const auto is_far = [&](const Place& place) { return place.disk > bound; };
+  const auto is_far = [&](const DiskAt& place) { return place.disk > bound; };
   places.erase(std::remove_if(places.begin(), places.end(), is_far), places.end());
   if (places.back().low == places.back().high) {  // the flat one
     margin.least = std::min<Real>(margin.least, f(places.back().angle));
@@ -113,7 +113,7 @@ DiskMargin disk_margin(const Search& search, const Evaluate& evaluate, const Fin
   } else if (channels > most_for_a_search) {
     refine_many(places, enough, margin);
   } else {
-    for (const Place& place : places) margin.least = std::min<Real>(margin.least, least_in(place, f).second);
+    for (const DiskAt& place : places) margin.least = std::min<Real>(margin.least, least_in(place, f).second);
   }
   return margin;
 }

@@ -32,8 +32,8 @@ struct Way {
   }
 };
 
-std::optional<double> to_double(const std::optional<Real>& value) {
-  return value ? std::optional(design::to_double(*value)) : std::nullopt;
+std::optional<double> rounded(const std::optional<Real>& value) {
+  return value ? std::optional(to_double(*value)) : std::nullopt;
 }
 
 // The margins, and whether the search saw all that the refined places show.
@@ -42,13 +42,13 @@ std::pair<Margins, bool> least_margins(const Search& search, const Way& searched
   const ChannelMargins of_one = channel_margins(search, searched.channels(), refined.channels(), fineness);
   const DiskMargin disk = disk_margin(search, refined.all(), fineness);
   Margins result;
-  result.gain_dB = to_double(of_one.gain_dB);
-  result.gain_up_dB = to_double(of_one.gain_up_dB);
-  result.gain_down_dB = to_double(of_one.gain_down_dB);
-  result.phase_deg = to_double(of_one.phase_deg);
-  result.delay_samples = to_double(of_one.delay_samples);
-  result.crossover = to_double(of_one.crossover);
-  result.disk = design::to_double(disk.least);
+  result.gain_dB = rounded(of_one.gain_dB);
+  result.gain_up_dB = rounded(of_one.gain_up_dB);
+  result.gain_down_dB = rounded(of_one.gain_down_dB);
+  result.phase_deg = rounded(of_one.phase_deg);
+  result.delay_samples = rounded(of_one.delay_samples);
+  result.crossover = rounded(of_one.crossover);
+  result.disk = to_double(disk.least);
   return {result, of_one.as_expected && disk.as_expected};
 }
 

@@ -131,9 +131,9 @@ std::vector<std::string> lost(const SampledPlant& exact, Scalar real) {
 
 }  // namespace
 
-void check_model(const SampledPlant& exact, Scalar real, Findings& findings) {
-  for (const std::string& what : lost(exact, real)) {
-    const std::vector<std::string> in_double = lost(exact, Scalar::float64);
+void check_model(const SampledPlant& plant, Scalar real, Findings& findings) {
+  for (const std::string& what : lost(plant, real)) {
+    const std::vector<std::string> in_double = lost(plant, Scalar::float64);
     const bool helps = std::find(in_double.begin(), in_double.end(), what) == in_double.end();
     add_error(findings, "code.real",
               what + " in " + name_of(real) + ": the sampled plant cannot be represented" + remedy(real, helps));

@@ -45,7 +45,7 @@ void add_continuous_gain(const Problem& problem, const DesignRun* coarser, Estim
   filter.L_continuous = found.K.transpose();
 }
 
-void run_steady(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
+void run_steady_filter(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
   if (!has_steady_filter(last.problem, last.samples, result)) return;
   const bool has_start = coarser && coarser->solution.estimator;
   const RiccatiResult found =
@@ -94,20 +94,20 @@ void run_finite_schedule(const Problem& problem, const std::vector<SampledStage>
              "the gain that is held at the end is not that of a stable filter: no margins and no steady cost");
 }
 
-void run_optimal(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
+void run_optimal_filter(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                    DesignRun& result) {
   const Gain gain = problem.estimator->gain;
   result.solution.noise = stages.front().samples.noise;
   if (gain == Gain::schedule && problem.estimator->horizon > 0)
     return run_finite_schedule(problem, stages, result);
-  run_steady(stages.back(), coarser, result);
+  run_steady_filter(stages.back(), coarser, result);
   if (has_error(result.findings)) return;
   if (gain == Gain::schedule) run_schedule_to_steady(problem, stages, result);
   if (gain == Gain::online)
     result.solution.online = online_filter(*problem.estimator, stages.front().samples);
 }
 
-void run_placed(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
+void run_placed_filter(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
   const PlacedGain placed = place_observer(problem, samples,
                                            coarser ? &*coarser->estimator_choice : nullptr, result.findings);
   result.may_want_digits = result.may_want_digits || placed.may_want_digits;
@@ -121,8 +121,8 @@ void run_placed(const Problem& problem, const Samples& samples, const DesignRun*
 
 void run_estimator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                      DesignRun& result) {
-  if (has_noise(problem.estimator)) return run_optimal(problem, stages, coarser, result);
-  run_placed(problem, stages.back().samples, coarser, result);
+  if (has_noise(problem.estimator)) return run_optimal_filter(problem, stages, coarser, result);
+  run_placed_filter(problem, stages.back().samples, coarser, result);
 }
 
 }  // namespace lqg::design

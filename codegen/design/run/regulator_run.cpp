@@ -46,7 +46,7 @@ void take_table(const GainTable& table, const char* key, DesignRun& result) {
 }
 
 // The gain that is optimal for ever after the last change.
-void run_steady(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
+void run_steady_law(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
   check_regulator(last.problem, last.samples, result);
   if (has_error(result.findings)) return;
   const SteadyRegulator found = solve_regulator(last.problem, last.samples,
@@ -85,12 +85,12 @@ void run_finite(const std::vector<SampledStage>& stages, const Regulator& lqr, D
              "the gain that is held at the end does not stabilise the plant: the loop has no margins and no steady cost");
 }
 
-void run_optimal(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
+void run_optimal_law(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                    DesignRun& result) {
   RegulatorSolution& regulator = result.solution.regulator.emplace();
   regulator.cost = *stages.front().samples.cost;
   if (problem.regulator->horizon > 0) return run_finite(stages, *problem.regulator, result);
-  run_steady(stages.back(), coarser, result);
+  run_steady_law(stages.back(), coarser, result);
   if (stages.size() > 1 && !has_error(result.findings))
     take_table(gains_backward(stages, last_change(stages), regulator.X), "stage", result);
 }
@@ -117,7 +117,7 @@ void run_anti_windup(const SampledStage& last, DesignRun& result) {
     regulator.H = anti_windup(last.problem, last.samples.plant, regulator.Gamma);
 }
 
-void run_placed(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
+void run_placed_law(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
   const PlacedGain placed = place_regulator(problem, samples.plant,
                                             coarser ? &*coarser->regulator_choice : nullptr, result.findings);
   result.may_want_digits = placed.may_want_digits;
@@ -132,8 +132,8 @@ void run_placed(const Problem& problem, const Samples& samples, const DesignRun*
 
 void run_regulator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                      DesignRun& result) {
-  if (!has_cost(problem.regulator)) return run_placed(problem, stages.back().samples, coarser, result);
-  run_optimal(problem, stages, coarser, result);
+  if (!has_cost(problem.regulator)) return run_placed_law(problem, stages.back().samples, coarser, result);
+  run_optimal_law(problem, stages, coarser, result);
   if (problem.regulator->integral && !has_error(result.findings)) run_anti_windup(stages.back(), result);
   if (!problem.regulator->track.empty() && !has_error(result.findings))
     run_feed_forward(stages.back(), result);
