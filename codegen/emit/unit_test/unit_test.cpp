@@ -97,15 +97,20 @@ bool is_told_what_acts(const Controller& controller) {
 }
 
 // The calls of one sample in the order of the form; {after_update} and {after_control} are what a test looks at.
-std::string sample(const Controller& controller, const std::string& after_update, const std::string& after_control) {
+std::string sample(const Controller& controller, const std::string& after_update, const std::string& after_control,
+                   bool counts_limited = false) {
   if (controller.linear) return linear_sample(controller, after_update + after_control);
   const std::string reference = controller.size.nr ? "        memcpy(self.r, r_in[k], sizeof self.r);\n" : "";
+  const auto call = [&](const std::string& arguments) {
+    const std::string called = "{name}_control(" + arguments + ")";
+    return counts_limited ? "        status = " + called + ";\n        TEST_ASSERT_EQUAL_HEX(LQG_OK, status{limited});\n"
+                                "        limited += status != LQG_OK;\n"
+                          : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, " + called + "{limited});\n";
+  };
   if (!controller.has.filter)
-    return reference + "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(" +
-           (controller.keeps.any ? "&self, " : "") + "x_in[k], u){limited});\n" + after_update + after_control;
+    return reference + call(std::string(controller.keeps.any ? "&self, " : "") + "x_in[k], u") + after_update + after_control;
   const std::string update = "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_update(&self, y_in[k]){gated});\n";
-  const std::string control =
-      controller.has.regulator ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, u){limited});\n" : "";
+  const std::string control = controller.has.regulator ? call("&self, u") : "";
   const std::string predict = controller.size.nu ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
                                               : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
   const std::string recorded = is_told_what_acts(controller)
@@ -133,10 +138,13 @@ std::string reference_test(const Controller& controller) {
 
 std::string bits_test(const Controller& controller) {
   const std::string control = controller.has.regulator ? "        hash = hash_of(hash, u, {NAME}_NU);\n" : "";
+  const bool counts_limited = controller.has.regulator && controller.problem.limits.has_value();
   return std::string("\nstatic void test_{name}_has_every_bit_of_the_host(void)\n{\n"
-                     "    uint32_t hash = 2166136261u;\n") + begin(controller) +
-         "    for (int k = 0; k < SAMPLES; k++) {\n" + sample(controller, hash_of_state(controller), control) +
-         "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n}\n";
+                     "    uint32_t hash = 2166136261u;\n") +
+         (counts_limited ? "    lqg_status status;\n    int limited = 0;\n" : "") + begin(controller) +
+         "    for (int k = 0; k < SAMPLES; k++) {\n" + sample(controller, hash_of_state(controller), control, counts_limited) +
+         "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n" +
+         (counts_limited ? "    TEST_ASSERT_EQUAL_INT({samples_at_limits}, limited);\n" : "") + "}\n";
 }
 
 // What one sample with a hostile number calls and looks at. The outputs are recorded, and so is the input that acts: with its
@@ -266,6 +274,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["hash_of_turns"] = hexadecimal(vectors.calls.hash);
   words["samples"] = std::to_string(vectors.samples.size());
   words["every"] = std::to_string(samples_per_covariance);
+  words["samples_at_limits"] = std::to_string(vectors.limited);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
   words["gated"] = !controller.has.gate ? "" : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE)" : " & ~LQG_OUTPUT_GATED";
   words["huge"] = controller.target.is_double ? "1e308" : "3e38f";

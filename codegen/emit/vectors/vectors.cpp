@@ -31,13 +31,13 @@ std::vector<double> covariance(const EmittedController<S>& emitted) {
   return out;
 }
 
-// What is applied: what the law gave; of an estimator alone what is given.
+// What is applied: what the law gave; of an estimator alone what is given. Returns the events of control.
 template <class S>
-void act(EmittedController<S>& emitted, Vector<S>& u) {
-  if (emitted.model().K.rows()) emitted.control(u);
+unsigned act(EmittedController<S>& emitted, Vector<S>& u) {
+  return emitted.model().K.rows() ? emitted.control(u) : 0;
 }
 
-// Feeds recorded outputs and inputs to the emitted controller; what it answers goes to `hear`.
+// Feeds recorded outputs and inputs to the emitted controller; what it answers goes to `hear`, with the events of control.
 template <class S, class Hear>
 void replay(EmittedController<S>& emitted, const std::vector<Sample>& inputs, Hear hear) {
   for (const Sample& input : inputs) {
@@ -46,16 +46,17 @@ void replay(EmittedController<S>& emitted, const std::vector<Sample>& inputs, He
     Vector<S> u(0);
     state.r = numbers_of<S>(input.r);
     if (model.filter == step::Filter::none) {
-      emitted.control(numbers_of<S>(input.y), u);
-      hear(emitted, u);
+      const unsigned events = emitted.control(numbers_of<S>(input.y), u);
+      hear(emitted, u, events);
       continue;
     }
-    if (model.predictor_form) act(emitted, u);
+    unsigned events = 0;
+    if (model.predictor_form) events = act(emitted, u);
     // These outputs are those of the recorded u. With a D they would drive away an estimate that thinks of its own.
     if (model.predictor_form && step::has_feedthrough(model)) state.u = numbers_of<S>(input.u);
     emitted.update(numbers_of<S>(input.y));
-    if (!model.predictor_form) act(emitted, u);
-    hear(emitted, u);
+    if (!model.predictor_form) events = act(emitted, u);
+    hear(emitted, u, events);
     emitted.predict(numbers_of<S>(input.u));
   }
 }
@@ -114,7 +115,7 @@ std::vector<Sample> closed_loop(const Controller& controller, EmittedController<
 template <class S>
 void record_reference(EmittedController<S> emitted, std::vector<Sample>& samples, std::vector<std::vector<double>>& u) {
   std::size_t k = 0;
-  replay(emitted, std::vector<Sample>(samples), [&](const EmittedController<S>& now, const Vector<S>& control) {
+  replay(emitted, std::vector<Sample>(samples), [&](const EmittedController<S>& now, const Vector<S>& control, unsigned) {
     samples[k].x = list_of(now.state().x);
     samples[k].P = covariance(now);
     if (now.model().filter == step::Filter::none) samples[k].u = list_of(control);
@@ -134,19 +135,20 @@ void add_sample(bool has_filter, const step::State<S>& state, const Vector<S>& c
   hash.add_all(list_of(control));
 }
 
-// Runs the target's precision S beside the reference; fills in tolerances and the hash.
+// Runs the target's precision S beside the reference; fills in tolerances, the hash and the samples at a limit.
 template <class S>
 void compare(const Controller& controller, Vectors& vectors, const std::vector<std::vector<double>>& u) {
   EmittedController<S> emitted(controller, simulate::constants_of<S>(controller.target));
   Hash hash(controller.target.is_double);
   Errors of_x, of_u, of_P;
   std::size_t k = 0;
-  replay(emitted, vectors.samples, [&](const EmittedController<S>& now, const Vector<S>& control) {
+  replay(emitted, vectors.samples, [&](const EmittedController<S>& now, const Vector<S>& control, unsigned events) {
     const Sample& reference = vectors.samples[k];
     of_x.add(list_of(now.state().x), reference.x);
     of_u.add(list_of(control), u[k]);
     of_P.add(covariance(now), reference.P);
     add_sample(controller.has.filter, now.state(), control, hash);
+    vectors.limited += static_cast<int>(events >> static_cast<unsigned>(step::Event::input_limited) & 1u);
     ++k;
   });
   const bool is_double = controller.target.is_double;

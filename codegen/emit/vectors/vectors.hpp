@@ -29,6 +29,7 @@ struct Tolerances {
 struct Vectors {
   std::vector<Sample> samples;
   Tolerances tolerance;
+  int limited = 0;         // samples of that run in which a limit held u
   std::uint32_t hash = 0;  // FNV-1a over every bit of x, the covariance, ξ and u of the run in the target's precision
   Calls calls;
 };
