@@ -49,6 +49,6 @@ BEGIN {
   if (random() < 0.25) print "gate = 0"
   if (random() < 0.6) print "[limits]\nu_min = " list(nu, -1) "\nu_max = " list(nu, 1)
   print "[code]\nflash = 1000000\nreal = \"" (is_double ? "double" : "float") "\""
-  print "arithmetic = \"" (!is_double && random() < 0.3 ? "fused" : "plain") "\""
+  print "arithmetic = \"" (random() < 0.3 ? "fused" : "plain") "\""
   print "style = \"" (random() < 0.3 ? "compact" : "unrolled") "\""
 }

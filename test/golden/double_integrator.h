@@ -45,7 +45,7 @@
  *   cost per sample     0.09448
  *
  * One sample takes 31 multiply-adds and 36 bytes of RAM. By arm-none-eabi-gcc 12.2 at -O2, for a
- * Cortex-M4F, at most 1186 bytes of flash and 32 bytes of stack.
+ * Cortex-M4F, at most 1186 bytes of flash and 24 bytes of stack.
  * Style: unrolled. Arithmetic: plain. Digits of the design: 100.
  */
 #ifndef DOUBLE_INTEGRATOR_H

@@ -6,6 +6,7 @@
 #include "controller/model_of.hpp"
 #include "controller/state_fields.hpp"
 #include "emit/plan/library_cost.hpp"
+#include "emit/plan/sizes.hpp"
 #include "emit/plan/straight_line_cost.hpp"
 #include "emit/recorded/linear_traced.hpp"
 #include "emit/recorded/traced.hpp"
@@ -13,10 +14,6 @@
 namespace lqg::emit {
 
 namespace {
-
-long bytes_of_real(const Controller& controller) { return controller.target.is_double ? 8 : 4; }
-
-long triangle(long n) { return n * (n + 1) / 2; }
 
 // ---- straight-line code
 
@@ -59,7 +56,8 @@ FunctionCost add_function(CodeCost& cost, const Controller& controller, const Tr
   // GCC holds what follows a question for rare where nothing else depends on the answers, and saves bytes there.
   const long questions = static_cast<long>(function.asked.size());
   listing.merges_products = !controller.target.is_fused && !controller.target.is_double &&
-                            controller.filter == step::Filter::steady && questions > 1 && selections_in(listing) == questions;
+                            controller.filter == step::Filter::steady && questions > 1 &&
+                            selections_in(listing) == questions;
   const FunctionCost own = controller.target.is_double ? cost_in_double(listing) : cost_in_float(listing);
   cost.multiply_adds += printer.operations().total();
   cost.flash += own.flash;
@@ -84,12 +82,19 @@ Beginning beginning_of(const Controller& controller) {
   const bool is_cleared = kept > 1 || not_zero < values / 4, is_short = bytes <= (is_cleared ? 28 : 64);
   Beginning beginning;
   beginning.flash = 20 + 2 * kept + 28 + 12 * (kept + references);
+  if (kept == 1 && references == 0 && is_short && !is_cleared && !carries_covariance(controller))
+    beginning.flash -= 32;  // no loop
   // A loop sets the floats of a gate.
   const long set = controller.target.is_double ? not_zero : std::max(0L, not_zero - kept);
-  if (is_cleared) beginning.flash += 11 * set + (is_short ? 0 : bytes_of_memset);
-  else beginning.flash += bytes + (is_short ? 0 : bytes_of_memcpy);
+  if (is_cleared)
+    beginning.flash += 11 * set + (is_short ? 0 : bytes_of_memset);
+  else
+    beginning.flash += bytes + (is_short ? 0 : bytes_of_memcpy);
   if (kept > 0 || !is_short)
-    beginning.stack = (4 * (kept + references) + 7) / 8 * 8 + (kept < 4 ? 16 : kept < 8 ? 24 : 32) +
+    beginning.stack = aligned(4 * (kept + references)) +
+                      (kept <= 4   ? 16
+                       : kept <= 8 ? 24
+                                   : 32) +
                       (is_short ? 0 : stack_of_memset);
   return beginning;
 }
@@ -112,7 +117,7 @@ long online_cost(const Controller& controller) {
 long filter_cost(const Controller& controller) {
   const long nx = controller.size.nx, ny = controller.size.ny;
   const long state = nx * (nx + controller.size.nu + (controller.keeps.innovation ? ny : 0));
-  const long checks = 2 * (2 * nx + 2);  // of the state, after update and after predict
+  const long checks = 2 * (2 * nx + 2);              // of the state, after update and after predict
   const long squares = controller.has.gate ? 3 : 0;  // ν² and gate² S
   const long innovations = ny * (innovation_cost(controller) + squares);
   const long common = state + checks + innovations;
@@ -143,12 +148,13 @@ CodeCost cost_of_linear_form(const Controller& controller) {
   const long control_fault = add_function(aside, controller, traced.control_fault).stack;
   long hear = add_function(aside, controller, traced.hear).stack;
   if (controller.is_predictor) {
-    add_function(aside, controller, traced.advance);  // compilers put it into both of its callers
+    add_function(aside, controller, traced.advance);              // compilers put it into both of its callers
     hear += 24 + bytes_of_real(controller) * controller.size.ny;  // heard[], return address
   }
   cost.ram = state_bytes(controller);
   cost.stack = std::max({control + calls, advance + calls, control_fault + calls, hear + calls, beginning.stack});
-  cost.flash = with_margin(controller, cost.flash + aside.flash) + beginning.flash + bytes_of_software_floats(controller, false);
+  cost.flash =
+      with_margin(controller, cost.flash + aside.flash) + beginning.flash + bytes_of_software_floats(controller, false);
   return cost;
 }
 
@@ -162,9 +168,8 @@ CodeCost cost_of_unrolled(const Controller& controller) {
       carries_covariance(controller) ? add_function(aside, controller, trace_begin_covariance(controller)).stack : 0;
   // Kept for the integrals.
   const long heard = (controller.target.is_fused ? 8 : 4) * (controller.size.nxi + controller.size.nr);
-  const long update = add_function(cost, controller, traced.update).stack +
-                      (traced.update.asked.empty() ? 0 : weigh) + heard +
-                      (carries_covariance(controller) || controller.target.is_fused ? 8 : 0);
+  const long update =
+      add_function(cost, controller, traced.update).stack + (traced.update.asked.empty() ? 0 : weigh) + heard;
   const long control = add_function(cost, controller, traced.control).stack;
   const long predict = add_function(cost, controller, traced.predict).stack;
   cost.ram = state_bytes(controller);
@@ -174,10 +179,12 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   };
   long tables = entries(controller.laws) + entries(controller.filters);
   if (controller.has.gate)
-    for (const Eigen::VectorXd* values : {&controller.bounds.innovation, &controller.gate.widen, &controller.gate.narrow})
+    for (const Eigen::VectorXd* values :
+         {&controller.bounds.innovation, &controller.gate.widen, &controller.gate.narrow})
       if (!is_same_for_all(*values)) tables += controller.size.ny;
   const long counters = 28 * (controller.keeps.sample + controller.keeps.gain_row);
-  cost.flash = with_margin(controller, cost.flash + aside.flash + counters) + beginning.flash + bytes_of_real(controller) * tables +
+  cost.flash = with_margin(controller, cost.flash + aside.flash + counters) + beginning.flash +
+               bytes_of_real(controller) * tables +
                bytes_of_software_floats(controller, carries_covariance(controller));
   return cost;
 }

@@ -5,15 +5,19 @@
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
 #include "controller/state_fields.hpp"
+#include "emit/plan/sizes.hpp"
 
 namespace lqg::emit {
 
 namespace {
 
-// Measured by test/bench/library_figures.sh, which prints them anew: bytes, of float, fused float, double, fused double.
+// Measured by test/bench/library_figures.sh, which prints them anew: bytes, of float, fused float, double, fused
+// double.
 struct Variants {
   long bytes[4];
-  long of(const Controller& controller) const { return bytes[(controller.target.is_double ? 2 : 0) + (controller.target.is_fused ? 1 : 0)]; }
+  long of(const Controller& controller) const {
+    return bytes[(controller.target.is_double ? 2 : 0) + (controller.target.is_fused ? 1 : 0)];
+  }
 };
 struct FilterFigures {
   Variants flash;            // init, update and predict with all that they call
@@ -31,10 +35,6 @@ constexpr Variants servo_stack = {{100, 100, 188, 240}};
 const FilterFigures& figures_of(step::Filter filter) {
   return filter == step::Filter::plain ? plain : filter == step::Filter::ud ? factored : steady;
 }
-
-long bytes_of_real(const Controller& controller) { return controller.target.is_double ? 8 : 4; }
-long rounded_up(long bytes) { return (bytes + 7) / 8 * 8; }
-long triangle(long n) { return n * (n + 1) / 2; }
 
 long numbers_of(const std::vector<Gains>& rows) {
   long numbers = 0;
@@ -86,7 +86,8 @@ bool remembers(const Controller& controller) { return controller.size.nxi > 0 ||
 // The functions in the header.
 long calls_of(const Controller& controller) {
   const long covariance = carries_covariance(controller) ? 1 : 0, ny = controller.has.gate ? controller.size.ny : 0;
-  const long rows = controller.keeps.gain_row ? 1 : 0, laws = has_law_table(controller) ? 1 : 0, servo = controller.has.servo ? 1 : 0;
+  const long rows = controller.keeps.gain_row ? 1 : 0, laws = has_law_table(controller) ? 1 : 0,
+             servo = controller.has.servo ? 1 : 0;
   const long init = 30 + 6 * ny + 16 * covariance + 32 * servo + (controller.size.nr ? 8 + 2 * controller.size.nr : 0);
   const long reset = 36 + 14 * ny + 16 * covariance + 40 * servo + 4 * controller.size.nr;
   long bytes = init;
@@ -97,17 +98,20 @@ long calls_of(const Controller& controller) {
     bytes += 50 + 16 * covariance + (remembers(controller) ? 36 : 0) + 68 * rows + 40 * laws;
   }
   if (controller.has.regulator)
-    bytes += 16 + 32 * servo + 60 * laws + (controller.has.feedthrough ? 40 : 0) + (controller.has.filter ? 0 : 120 + 80 * servo);
+    bytes += 16 + 32 * servo + 60 * laws + (controller.has.feedthrough ? 40 : 0) +
+             (controller.has.filter ? 0 : 120 + 80 * servo);
   return bytes + (controller.target.is_double ? 24 : 0);
 }
 
 long flash_of_library(const Controller& controller) {
   long bytes = 0;
   if (controller.has.filter)
-    bytes += figures_of(controller.filter).flash.of(controller) + (is_watched(controller) ? 0 : figures_of(controller.filter).unwatched);
+    bytes += figures_of(controller.filter).flash.of(controller) +
+             (is_watched(controller) ? 0 : figures_of(controller.filter).unwatched);
   if (controller.has.regulator && controller.has.servo)
     bytes += servo_flash.of(controller) + (controller.size.nxi ? observe_flash.of(controller) : 0);
-  else if (controller.has.regulator) bytes += law_flash.of(controller);
+  else if (controller.has.regulator)
+    bytes += law_flash.of(controller);
   return bytes;
 }
 
@@ -115,27 +119,31 @@ long flash_of_library(const Controller& controller) {
 long work_of(const Controller& controller) {
   const long nx = controller.size.nx, ny = controller.size.ny, real = bytes_of_real(controller);
   switch (controller.filter) {
-    case step::Filter::steady: return rounded_up(real * std::max(nx, ny));
-    case step::Filter::plain: return rounded_up(real * std::max(nx * nx, nx + ny));
-    case step::Filter::ud: return rounded_up(real * std::max((nx + 2) * (nx + controller.solution.online->G.cols()), nx + ny));
+    case step::Filter::steady: return aligned(real * std::max(nx, ny));
+    case step::Filter::plain: return aligned(real * std::max(nx * nx, nx + ny));
+    case step::Filter::ud:
+      return aligned(real * std::max((nx + 2) * (nx + controller.solution.online->G.cols()), nx + ny));
     default: return 0;
   }
 }
 
 // The frames in the header, and the deepest calls from them.
 long stack_of_loops(const Controller& controller) {
-  const long law = !controller.has.regulator  ? 0
-                   : controller.has.servo ? 24 + servo_stack.of(controller)
-                                          : law_stack.of(controller);
-  const long tables = (controller.keeps.gain_row ? 56 : 0) + (has_law_table(controller) ? (controller.has.servo ? 64 : 24) : 0);
+  const long law = !controller.has.regulator ? 0
+                   : controller.has.servo    ? 24 + servo_stack.of(controller)
+                                             : law_stack.of(controller);
+  const long tables =
+      (controller.keeps.gain_row ? 56 : 0) + (has_law_table(controller) ? (controller.has.servo ? 64 : 24) : 0);
   if (!controller.has.filter)
-    return law + tables + 24 + rounded_up(bytes_of_real(controller) * static_cast<long>(controller.solution.plant.C.rows()));
+    return law + tables + 24 +
+           aligned(bytes_of_real(controller) * static_cast<long>(controller.solution.plant.C.rows()));
   const FilterFigures& figures = figures_of(controller.filter);
-  const long ny = controller.size.ny, covariance = carries_covariance(controller) ? 8 : 0, real = bytes_of_real(controller);
+  const long ny = controller.size.ny, covariance = carries_covariance(controller) ? 8 : 0,
+             real = bytes_of_real(controller);
   const long work = work_of(controller);
   const long update = work + (is_watched(controller) ? 72 : 16) + covariance + tables +
-                      (controller.size.nxi ? rounded_up(real * ny) + rounded_up(ny) + 8 : 0) +
-                      (controller.has.range ? rounded_up(real * ny) : 0);
+                      (controller.size.nxi ? aligned(real * ny) + aligned(ny) + 8 : 0) +
+                      (controller.has.range ? aligned(real * ny) : 0);
   const long predict = work + 16 + covariance + (remembers(controller) ? 8 : 0) + tables;
   const long unwatched = is_watched(controller) ? 0 : figures.unwatched - 4;
   return std::max({law, update + unwatched + figures.update.of(controller), predict + figures.predict.of(controller)});
@@ -146,7 +154,8 @@ long stack_of_loops(const Controller& controller) {
 long bytes_of_software_floats(const Controller& controller, bool divides) {
   if (!controller.target.is_double) return 0;
   const long sums = 888, products = 596, products_and_quotients = 1060, comparisons = 272, fused = 32, bridges = 24;
-  return sums + (divides ? products_and_quotients : products) + comparisons + bridges + (controller.target.is_fused ? fused : 0);
+  return sums + (divides ? products_and_quotients : products) + comparisons + bridges +
+         (controller.target.is_fused ? fused : 0);
 }
 
 CodeCost cost_of_loops(const Controller& controller) {

@@ -15,7 +15,8 @@ using trace::Node;
 using trace::Op;
 
 constexpr long bytes_of_instruction = 4;
-constexpr long reach_of_pool = 1500;  // bytes: a load reaches a pool 1020 bytes ahead or behind, which lies about in the middle
+constexpr long reach_of_pool =
+    1500;  // bytes: a load reaches a pool 1020 bytes ahead or behind, which lies about in the middle
 constexpr long never = std::numeric_limits<long>::max();
 
 // ±n/16 · 2^e, n = 16 … 31, e = −3 … 4: a move holds it.
@@ -41,7 +42,8 @@ struct Step {
 // The instructions in their order.
 class Order {
  public:
-  Order(const Listing& listing, Traffic& traffic) : listing_(listing), traffic_(traffic), made_(listing.nodes.size(), false) {}
+  Order(const Listing& listing, Traffic& traffic)
+      : listing_(listing), traffic_(traffic), made_(listing.nodes.size(), false) {}
 
   std::vector<Step> steps;
   std::map<std::string, long> stored;  // by its expression in C: the step after which the place holds another value
@@ -96,7 +98,8 @@ class Order {
       if (is_number(operand)) step.operands.push_back(operand);
     }
     if (is_number(i)) step.result = i;
-    const bool is_one = is_sum_of_product(op) && (listing_.is_fused || (listing_.merges_products && traffic_.questions > 0));
+    const bool is_one =
+        is_sum_of_product(op) && (listing_.is_fused || (listing_.merges_products && traffic_.questions > 0));
     if (is_one) step.overwritten = node(i).c;
     count(i, is_one);
     steps.push_back(std::move(step));
@@ -104,13 +107,19 @@ class Order {
 
   void count(int i, bool is_one) {
     switch (node(i).op) {
-      case Op::multiply_add: case Op::multiply_subtract: traffic_.operations += is_one ? 1 : 2, traffic_.fused += is_one; break;
+      case Op::multiply_add:
+      case Op::multiply_subtract: traffic_.operations += is_one ? 1 : 2, traffic_.fused += is_one; break;
       case Op::negate: break;  // part of the operation before or after it
-      case Op::finite: case Op::usable: ++traffic_.operations, ++traffic_.comparisons; break;
+      case Op::finite:
+      case Op::usable: ++traffic_.operations, ++traffic_.comparisons; break;
       case Op::less: ++traffic_.comparisons; break;
       case Op::select: ++(is_number(i) ? traffic_.selections : traffic_.status_selections); break;
       case Op::asked: ++traffic_.questions; break;
-      case Op::add: case Op::subtract: case Op::multiply: case Op::divide: case Op::absolute: ++traffic_.operations; break;
+      case Op::add:
+      case Op::subtract:
+      case Op::multiply:
+      case Op::divide:
+      case Op::absolute: ++traffic_.operations; break;
       default: break;  // conditions are branches of the comparisons in them
     }
   }
@@ -124,7 +133,11 @@ class Order {
 class Registers {
  public:
   Registers(const Listing& listing, const Order& order, long number, Traffic& traffic)
-      : listing_(listing), order_(order), number_(static_cast<std::size_t>(number)), traffic_(traffic), values_(listing.nodes.size()) {
+      : listing_(listing),
+        order_(order),
+        number_(static_cast<std::size_t>(number)),
+        traffic_(traffic),
+        values_(listing.nodes.size()) {
     for (std::size_t t = 0; t < order.steps.size(); ++t)
       for (const int operand : order.steps[t].operands) value(operand).uses.push_back(static_cast<long>(t));
   }
@@ -147,7 +160,7 @@ class Registers {
     std::vector<long> uses;
     std::size_t used = 0;  // so many of them are past
     bool is_held = false, has_slot = false;
-    long pooled = -1;      // of a constant: the instruction from which on it is in reach
+    long pooled = -1;  // of a constant: the instruction from which on it is in reach
   };
 
   Value& value(int i) { return values_[static_cast<std::size_t>(i)]; }
@@ -171,9 +184,12 @@ class Registers {
   void bring(int i, const std::vector<int>& kept) {
     if (value(i).is_held) return;
     make_room(kept);
-    if (node(i).op == Op::constant) load_constant(i);
-    else if (value(i).has_slot) ++traffic_.reloads;
-    else if (node(i).op == Op::input) ++traffic_.loads;
+    if (node(i).op == Op::constant)
+      load_constant(i);
+    else if (value(i).has_slot)
+      ++traffic_.reloads;
+    else if (node(i).op == Op::input)
+      ++traffic_.loads;
     occupy(i);
   }
 
@@ -205,7 +221,8 @@ class Registers {
 
   // The operations are counted beforehand: each step is about one.
   long bytes_so_far() const {
-    return bytes_of_instruction * (traffic_.loads + traffic_.reloads + traffic_.spills + traffic_.constant_loads + step_);
+    return bytes_of_instruction *
+           (traffic_.loads + traffic_.reloads + traffic_.spills + traffic_.constant_loads + step_);
   }
 
   void drop(int i) {
@@ -215,8 +232,8 @@ class Registers {
     value(i).has_slot = false;
   }
 
-  // How long until its next use; longer for what need not be stored first, and, where nothing is called, for constants: there GCC loads
-  // them again rather than keep them.
+  // How long until its next use; longer for what need not be stored first, and, where nothing is called, for constants:
+  // there GCC loads them again rather than keep them.
   long wait_of(int i) {
     if (next_use(i) == never) return never;
     const long times = node(i).op == Op::constant && !listing_.asks ? 32 : value(i).has_slot || is_in_memory(i) ? 4 : 1;

@@ -2,21 +2,23 @@
 
 #include <algorithm>
 
+#include "emit/plan/sizes.hpp"
+
 namespace lqg::emit {
 
 namespace {
 
 constexpr long instruction = 4;  // bytes, of nearly all that there are
 
-long rounded_up(long bytes) { return (bytes + 7) / 8 * 8; }
-
 // Comparisons, branches, calls and what belongs to them besides.
 long control_flow_in_float(const Listing& listing, const Traffic& count) {
   if (listing.answers) return 36 * count.selections - 8 - (listing.is_alone ? 40 : 0);
   if (listing.asks) return 20 + 66 * count.questions + 14 * std::max(0L, count.selections - count.questions);
   if (count.status_selections > 0)
-    return (count.selections > 4 ? 80 : count.selections > 3 ? 36 : 0) + 38 * count.selections +
-           14 * std::max(0L, count.status_selections - count.selections);
+    return (count.selections > 4   ? 80
+            : count.selections > 3 ? 36
+                                   : 0) +
+           38 * count.selections + 14 * std::max(0L, count.status_selections - count.selections);
   return 12 + 12 * count.comparisons + 4 * count.selections;
 }
 
@@ -24,6 +26,97 @@ long control_flow_in_double(const Listing& listing, const Traffic& count) {
   const long compared = 24 + 12 * count.comparisons;
   if (listing.asks) return compared + 35 * count.questions + 20 * std::max(0L, count.selections - count.questions);
   return compared + (count.status_selections > 0 && !listing.answers ? 40 : 20) * count.selections;
+}
+
+// Registers that a function saves come in pairs.
+long pairs(long registers) { return std::clamp((registers + 1) / 2 * 2, 0L, 16L); }
+
+// Of the inputs u, each of which has a lower limit, an upper one or both: `selections` choose numbers, `statuses` bits.
+long limited_inputs(const Traffic& count) {
+  const bool has_both = count.selections > count.status_selections;
+  return has_both ? count.selections - count.status_selections : count.status_selections;
+}
+
+// Fused, and no coefficient of a row is 0 or 1: all its products come before its sums.
+bool is_dense(const Listing& listing, const Traffic& count) {
+  return listing.is_fused && count.selections == count.questions && count.questions > 3 &&
+         count.constant_loads + 2 >= count.operations;
+}
+
+// The frame of a function that calls NAME_weigh. GCC keeps across these calls what it can in the upper half of the
+// registers and two of the lower one; `exact` where only innovations are weighed. What an output changes behind its
+// question (P, U, d) stays in memory in part.
+long asking_frame_in_float(const Listing& listing) {
+  const Traffic count = traffic_of(listing, 30);
+  const bool exact = count.selections == count.questions, is_one = count.questions == 1;
+  const long held = count.registers + count.slots;
+  // Fused, the products of a row come first, all of them where no coefficient is 0 or 1.
+  const long early = is_dense(listing, count) ? 6 : exact && listing.is_fused && held > 28 ? 2 : 0;
+  const long live = held + early + (held == 28 && !listing.is_fused);
+  const long slots = std::max(0L, live - 30);
+  long besides = 0;
+  if (!exact && is_one) besides = slots > 0 ? 8 : !listing.is_fused ? 0 : live > 12 ? 16 : 8;
+  if (!exact && !is_one) besides = slots > 0 && (listing.is_fused || count.questions == 2) ? 16 : 8;
+  if (!exact) besides += 8 * (slots / 32);
+  return 8 + 4 * pairs(std::min(live, 30L) - 14) + aligned(8 + 4 * slots) + besides;
+}
+
+// The frame of a law with limits: each input is compared while the others wait, and a lower limit only waits for its
+// own.
+long limiting_frame_in_float(const Traffic& count) {
+  const long inputs = limited_inputs(count);
+  const bool has_both = count.selections > count.status_selections;
+  const long saved = pairs(count.registers + inputs - (has_both ? 16 : 18));
+  return 4 * saved + (has_both && (inputs > 4 || saved == 16) ? 8 : 0) + aligned(4 * count.slots);
+}
+
+long frame_in_float(const Listing& listing, const Traffic& count) {
+  if (listing.answers) return 8;
+  if (listing.asks) return asking_frame_in_float(listing);
+  if (count.status_selections > 0) return limiting_frame_in_float(count);
+  const long kept_longer = count.slots == 0 ? 0 : std::max(count.slots / 8, count.slots < 24 ? 6L : 0L);
+  return aligned(4 * (count.slots + kept_longer)) + 4 * pairs(count.registers - 16);
+}
+
+// Doubles wait in memory, spilled or as inputs that were all read at the beginning; nine core registers are saved.
+
+long asking_frame_in_double(const Listing& listing, const Traffic& count) {
+  const bool exact = count.selections == count.questions;
+  const long inputs = 24 + 8 * (count.inputs + count.of_tables);
+  long places = count.slots;
+  if (!listing.is_fused)
+    places += count.slots / 16 + !exact;
+  else if (is_dense(listing, count))
+    places += count.questions + 3;
+  else if (count.slots < 13)
+    places += std::min(count.slots, 4L);
+  else if (!exact && count.slots > 20)
+    places += count.slots / 10 + 5;
+  return std::max(40 + 8 * places, count.of_tables > 0 ? inputs : 0);
+}
+
+long limiting_frame_in_double(const Listing& listing, const Traffic& count) {
+  const long limited = limited_inputs(count);
+  const long statuses = limited > 1 ? count.status_selections : count.status_selections > 2 ? 2 : 0;
+  const long fused = !listing.is_fused ? 0 : 24 + (limited > 1 ? 4 * count.inputs : 0);
+  return std::max(24L, 8 + 8 * (count.inputs + statuses)) + fused;
+}
+
+// A prediction. Fused products wait with their sums: all of a dense P, all of a factor's row.
+long predicting_frame_in_double(const Listing& listing, const Traffic& count) {
+  const long read = 24 + 8 * count.inputs, spilled = 36 + 8 * count.slots + count.slots / 2;
+  if (!listing.is_fused || count.slots == 0) return std::max(spilled + (listing.is_fused ? 56 : 0), read);
+  const long states = count.selections + 1;  // each factor but the last is compared with 0
+  if (count.selections == 0) return count.operations < 5 * count.inputs ? 48 + read : 40 + read + 8 * count.slots;
+  const bool is_dense = 5 * count.operations > 8 * states * states * states;
+  return 56 + 8 * (count.slots + count.slots / 16 + (is_dense ? count.slots * count.slots / 470 : 0));
+}
+
+long frame_in_double(const Listing& listing, const Traffic& count) {
+  if (listing.answers) return listing.is_alone ? 48 : count.inputs > 3 ? 72 : 64;
+  if (listing.asks) return asking_frame_in_double(listing, count);
+  return count.status_selections > 0 ? limiting_frame_in_double(listing, count)
+                                     : predicting_frame_in_double(listing, count);
 }
 
 }  // namespace
@@ -34,25 +127,21 @@ FunctionCost cost_in_float(const Listing& listing) {
   // GCC gives a value one place for as long as it lives, where the traffic above is the least there can be.
   const long again = count.reloads + std::max(0L, count.loads - count.inputs);
   const long extra = listing.asks ? 0 : again / (listing.is_fused ? 4 : 8);
-  const long slots = listing.asks ? count.slots : count.slots + count.slots / (listing.is_fused ? 7 : 8);
   FunctionCost cost;
-  cost.flash = instruction * (count.operations + count.moves + count.loads + count.stores + count.reloads + count.spills + extra +
-                              count.constant_loads + count.immediates + count.pool) + control_flow_in_float(listing, count);
-  // What may be used freely: half of the registers, and of these what NAME_weigh leaves alone.
-  const long free = listing.asks ? 11 : 16;
-  cost.stack = rounded_up(4 * slots) + rounded_up(4 * std::clamp(count.registers - free, 0L, 16L)) + (listing.asks ? 16 : 0);
-  if (listing.answers) cost.stack = 8;
+  cost.flash = instruction * (count.operations + count.moves + count.loads + count.stores + count.reloads +
+                              count.spills + extra + count.constant_loads + count.immediates + count.pool) +
+               control_flow_in_float(listing, count);
+  cost.stack = frame_in_float(listing, count);
   return cost;
 }
 
 FunctionCost cost_in_double(const Listing& listing) {
   const Traffic count = traffic_of(listing, 5);  // pairs of core registers
   FunctionCost cost;
-  cost.flash = 12 * count.operations + (listing.is_fused ? 4 * count.operations + 6 * count.fused : 0) + 4 * count.constant_loads +
-               8 * count.pool + 5 * (count.loads + count.stores) + 2 * (count.reloads + count.spills) + control_flow_in_double(listing, count);
-  // The core registers that it saves, and what waits in memory: all inputs at the beginning, or spilled values later.
-  const long saved = 36, spilled = 8 * count.slots + count.slots / 2 + (listing.is_fused ? 56 : 0);
-  cost.stack = listing.answers ? 72 : rounded_up(std::max(saved + spilled, 24 + 8 * (count.inputs + count.of_tables)));
+  cost.flash = 12 * count.operations + (listing.is_fused ? 4 * count.operations + 6 * count.fused : 0) +
+               4 * count.constant_loads + 8 * count.pool + 5 * (count.loads + count.stores) +
+               2 * (count.reloads + count.spills) + control_flow_in_double(listing, count);
+  cost.stack = aligned(frame_in_double(listing, count));
   return cost;
 }
 
