@@ -10,6 +10,21 @@ namespace {
 
 constexpr long instruction = 4;  // bytes, of nearly all that there are
 
+// Fused, and nearly no coefficient is 0 or 1: all products of a row come before its sums.
+bool is_full(const Listing& listing, const Traffic& count) {
+  return listing.is_fused && 10 * count.constant_loads >= 9 * count.operations;
+}
+
+// Of an update with a constant gain: besides the states it reads each output and its gate's width.
+long states_of(const Traffic& count) { return count.inputs - 2 * count.questions; }
+
+// The same of the rows of C, which are used one after the other.
+bool has_full_rows(const Listing& listing, const Traffic& count) {
+  const long gains = states_of(count) * count.questions;
+  return listing.is_fused && count.selections == count.questions && count.questions > 1 &&
+         5 * count.operations > 9 * gains;
+}
+
 // Comparisons, branches, calls and what belongs to them besides.
 long control_flow_in_float(const Listing& listing, const Traffic& count) {
   if (listing.answers) return 36 * count.selections - 8 - (listing.is_alone ? 40 : 0);
@@ -37,28 +52,37 @@ long limited_inputs(const Traffic& count) {
   return has_both ? count.selections - count.status_selections : count.status_selections;
 }
 
-// Fused, and no coefficient of a row is 0 or 1: all its products come before its sums.
-bool is_dense(const Listing& listing, const Traffic& count) {
-  return listing.is_fused && count.selections == count.questions && count.questions > 3 &&
-         count.constant_loads + 2 >= count.operations;
+bool weighs_only(const Traffic& count) { return count.selections == count.questions; }
+
+// Products that are made before their sums need them.
+long early_products(const Listing& listing, const Traffic& count) {
+  const long held = count.registers + count.slots;
+  if (!listing.is_fused) return held == 28;
+  if (has_full_rows(listing, count)) return count.questions == 2 ? 2 : std::min(count.questions + 2, 6L);
+  return weighs_only(count) && held > 28 ? 2 : 0;
 }
 
-// The frame of a function that calls NAME_weigh. GCC keeps across these calls what it can in the upper half of the
-// registers and two of the lower one; `exact` where only innovations are weighed. What an output changes behind its
-// question (P, U, d) stays in memory in part.
+// Bytes that wait besides: of what an output changes behind its question (P, U, d), and of fused sums.
+long kept_behind_questions(const Listing& listing, const Traffic& count, long live, long slots) {
+  const bool is_one = count.questions == 1;
+  if (weighs_only(count)) {
+    const bool waits = is_one || (count.questions > 2 && has_full_rows(listing, count));
+    return listing.is_fused && waits ? 8 : 0;
+  }
+  const long spilled = slots / 32 * 8;
+  if (!is_one) return spilled + (slots > 0 && (listing.is_fused || count.questions == 2) ? 16 : 8);
+  if (slots > 0) return spilled + 8;
+  if (listing.is_fused) return live > 12 ? 16 : 8;
+  return live > 16 ? 8 : 0;
+}
+
+// The frame of a function that calls NAME_weigh. Of the values in use at once 14 are not needed behind these calls; the
+// others wait in the 16 registers that a call keeps, then on the stack.
 long asking_frame_in_float(const Listing& listing) {
   const Traffic count = traffic_of(listing, 30);
-  const bool exact = count.selections == count.questions, is_one = count.questions == 1;
-  const long held = count.registers + count.slots;
-  // Fused, the products of a row come first, all of them where no coefficient is 0 or 1.
-  const long early = is_dense(listing, count) ? 6 : exact && listing.is_fused && held > 28 ? 2 : 0;
-  const long live = held + early + (held == 28 && !listing.is_fused);
-  const long slots = std::max(0L, live - 30);
-  long besides = 0;
-  if (!exact && is_one) besides = slots > 0 ? 8 : !listing.is_fused ? 0 : live > 12 ? 16 : 8;
-  if (!exact && !is_one) besides = slots > 0 && (listing.is_fused || count.questions == 2) ? 16 : 8;
-  if (!exact) besides += 8 * (slots / 32);
-  return 8 + 4 * pairs(std::min(live, 30L) - 14) + aligned(8 + 4 * slots) + besides;
+  const long live = count.registers + count.slots + early_products(listing, count), slots = std::max(0L, live - 30);
+  return 8 + 4 * pairs(std::min(live, 30L) - 14) + aligned(8 + 4 * slots) +
+         kept_behind_questions(listing, count, live, slots);
 }
 
 // The frame of a law with limits: each input is compared while the others wait, and a lower limit only waits for its
@@ -86,8 +110,8 @@ long asking_frame_in_double(const Listing& listing, const Traffic& count) {
   long places = count.slots;
   if (!listing.is_fused)
     places += count.slots / 16 + !exact;
-  else if (is_dense(listing, count))
-    places += count.questions + 3;
+  else if (count.questions > 2 && has_full_rows(listing, count))
+    places += states_of(count);
   else if (count.slots < 13)
     places += std::min(count.slots, 4L);
   else if (!exact && count.slots > 20)
@@ -104,16 +128,17 @@ long limiting_frame_in_double(const Listing& listing, const Traffic& count) {
 
 // A prediction. Fused products wait with their sums: all of a dense P, all of a factor's row.
 long predicting_frame_in_double(const Listing& listing, const Traffic& count) {
-  const long read = 24 + 8 * count.inputs, spilled = 36 + 8 * count.slots + count.slots / 2;
+  const long read = 24 + 8 * count.inputs,
+             spilled = 36 + 8 * count.slots + count.slots / 2 + (count.selections > 0 ? 8 : 0);
   if (!listing.is_fused || count.slots == 0) return std::max(spilled + (listing.is_fused ? 56 : 0), read);
   const long states = count.selections + 1;  // each factor but the last is compared with 0
   if (count.selections == 0) return count.operations < 5 * count.inputs ? 48 + read : 40 + read + 8 * count.slots;
-  const bool is_dense = 5 * count.operations > 8 * states * states * states;
-  return 56 + 8 * (count.slots + count.slots / 16 + (is_dense ? count.slots * count.slots / 470 : 0));
+  const bool has_dense_noise = 5 * count.operations > 8 * states * states * states;
+  return 56 + 8 * (count.slots + count.slots / 16 + (has_dense_noise ? count.slots * count.slots / 470 : 0));
 }
 
 long frame_in_double(const Listing& listing, const Traffic& count) {
-  if (listing.answers) return listing.is_alone ? 48 : count.inputs > 3 ? 72 : 64;
+  if (listing.answers) return listing.is_alone ? (count.selections > 5 ? 56 : 48) : count.inputs > 3 ? 72 : 64;
   if (listing.asks) return asking_frame_in_double(listing, count);
   return count.status_selections > 0 ? limiting_frame_in_double(listing, count)
                                      : predicting_frame_in_double(listing, count);
@@ -138,7 +163,8 @@ FunctionCost cost_in_float(const Listing& listing) {
 FunctionCost cost_in_double(const Listing& listing) {
   const Traffic count = traffic_of(listing, 5);  // pairs of core registers
   FunctionCost cost;
-  cost.flash = 12 * count.operations + (listing.is_fused ? 4 * count.operations + 6 * count.fused : 0) +
+  cost.flash = 12 * count.operations +
+               (listing.is_fused ? 4 * count.operations + (is_full(listing, count) ? 2 : 6) * count.fused : 0) +
                4 * count.constant_loads + 8 * count.pool + 5 * (count.loads + count.stores) +
                2 * (count.reloads + count.spills) + control_flow_in_double(listing, count);
   cost.stack = aligned(frame_in_double(listing, count));
