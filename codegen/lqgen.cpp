@@ -19,6 +19,7 @@
 #include "input/design_file.hpp"
 #include "input/keys.hpp"
 #include "input/text.hpp"
+#include "reference/documents.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -120,6 +121,17 @@ int generate(const Arguments& arguments) {
   return written;
 }
 
+// --NAME prints a text and ends, whatever else the command line has, as --version does. The end of the last line is
+// CLI11's.
+void add_printed(CLI::App& app, const std::string& name, std::string (*text)(), const std::string& help) {
+  const auto print = [text] {
+    std::string lines = text();
+    lines.pop_back();
+    throw CLI::CallForVersion(lines, written);
+  };
+  app.add_flag_callback(name, print, help);
+}
+
 // Says what the command line's unknown options may mean, in their order; false where there are none.
 bool explain_unknown_options(const CLI::App& app) {
   std::vector<std::string> known = {"--help"};
@@ -154,6 +166,8 @@ int main(int argc, char** argv) {
   app.add_option("--time-limit", arguments.time_limit, "end without a result when so many seconds have passed")
       ->check(CLI::Range(1u, 1000000u))->option_text("S");
   app.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
+  add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

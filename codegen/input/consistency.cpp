@@ -36,9 +36,9 @@ void check_tables(const Values& values, Report& report) {
     if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
 }
 
-// Of several ways to say the same thing exactly one; nothing is said of a table that is not there.
-void check_one_of(const Values& values, const std::string& table, const std::vector<std::string>& keys,
-                  Report& report) {
+// Nothing is said of a table that is not there.
+void check_one_of(const Values& values, const Alternatives& several, Report& report) {
+  const auto& [table, keys, need] = several;
   if (values.tables.count(table) == 0) return;
   std::string first, list;
   for (const std::string& key : keys) {
@@ -48,21 +48,16 @@ void check_one_of(const Values& values, const std::string& table, const std::vec
       report.error(table + "." + key, "says again what " + table + "." + first + " says: expected one of the two");
     first = key;
   }
-  if (first.empty())
+  if (first.empty() && need == Need::required)
     report.error(table + "." + keys.front(), keys.size() == 1 ? "missing" : "missing: expected " + list);
 }
 
 void check_alternatives(const Values& values, Report& report) {
-  check_one_of(values, "lqr", {"Q", "Q_output", "bryson"}, report);
+  for (const Alternatives& several : alternatives()) check_one_of(values, several, report);
   if (values.has("lqr.bryson") && values.has("lqr.R"))
     report.error("lqr.R", "says again what lqr.bryson says: expected one of the two");
   else if (!values.has("lqr.bryson"))
-    check_one_of(values, "lqr", {"R"}, report);
-  check_one_of(values, "lqr.bryson", {"states", "outputs"}, report);
-  if (values.has("lqr.decay") && values.has("lqr.settling_time"))
-    report.error("lqr.settling_time", "says again what lqr.decay says: expected one of the two");
-  for (const char* table : {"observer", "pole_placement"})
-    check_one_of(values, table, {"poles", "continuous_poles"}, report);
+    check_one_of(values, {"lqr", {"R"}, Need::required}, report);
 }
 
 // A key that means something only beside another one.

@@ -1,4 +1,5 @@
-// The keys of a design file, one row each: the page of the contract as a table.
+// The keys of a design file, one row each. The reader of files checks by this table, and the reference, the schema and
+// the manual page are made from it.
 #pragma once
 
 #include <string>
@@ -40,10 +41,21 @@ struct KeyRule {
   Size rows = Size::none;
   Size columns = Size::none;
   Need need = Need::optional;
-  std::vector<std::string> words = {};  // the first is the default, unless the domain decides
+  std::vector<std::string> words = {};  // the first is the default, unless `otherwise` says more
+  std::string text = {};                // one to three sentences: what it is, its unit; `…` around what is typed
+  std::string otherwise = {};           // what holds without the key
+  std::string more = {};                // where more of it is said: a link of a page in codegen/
+};
+
+// Of these keys of a table only one may be there; where `need` is required, one has to be.
+struct Alternatives {
+  std::string table;
+  std::vector<std::string> keys;
+  Need need;
 };
 
 const std::vector<KeyRule>& key_rules();
+const std::vector<Alternatives>& alternatives();
 
 // "stage.A" of "stage[3].A": tables of one array share their rows.
 std::string rule_path(const std::string& path);

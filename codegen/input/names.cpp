@@ -10,8 +10,6 @@
 namespace lqg::input {
 namespace {
 
-constexpr std::size_t longest_name = 31;  // characters of an external identifier that C99 tells apart
-
 constexpr std::string_view keywords[] = {
     "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch",
     "char", "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return", "co_yield", "compl",

@@ -1,12 +1,15 @@
 // Names and texts that end up in generated C: what they may be.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "design/problem.hpp"
 
 namespace lqg::input {
+
+constexpr std::size_t longest_name = 31;  // characters of an external identifier that C99 tells apart
 
 // Each of these says what is wrong, "expected …, found …"; nothing when all is well.
 using Complaint = std::optional<std::string>;

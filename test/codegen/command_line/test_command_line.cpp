@@ -1,4 +1,4 @@
-// test_command_line LQGEN BASE.toml: options, files that cannot be read, places that cannot be written.
+// test_command_line LQGEN BASE.toml DOCUMENTS: options, files that cannot be read, places that cannot be written.
 // Whatever fails, what an earlier run has written stays as it was, and nothing half-written is left beside
 // it.
 #include <sys/stat.h>
@@ -15,6 +15,7 @@ namespace {
 enum Status { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 
 std::string lqgen, base;
+fs::path documents_folder;  // with what lqgen prints
 fs::path folder;  // of the test that runs, with base.toml and the outputs of an earlier run in out/
 Snapshot before;  // of out/
 
@@ -110,6 +111,15 @@ void test_dash_reads_standard_input() {
   const Outcome bad = run({"/bin/sh", "-c", "echo | exec \"$0\" -", lqgen}, folder);
   TEST_ASSERT_EQUAL_INT(wrong, bad.status);
   TEST_ASSERT_EQUAL_STRING_LEN("standard input:1:1: ", bad.err.c_str(), 20);
+}
+
+// The very files that stand beside lqgen's page, so that `lqgen --schema > design.schema.json` gives that one.
+void test_keys_and_schema_are_printed_without_a_design() {
+  for (const auto& [option, file] : {std::pair("--keys", "keys.md"), std::pair("--schema", "design.schema.json")}) {
+    const Outcome outcome = run_lqgen({option});
+    TEST_ASSERT_EQUAL_INT(written, outcome.status);
+    TEST_ASSERT_EQUAL_STRING(read_file(documents_folder / file).c_str(), outcome.out.c_str());
+  }
 }
 
 void test_help_and_version_are_no_errors() {
@@ -278,9 +288,10 @@ void tearDown(void) {}
 }
 
 int main(int count, char** arguments) {
-  if (count != 3) return 2;
+  if (count != 4) return 2;
   lqgen = fs::absolute(arguments[1]).string();
   base = read_file(arguments[2]);
+  documents_folder = arguments[3];
   UNITY_BEGIN();
   RUN_TEST(test_good_design_replaces_the_outputs_and_leaves_nothing_beside_them);
   RUN_TEST(test_outputs_go_into_a_folder_that_is_made);
@@ -289,6 +300,7 @@ int main(int count, char** arguments) {
   RUN_TEST(test_command_line_that_is_wrong);
   RUN_TEST(test_misspelt_options_are_explained_in_their_order);
   RUN_TEST(test_dash_reads_standard_input);
+  RUN_TEST(test_keys_and_schema_are_printed_without_a_design);
   RUN_TEST(test_help_and_version_are_no_errors);
   RUN_TEST(test_design_file_whose_name_is_no_text);
   RUN_TEST(test_design_file_whose_name_is_odd_and_whose_folder_is_worse);

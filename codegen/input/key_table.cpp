@@ -1,0 +1,244 @@
+// The table of keys: what the reader of files accepts, and what reference, schema and manual page say of it.
+#include "input/keys.hpp"
+
+namespace lqg::input {
+namespace {
+
+std::vector<KeyRule> table_of_keys() {
+  constexpr auto no = Size::none;
+  constexpr auto nx = Size::nx;
+  constexpr auto nu = Size::nu;
+  constexpr auto ny = Size::ny;
+  constexpr auto nw = Size::nw;
+  constexpr auto integrals = Size::integrals;
+  constexpr auto required = Need::required;
+  constexpr auto optional = Need::optional;
+
+  return {
+      {"name", Type::identifier, no, no, required, {},
+       "Name of the controller: a C identifier in lower case, at most 31 characters. All emitted names begin with it. "
+       "Names of standard headers and of types of C and POSIX (`time`, `div`) are refused."},
+      {"brief", Type::line, no, no, optional, {},
+       "One line that says what the controller is. It is repeated in the emitted files.", "empty"},
+
+      {"plant", Type::table, no, no, required, {},
+       "The plant: ẋ = A x + B u + G w (continuous) or x⁺ = A x + B u + G w (discrete), with y = C x + D u + H w + v. "
+       "w is the process noise, v the measurement noise."},
+      {"plant.domain", Type::word, no, no, optional, {"continuous", "discrete"},
+       "`continuous`: the matrices are those of ẋ; lqgen samples them. `discrete`: they are those of x⁺.",
+       "`\"continuous\"`, with a note"},
+      {"plant.sample_time", Type::positive, no, no, required, {}, "Sampling period of the loop, in s."},
+      {"plant.A", Type::matrix, nx, nx, required, {}, "System matrix."},
+      {"plant.B", Type::matrix, nx, nu, optional, {},
+       "Input matrix. Without it lqgen designs an estimator alone.", "no inputs"},
+      {"plant.C", Type::matrix, ny, nx, optional, {},
+       "Output matrix. Without it lqgen designs a regulator alone, u = −K x of measured states.", "no outputs"},
+      {"plant.D", Type::matrix, ny, nu, optional, {}, "Feedthrough from u to y.", "0"},
+      {"plant.G", Type::matrix, nx, nw, optional, {}, "Where the process noise w enters the states.", "identity"},
+      {"plant.H", Type::matrix, ny, nw, optional, {}, "Where the process noise w enters the outputs.", "0"},
+      {"plant.delay", Type::not_negative, no, no, optional, {},
+       "Time in s from sampling y until u takes effect. With a discrete plant it is a whole number of periods. "
+       "Inputs that have not yet taken effect become additional states, after those of the plant, the oldest first. "
+       "D multiplies the input that acts.",
+       "0", "README.md#what-a-delay-costs"},
+      {"plant.states", Type::signals, nx, no, optional, {}, "Names of the states, with units: `\"angle [rad]\"`.",
+       "`x0`, `x1`, …"},
+      {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
+      {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
+
+      {"lqr", Type::table, no, no, optional, {},
+       "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
+      {"lqr.Q", Type::weight, nx, nx, optional, {},
+       "Weight of the states. One of `Q`, `Q_output` and `bryson` is required."},
+      {"lqr.Q_output", Type::weight, ny, ny, optional, {}, "Weight of the outputs y = C x + D u, instead of `Q`."},
+      {"lqr.R", Type::weight, nu, nu, optional, {},
+       "Weight of the inputs, required unless `bryson` is there. It may be singular if R + BᵀXB is not.", "required"},
+      {"lqr.N", Type::matrix, nx, nu, optional, {}, "Weight of the products of states and inputs.", "0"},
+      {"lqr.bryson", Type::table, no, no, optional, {},
+       "Bryson's rule, instead of `Q` and `R`: the weights are computed from the largest acceptable values."},
+      {"lqr.bryson.states", Type::positives, nx, no, optional, {},
+       "Largest acceptable value of each state: Q = diag(1/x²). One of `states` and `outputs` is required."},
+      {"lqr.bryson.outputs", Type::positives, ny, no, optional, {},
+       "Largest acceptable value of each output: Q_output = diag(1/y²)."},
+      {"lqr.bryson.inputs", Type::positives, nu, no, required, {},
+       "Largest acceptable value of each input: R = rho diag(1/u²)."},
+      {"lqr.bryson.rho", Type::positive, no, no, optional, {},
+       "Factor of R: a larger one makes the loop slower and its inputs smaller.", "1"},
+      {"lqr.cost", Type::word, no, no, optional, {"sampled", "discrete", "continuous"},
+       "`sampled`: the weights apply to the continuous trajectory, with u held between samples. "
+       "`discrete`: they apply to the samples. "
+       "`continuous`: K comes from the continuous Riccati equation and is used without correction for sampling.",
+       "`\"sampled\"` for a continuous plant, `\"discrete\"` for a discrete one"},
+      {"lqr.decay", Type::not_negative, no, no, optional, {},
+       "Prescribed decay α: all poles of the closed loop have |z| < 1/α, α ≥ 1. "
+       "With `cost = \"continuous\"` they have real parts below −α, in 1/s, α ≥ 0.",
+       "none"},
+      {"lqr.settling_time", Type::positive, no, no, optional, {},
+       "Time in s within which the slowest mode settles to 1 %, instead of `decay`.", "none"},
+      {"lqr.horizon", Type::steps, no, no, optional, {},
+       "Number of steps N of a finite horizon. The gains K[0] … K[N−1] are used in turn, then the last one is kept.",
+       "0: infinite"},
+      {"lqr.Q_final", Type::weight, nx, nx, optional, {}, "Weight of the state at the end of the horizon.", "0"},
+      {"lqr.structure", Type::mask, nu, nx, optional, {},
+       "Entries of K that may differ from 0: a matrix of 0 and 1, or for each input the names of the states that it "
+       "may use, `[[\"angle\", \"speed\"]]`.",
+       "all", "README.md#gains-with-a-structure"},
+      {"lqr.integral", Type::table, no, no, optional, {},
+       "Integral action: ξ⁺ = ξ + T (r − y) of some outputs, and u = −K [x; ξ]."},
+      {"lqr.integral.outputs", Type::indices, ny, no, required, {},
+       "The integrated outputs, by name or by number from 0; at most as many as there are inputs."},
+      {"lqr.integral.Q", Type::weight, integrals, integrals, required, {},
+       "Weight of ξ: of each sample with a discrete cost, of its integral over time with a sampled one. "
+       "With a continuous cost ξ̇ = r − y."},
+      {"lqr.track", Type::indices, ny, no, optional, {},
+       "Outputs that follow a reference r by feed-forward, by name or by number from 0: u = −K (x̂ − Nx r) + Nu r. "
+       "If there are more inputs than tracked outputs, the steady input with the least uᵀRu is used.",
+       "none", "README.md#a-reference"},
+      {"lqr.anti_windup", Type::word, no, no, optional, {"model", "conditioning"},
+       "What limits ξ while u is at a limit. `model`: the plant's state; ξ integrates only what the model does not "
+       "explain. `conditioning`: u itself; least overshoot, but possibly very slow.",
+       "", "../src/README.md#a-law-with-a-memory"},
+      {"lqr.input_rate", Type::weight, nu, nu, optional, {},
+       "Weight of the change of u from sample to sample: Δu = −K [x; ξ; u[k−1]].", "none"},
+
+      {"kalman", Type::table, no, no, optional, {}, "The Kalman filter."},
+      {"kalman.process_noise", Type::weight, nw, nw, required, {},
+       "W = E[w wᵀ], the covariance of the process noise: (unit of w)², or (unit of w)²/Hz with "
+       "`noise = \"continuous\"`."},
+      {"kalman.measurement_noise", Type::weight, ny, ny, required, {},
+       "V = E[v vᵀ], the covariance of the measurement noise, units likewise. "
+       "It is positive definite, or becomes so by H."},
+      {"kalman.cross_noise", Type::matrix, nw, ny, optional, {}, "E[w vᵀ].", "0"},
+      {"kalman.noise", Type::word, no, no, optional, {"discrete", "continuous"},
+       "`discrete`: the covariances are those of samples, w is held between samples. "
+       "`continuous`: they are power spectral densities.",
+       "the plant's domain"},
+      {"kalman.gain", Type::word, no, no, optional, {"steady", "schedule", "online"},
+       "`steady`: the constant gain of the steady filter. `schedule`: a table of gains for the transient from P0, then "
+       "the steady gain. `online`: the covariance is updated on the target in every sample."},
+      {"kalman.form", Type::word, no, no, optional, {"filter", "predictor"},
+       "`filter`: u[k] uses y[k]. `predictor`: u[k] uses y[k−1], which leaves one sample for the computation."},
+      {"kalman.covariance", Type::word, no, no, optional, {"ud", "plain"},
+       "Form of P with `gain = \"online\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
+       "`plain`: P itself, which is cheaper."},
+      {"kalman.initial_state", Type::vector, nx, no, optional, {},
+       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.", "0"},
+      {"kalman.initial_covariance", Type::weight, nx, nx, optional, {},
+       "P0 = P(0|−1), the covariance of that x̂.", "identity"},
+      {"kalman.process_correlation_time", Type::positives, nw, no, optional, {},
+       "Correlation time of each process noise, in s, with `noise = \"continuous\"`. W then holds variances, and the "
+       "density of w_i, w_j is 2 √(τi τj) times the entry of W. `cross_noise` is scaled by √(2 τ) of each noise that "
+       "has a time.",
+       "none"},
+      {"kalman.measurement_correlation_time", Type::positives, ny, no, optional, {},
+       "Correlation time of each measurement noise, in s; V is scaled in the same way.", "none"},
+      {"kalman.horizon", Type::steps, no, no, optional, {},
+       "Length of the table of gains with `gain = \"schedule\"`. 0: until the gain equals the steady one in the "
+       "target's precision.",
+       "0"},
+      {"kalman.structure", Type::mask, nx, ny, optional, {},
+       "Entries of L that may differ from 0: a matrix of 0 and 1, or for each state the names of the outputs that may "
+       "correct it.",
+       "all", "README.md#gains-with-a-structure"},
+      {"kalman.gate", Type::not_negative, no, no, optional, {},
+       "Gate in standard deviations: an output with a larger innovation is not used in that sample. The gate widens "
+       "for an output that is rejected in successive samples.",
+       "none", "../src/README.md"},
+      {"kalman.spike", Type::threshold, no, no, optional, {},
+       "Wide gate in standard deviations against absurd values, which are also kept out of the integrals. `inf`: every "
+       "finite value up to the bounds is used. Not available with `[observer]`, with gain tables of several stages and "
+       "with realisations that do not keep x̂.",
+       "300"},
+      {"kalman.output_min", Type::bounds, ny, no, optional, {},
+       "Smallest value that each sensor can deliver, in its unit. A smaller one counts as missing.", "−inf"},
+      {"kalman.output_max", Type::bounds, ny, no, optional, {},
+       "Largest value that each sensor can deliver, in its unit. A larger one counts as missing.", "inf"},
+
+      {"observer", Type::table, no, no, optional, {},
+       "An observer with given poles, instead of [kalman]: those of A − L_predictor C, or of A − L C A with "
+       "`form = \"filter\"`."},
+      {"observer.poles", Type::poles, no, no, optional, {},
+       "Poles in z, one for each state: numbers, or `[re, im]` and its conjugate."},
+      {"observer.continuous_poles", Type::poles, no, no, optional, {},
+       "Poles in s, in 1/s, instead of `poles`: z = e^(sT)."},
+      {"observer.form", Type::word, no, no, optional, {"predictor", "filter"}, "As `kalman.form`."},
+
+      {"pole_placement", Type::table, no, no, optional, {},
+       "A regulator with given poles, instead of [lqr]: those of A − B K. With several inputs the eigenvectors are "
+       "chosen well conditioned."},
+      {"pole_placement.poles", Type::poles, no, no, optional, {},
+       "Poles in z: numbers, or `[re, im]` and its conjugate. With a delay there is one more for each delayed input; "
+       "it may be 0."},
+      {"pole_placement.continuous_poles", Type::poles, no, no, optional, {},
+       "Poles in s, in 1/s, instead of `poles`: z = e^(sT). No s maps to z = 0, so the poles of a delay move, too."},
+
+      {"limits", Type::table, no, no, optional, {}, "Limits of the actuators."},
+      {"limits.u_min", Type::bounds, nu, no, optional, {},
+       "Smallest value of each input that `control` returns.", "−inf"},
+      {"limits.u_max", Type::bounds, nu, no, optional, {},
+       "Largest value of each input that `control` returns.", "inf"},
+      {"limits.u_rate", Type::bounds, nu, no, optional, {},
+       "Largest |u[k] − u[k−1]| / T of each input, per second.", "inf"},
+
+      {"stage", Type::tables, no, no, optional, {},
+       "A time-varying plant: from step `from` on, these matrices replace those before. A key that is left out keeps "
+       "its value of the stage before."},
+      {"stage.from", Type::step, no, no, required, {},
+       "Number of the first step of this stage; larger than in the stage before."},
+      {"stage.A", Type::matrix, nx, nx, optional, {}, "As `plant.A`.", "unchanged"},
+      {"stage.B", Type::matrix, nx, nu, optional, {}, "As `plant.B`.", "unchanged"},
+      {"stage.C", Type::matrix, ny, nx, optional, {}, "As `plant.C`.", "unchanged"},
+      {"stage.D", Type::matrix, ny, nu, optional, {}, "As `plant.D`.", "unchanged"},
+      {"stage.G", Type::matrix, nx, nw, optional, {}, "As `plant.G`.", "unchanged"},
+      {"stage.Q", Type::weight, nx, nx, optional, {}, "As `lqr.Q`.", "unchanged"},
+      {"stage.R", Type::weight, nu, nu, optional, {}, "As `lqr.R`.", "unchanged"},
+      {"stage.N", Type::matrix, nx, nu, optional, {}, "As `lqr.N`.", "unchanged"},
+      {"stage.process_noise", Type::weight, nw, nw, optional, {}, "As `kalman.process_noise`.", "unchanged"},
+      {"stage.measurement_noise", Type::weight, ny, ny, optional, {}, "As `kalman.measurement_noise`.", "unchanged"},
+
+      {"require", Type::table, no, no, optional, {},
+       "Requirements on the loop, opened at the plant's inputs. A design that misses one is refused.", "",
+       "README.md#margins"},
+      {"require.gain_margin_dB", Type::positive, no, no, optional, {}, "Least gain margin, in dB.", "none"},
+      {"require.phase_margin_deg", Type::positive, no, no, optional, {}, "Least phase margin, in degrees.", "none"},
+      {"require.disk_margin", Type::positive, no, no, optional, {}, "Least disk margin α, at most 2.", "none"},
+      {"require.max_pole", Type::positive, no, no, optional, {},
+       "Largest |z| of the poles of the closed loop.", "none"},
+
+      {"code", Type::table, no, no, optional, {}, "What the emitted code looks like."},
+      {"code.real", Type::word, no, no, optional, {"float", "double"}, "Floating-point type of the controller."},
+      {"code.arithmetic", Type::word, no, no, optional, {"plain", "fused"},
+       "`plain`: every product and every sum is rounded; the result has the same bits on every target. `fused`: "
+       "multiply-adds are fmaf() or fma(); the same bits on every target that has them in hardware."},
+      {"code.style", Type::word, no, no, optional, {"auto", "unrolled", "compact"},
+       "`unrolled`: straight-line code of this plant's structure. `compact`: calls of the library's loops. "
+       "`auto`: the faster one that fits `flash`."},
+      {"code.realisation", Type::word, no, no, optional, {"physical", "folded", "modal", "cheapest"},
+       "`physical`: the controller keeps x̂. `folded`, `modal`: it keeps other numbers, which takes fewer operations. "
+       "`cheapest`: the one with the fewest multiply-adds.",
+       "", "README.md#other-numbers-than-x̂"},
+      {"code.flash", Type::whole, no, no, optional, {},
+       "Flash in bytes that code and constants of the controller may take.", "16384",
+       "README.md#what-it-states-of-flash-and-stack"},
+  };
+}
+
+}  // namespace
+
+const std::vector<KeyRule>& key_rules() {
+  static const std::vector<KeyRule> rules = table_of_keys();
+  return rules;
+}
+
+const std::vector<Alternatives>& alternatives() {
+  static const std::vector<Alternatives> all = {
+      {"lqr", {"Q", "Q_output", "bryson"}, Need::required},
+      {"lqr.bryson", {"states", "outputs"}, Need::required},
+      {"lqr", {"decay", "settling_time"}, Need::optional},
+      {"observer", {"poles", "continuous_poles"}, Need::required},
+      {"pole_placement", {"poles", "continuous_poles"}, Need::required},
+  };
+  return all;
+}
+
+}  // namespace lqg::input

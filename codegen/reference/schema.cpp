@@ -1,0 +1,165 @@
+#include <nlohmann/json.hpp>
+
+#include "design/problem.hpp"
+#include "input/matrices.hpp"
+#include "input/names.hpp"
+#include "reference/documents.hpp"
+#include "reference/wording.hpp"
+
+namespace lqg::reference {
+namespace {
+
+using input::Alternatives;
+using input::KeyRule;
+using input::Need;
+using input::Type;
+using Json = nlohmann::ordered_json;
+
+Json array_of(const Json& items) {
+  return {{"type", "array"}, {"minItems", 1}, {"maxItems", input::most_signals}, {"items", items}};
+}
+
+Json text(const char* pattern) { return {{"type", "string"}, {"pattern", pattern}}; }
+
+Json whole(int least, int most) { return {{"type", "integer"}, {"minimum", least}, {"maximum", most}}; }
+
+// JSON has no infinity: tools that turn TOML into JSON make it null.
+Json number_or_infinity() { return {{"type", {"number", "null"}}}; }
+
+const Json number = {{"type", "number"}};
+const Json number_above_0 = {{"type", "number"}, {"exclusiveMinimum", 0}};
+const Json matrix = array_of(array_of(number));
+
+Json pole() {
+  Json pair = array_of(number);
+  pair["minItems"] = pair["maxItems"] = 2;
+  return {{"anyOf", {number, pair}}};
+}
+
+// Rows of 0 and 1, or of names; a row of names may be empty.
+Json mask() {
+  Json row = array_of({{"anyOf", {{{"enum", {0, 1}}}, {{"type", "string"}}}}});
+  row.erase("minItems");
+  return array_of(row);
+}
+
+Json indices() {
+  Json list = array_of({{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}});
+  list["uniqueItems"] = true;
+  return list;
+}
+
+Json threshold() {
+  Json any = number_or_infinity();
+  any["exclusiveMinimum"] = 0;
+  return any;
+}
+
+Json identifier() {
+  Json any = text("^[a-z][a-z0-9_]*$");
+  any["maxLength"] = input::longest_name;
+  return any;
+}
+
+// What the value of a key may be.
+Json value_schema(const KeyRule& rule) {
+  switch (rule.type) {
+    case Type::identifier: return identifier();
+    case Type::line: return text(R"(^[^\\\u0000-\u001f\u007f]*$)");
+    case Type::word: return {{"enum", rule.words}};
+    case Type::positive: return number_above_0;
+    case Type::not_negative: return {{"type", "number"}, {"minimum", 0}};
+    case Type::threshold: return threshold();
+    case Type::whole: return {{"type", "integer"}, {"minimum", 1}};
+    case Type::steps: return whole(0, design::most_steps);
+    case Type::step: return whole(1, design::most_steps);
+    case Type::matrix: return matrix;
+    case Type::weight: return {{"anyOf", {array_of({{"type", "number"}, {"minimum", 0}}), matrix}}};
+    case Type::mask: return mask();
+    case Type::vector: return array_of(number);
+    case Type::positives: return array_of(number_above_0);
+    case Type::bounds: return array_of(number_or_infinity());
+    case Type::indices: return indices();
+    case Type::poles: return array_of(pole());
+    case Type::signals: return array_of(text(R"(^ *[A-Za-z][A-Za-z0-9_]* *(\[[^\[\]\\]*\] *)?$)"));
+    case Type::table:
+    case Type::tables: break;
+  }
+  return Json::object();
+}
+
+Json needs(const std::string& key) { return {{"required", {key}}}; }
+
+Json any_of(const std::vector<std::string>& keys) {
+  Json out = Json::array();
+  for (const std::string& key : keys) out.push_back(needs(key));
+  return {{"anyOf", out}};
+}
+
+// Of several keys one, or at most one.
+Json choice(const Alternatives& alternatives) {
+  Json out = any_of(alternatives.keys)["anyOf"];
+  if (alternatives.need == Need::optional) out.push_back({{"not", any_of(alternatives.keys)}});
+  return {{"oneOf", out}};
+}
+
+// What hangs on other keys of the same table.
+Json conditions(const std::string& table) {
+  Json all = Json::array();
+  for (const Alternatives& alternatives : input::alternatives())
+    if (alternatives.table == table) all.push_back(choice(alternatives));
+  if (table == "lqr") all.push_back(choice({table, {"R", "bryson"}, Need::required}));
+  if (table == "limits") all.push_back(any_of({"u_min", "u_max", "u_rate"}));
+  if (!table.empty()) return all;
+  all.push_back(any_of({"lqr", "pole_placement", "kalman", "observer"}));
+  all.push_back(choice({table, {"lqr", "pole_placement"}, Need::optional}));
+  all.push_back(choice({table, {"kalman", "observer"}, Need::optional}));
+  return all;
+}
+
+Json table_schema(const std::string& table);
+
+std::string description(const KeyRule& rule) {
+  std::string out = rule.text;
+  if (!is_table(rule)) out += " " + replaced(values_of(rule), "`", "") + ".";
+  const std::string absent = replaced(otherwise(rule), "`", "");
+  if (absent.empty() || absent == "required") return out;
+  return out + " Default: " + absent + ".";
+}
+
+Json key_schema(const KeyRule& rule) {
+  Json out = {{"description", description(rule)}};
+  if (!rule.words.empty() && rule.otherwise.empty()) out["default"] = rule.words.front();
+  if (rule.type == Type::tables) {
+    out.update({{"type", "array"}, {"minItems", 1}, {"items", table_schema(rule.path)}});
+    return out;
+  }
+  out.update(is_table(rule) ? table_schema(rule.path) : value_schema(rule));
+  return out;
+}
+
+Json table_schema(const std::string& table) {
+  Json keys = Json::object(), required = Json::array();
+  for (const KeyRule& rule : input::key_rules()) {
+    if (input::parent_of(rule.path) != table) continue;
+    keys[name_of(rule)] = key_schema(rule);
+    if (rule.need == Need::required) required.push_back(name_of(rule));
+  }
+  Json out = {{"type", "object"}, {"additionalProperties", false}};
+  if (!required.empty()) out["required"] = required;
+  if (const Json all = conditions(table); !all.empty()) out["allOf"] = all;
+  out["properties"] = keys;
+  return out;
+}
+
+}  // namespace
+
+std::string schema() {
+  Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+              {"title", "TinyLQG design file"},
+              {"description", "Printed by lqgen --schema. That sizes of matrices agree is checked by lqgen alone."}};
+  out.update(table_schema(""));
+  return out.dump(2) + "\n";
+}
+
+}  // namespace lqg::reference
