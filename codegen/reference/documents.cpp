@@ -64,12 +64,17 @@ std::string in_roff(const std::string& text) {
   return out.empty() || (out[0] != '.' && out[0] != '\'') ? out : "\\&" + out;
 }
 
-// One sentence a line, which roff joins.
-std::string in_sentences(const std::string& text) { return replaced(in_roff(text), ". ", ".\n"); }
+// Each sentence on lines of its own, which roff joins.
+std::string in_sentences(const std::string& text) {
+  std::istringstream lines(replaced(in_roff(text), ". ", ".\n"));
+  std::string out, line;
+  while (std::getline(lines, line)) out += wrapped(line);
+  return out;
+}
 
 std::string entry(const KeyRule& rule) {
   const std::string absent = otherwise(rule), values = replaced(in_roff(values_of(rule)), "\"", "\\(dq");
-  std::string out = ".TP\n.BR " + in_roff(rule.path) + " \" (" + values + ")\"\n" + in_sentences(rule.text) + "\n";
+  std::string out = ".TP\n.BR " + in_roff(rule.path) + " \" (" + values + ")\"\n" + in_sentences(rule.text);
   if (absent == "required") return out + "Required.\n";
   return absent.empty() ? out : out + "Default: " + in_roff(absent) + ".\n";
 }
@@ -86,7 +91,7 @@ std::string page() {
 std::string manual() {
   std::string out;
   for (const KeyRule& rule : input::key_rules())
-    out += is_table(rule) ? ".SS " + in_roff(header_of(rule)) + "\n" + in_sentences(rule.text) + "\n" : entry(rule);
+    out += is_table(rule) ? ".SS " + in_roff(header_of(rule)) + "\n" + in_sentences(rule.text) : entry(rule);
   return out;
 }
 

@@ -1,5 +1,5 @@
-"""picture.py REPORT.html PICTURE.svg [--check]: makes the README's picture of three charts of a report, as they are; with
---check fails where the picture is another one."""
+"""picture.py REPORT.html PICTURE.svg [--check]: makes the README's picture of three charts of a report, as they are;
+with --check fails where the picture is another one."""
 
 import re
 import sys
