@@ -2,7 +2,7 @@
 # warns, or where a header has no page or no text: then the comments were not seen.
 file(REMOVE_RECURSE ${OUTPUT})
 file(MAKE_DIRECTORY ${OUTPUT})
-file(READ ${ROOT}/Doxyfile settings)
+file(READ ${ROOT}/include/Doxyfile settings)
 file(WRITE ${OUTPUT}/Doxyfile "${settings}\nOUTPUT_DIRECTORY = ${OUTPUT}\n")
 execute_process(COMMAND ${DOXYGEN} ${OUTPUT}/Doxyfile WORKING_DIRECTORY ${ROOT} RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
