@@ -73,10 +73,10 @@ std::vector<emit::File> files(const Arguments& arguments, const emit::Controller
 
 // A design that is called NAME.json would otherwise be lost.
 bool overwrites_design(const Arguments& arguments, const std::vector<emit::File>& files) {
+  const std::filesystem::path folder = arguments.folder;
   std::error_code ignored;
   for (const emit::File& file : files)
-    if (std::filesystem::equivalent(arguments.design_file, std::filesystem::path(arguments.folder) / file.name, ignored))
-      return true;
+    if (std::filesystem::equivalent(arguments.design_file, folder / file.name, ignored)) return true;
   return false;
 }
 
@@ -109,8 +109,9 @@ int generate(const Arguments& arguments) {
   const std::vector<emit::File> outputs = files(arguments, *controller);
   watch.end();
   if (overwrites_design(arguments, outputs)) {
-    std::cerr << input::printable(arguments.design_file) << ": expected a design file that is not one of the outputs; rename it, or choose "
-              << "another folder with -o\n";
+    std::cerr << input::printable(arguments.design_file)
+              << ": expected a design file that is not one of the outputs; rename it, or choose another folder "
+                 "with -o\n";
     return wrong;
   }
   if (const auto failure = emit::write_all(arguments.folder, outputs)) {
@@ -155,10 +156,13 @@ int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};
   app.set_version_flag("--version", emit::version());
-  app.add_option("DESIGN", arguments.design_file, "design file (TOML); - is standard input")->required()->option_text("DESIGN.toml");
+  app.add_option("DESIGN", arguments.design_file, "design file (TOML); - is standard input")
+      ->required()->option_text("DESIGN.toml");
   app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
   app.add_option("--only", arguments.only, "write only these")
-      ->delimiter(',')->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))->option_text("h,test,json,html,proof");
+      ->delimiter(',')
+      ->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))
+      ->option_text("h,test,json,html,proof");
   app.add_option("--style", arguments.style, "instead of code.style of the design")
       ->check(CLI::IsMember({"unrolled", "compact", "auto"}))->option_text("unrolled|compact|auto");
   app.add_option("--real", arguments.real, "instead of code.real of the design")
@@ -177,7 +181,8 @@ int main(int argc, char** argv) {
   try {
     return generate(arguments);
   } catch (const std::exception& error) {
-    std::cerr << input::printable(shown_path(arguments)) << ": lqgen failed: " << input::printable(error.what()) << "\n";
+    std::cerr << input::printable(shown_path(arguments)) << ": lqgen failed: " << input::printable(error.what())
+              << "\n";
     return impossible;
   }
 }

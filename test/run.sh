@@ -35,8 +35,8 @@ if [ "${1:-}" = --sanitize ]; then
   shift
   folder+=-sanitize
   flags="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
-  # In C++ not at every pointer: that takes the templates of Eigen and Boost twice the time, and what a bad pointer reads
-  # or writes is found all the same.
+  # In C++ not at every pointer: compiling the templates of Eigen and Boost takes twice the time with them, and what a
+  # bad pointer reads or writes is found all the same.
   pointers="-fno-sanitize=null,alignment,object-size,vptr,nonnull-attribute,returns-nonnull-attribute"
   options+=(-DCMAKE_BUILD_TYPE=None "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags $pointers")
 fi

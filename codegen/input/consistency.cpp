@@ -237,7 +237,8 @@ void check_definiteness(Values& values, Report& report) {
   if (W && V)
     check_joint(values, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise",
                 "[W Swv; Swvᵀ V]", report);
-  for (const char* key : {"lqr.Q_output", "lqr.Q_final", "lqr.integral.Q", "lqr.input_rate", "kalman.initial_covariance"})
+  for (const char* key :
+       {"lqr.Q_output", "lqr.Q_final", "lqr.integral.Q", "lqr.input_rate", "kalman.initial_covariance"})
     check_weight(values, key, false, report);
   for (const std::string& stage : values.tables_of("stage")) {
     for (const char* key : {".Q", ".R", ".process_noise"}) check_weight(values, stage + key, false, report);
@@ -257,8 +258,9 @@ void check_range(const Values& values, const std::string& table, const std::stri
     const double least = lower != nullptr ? (*lower)(i, 0) : -infinity;
     const double most = upper != nullptr ? (*upper)(i, 0) : infinity;
     if (least < most) continue;
-    report.error(table + (upper != nullptr ? high : low), "expected " + low + " < " + high + ", found " + shown(least) + " and " +
-                                                              shown(most) + " for " + signal + " " + std::to_string(i));
+    report.error(table + (upper != nullptr ? high : low),
+                 "expected " + low + " < " + high + ", found " + shown(least) + " and " + shown(most) + " for " +
+                     signal + " " + std::to_string(i));
   }
 }
 

@@ -108,7 +108,8 @@ Suggestion suggest(const std::string& parent, const std::string& name) {
   if (!foreign.sentence.empty()) return {"", "unknown key, " + foreign.sentence};
   if (!foreign.path.empty()) {
     const std::string home = parent_of(foreign.path);
-    return {foreign.path, "unknown key, did you mean `" + name_of(foreign.path) + "`" + (home == parent ? "" : " in [" + home + "]") + "?"};
+    const std::string where = home == parent ? "" : " in [" + home + "]";
+    return {foreign.path, "unknown key, did you mean `" + name_of(foreign.path) + "`" + where + "?"};
   }
   const KeyRule* near = nearest(parent, name);
   const KeyRule* other = elsewhere(name);

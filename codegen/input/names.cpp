@@ -137,8 +137,8 @@ Complaint check_file_name(const std::string& name) {
   if (const Complaint complaint = check_comment_text(name)) return "file name: " + *complaint + "; rename it";
   for (const char* sequence : {"\"", "?\?"})
     if (name.find(sequence) != name.npos)
-      return "file name: expected one that can stand in a string of C, without `" + std::string(sequence) + "`" + found(name) +
-             "; rename it";
+      return "file name: expected one that can stand in a string of C, without `" + std::string(sequence) + "`" +
+             found(name) + "; rename it";
   return {};
 }
 
