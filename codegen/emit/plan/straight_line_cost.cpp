@@ -18,11 +18,13 @@ bool is_full(const Listing& listing, const Traffic& count) {
 // Of an update with a constant gain: besides the states it reads each output and its gate's width.
 long states_of(const Traffic& count) { return count.inputs - 2 * count.questions; }
 
-// The same of the rows of C, which are used one after the other.
+// An update with a constant gain chooses nothing but which outputs it uses.
+bool weighs_only(const Traffic& count) { return count.selections == count.questions; }
+
+// The rows of C are full, in such an update with fused products.
 bool has_full_rows(const Listing& listing, const Traffic& count) {
   const long gains = states_of(count) * count.questions;
-  return listing.is_fused && count.selections == count.questions && count.questions > 1 &&
-         5 * count.operations > 9 * gains;
+  return listing.is_fused && weighs_only(count) && count.questions > 1 && 5 * count.operations > 9 * gains;
 }
 
 // Comparisons, branches, calls and what belongs to them besides.
@@ -47,12 +49,11 @@ long control_flow_in_double(const Listing& listing, const Traffic& count) {
 long pairs(long registers) { return std::clamp((registers + 1) / 2 * 2, 0L, 16L); }
 
 // Of the inputs u, each of which has a lower limit, an upper one or both: `selections` choose numbers, `statuses` bits.
-long limited_inputs(const Traffic& count) {
-  const bool has_both = count.selections > count.status_selections;
-  return has_both ? count.selections - count.status_selections : count.status_selections;
-}
+bool has_both_limits(const Traffic& count) { return count.selections > count.status_selections; }
 
-bool weighs_only(const Traffic& count) { return count.selections == count.questions; }
+long limited_inputs(const Traffic& count) {
+  return has_both_limits(count) ? count.selections - count.status_selections : count.status_selections;
+}
 
 // Products that are made before their sums need them.
 long early_products(const Listing& listing, const Traffic& count) {
@@ -89,7 +90,7 @@ long asking_frame_in_float(const Listing& listing) {
 // own.
 long limiting_frame_in_float(const Traffic& count) {
   const long inputs = limited_inputs(count);
-  const bool has_both = count.selections > count.status_selections;
+  const bool has_both = has_both_limits(count);
   const long saved = pairs(count.registers + inputs - (has_both ? 16 : 18));
   return 4 * saved + (has_both && (inputs > 4 || saved == 16) ? 8 : 0) + aligned(4 * count.slots);
 }
@@ -105,7 +106,7 @@ long frame_in_float(const Listing& listing, const Traffic& count) {
 // Doubles wait in memory, spilled or as inputs that were all read at the beginning; nine core registers are saved.
 
 long asking_frame_in_double(const Listing& listing, const Traffic& count) {
-  const bool exact = count.selections == count.questions;
+  const bool exact = weighs_only(count);
   const long inputs = 24 + 8 * (count.inputs + count.of_tables);
   long places = count.slots;
   if (!listing.is_fused)
