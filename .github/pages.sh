@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The project's pages: lqgen's report of every shipped design, and an index.html that leads to them.
 #
 #   .github/pages.sh [FOLDER]       build/pages without FOLDER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
 #include <unistd.h>
 
@@ -97,8 +98,8 @@ int generate(const Arguments& arguments) {
     const std::string file_name = shown_path(arguments) == arguments.design_file
                                       ? std::filesystem::path(arguments.design_file).filename().string()
                                       : shown_path(arguments);
-    controller = emit::make_controller(std::move(problem), std::move(*solution),
-                                       {file_name, emit::sha256(file.text)}, findings);
+    controller =
+        emit::make_controller(std::move(problem), std::move(*solution), {file_name, emit::sha256(file.text)}, findings);
   }
   watch.clear();
   input::sort_by_place(file, findings);
@@ -157,18 +158,22 @@ int main(int argc, char** argv) {
   CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};
   app.set_version_flag("--version", emit::version());
   app.add_option("DESIGN", arguments.design_file, "design file (TOML); - is standard input")
-      ->required()->option_text("DESIGN.toml");
+      ->required()
+      ->option_text("DESIGN.toml");
   app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
   app.add_option("--only", arguments.only, "write only these")
       ->delimiter(',')
       ->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))
       ->option_text("h,test,json,html,proof");
   app.add_option("--style", arguments.style, "instead of code.style of the design")
-      ->check(CLI::IsMember({"unrolled", "compact", "auto"}))->option_text("unrolled|compact|auto");
+      ->check(CLI::IsMember({"unrolled", "compact", "auto"}))
+      ->option_text("unrolled|compact|auto");
   app.add_option("--real", arguments.real, "instead of code.real of the design")
-      ->check(CLI::IsMember({"float", "double"}))->option_text("float|double");
+      ->check(CLI::IsMember({"float", "double"}))
+      ->option_text("float|double");
   app.add_option("--time-limit", arguments.time_limit, "end without a result when so many seconds have passed")
-      ->check(CLI::Range(1u, 1000000u))->option_text("S");
+      ->check(CLI::Range(1u, 1000000u))
+      ->option_text("S");
   app.add_flag("--quiet", arguments.quiet, "print nothing but errors");
   add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
   add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");

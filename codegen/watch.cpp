@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "watch.hpp"
 
 #include <unistd.h>
@@ -12,7 +13,7 @@ namespace lqg {
 
 namespace {
 
-constexpr int impossible = 1;  // exit status
+constexpr int impossible = 1;            // exit status
 constexpr std::chrono::seconds soon(1);  // on a terminal
 const char* const clear_line = "\r\033[K";
 
@@ -49,12 +50,8 @@ class AlarmBlocked {
 }  // namespace
 
 Watch::Watch(const std::string& design_file, bool quiet, std::optional<unsigned> limit, std::chrono::seconds patience)
-    : file_(input::printable(design_file)),
-      shows_(!quiet),
-      is_terminal_(::isatty(STDERR_FILENO)),
-      limit_(limit),
-      patience_(patience),
-      begin_(std::chrono::steady_clock::now()) {
+    : file_(input::printable(design_file)), shows_(!quiet), is_terminal_(::isatty(STDERR_FILENO)), limit_(limit),
+      patience_(patience), begin_(std::chrono::steady_clock::now()) {
   if (!limit_) return;
   prepare_last_line("reading");
   std::signal(SIGALRM, end_program);

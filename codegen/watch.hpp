@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tells of work that takes long, and ends the program when it takes too long.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the toolchain files of all emulated boards share: no operating system, no library but the compiler's, programs
 # that QEMU runs by semihosting.
 set(CMAKE_SYSTEM_NAME Generic)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What the examples need of a board besides start-up code; each family of ports has it in uart.c and counter.c. */
 #ifndef BOARD_H
 #define BOARD_H

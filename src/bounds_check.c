@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "bounds_check.h"
 
 LQG_STRICT_BEGIN

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Whether a state is within its bounds, and its P can be a covariance. Not for firmware. */
 #ifndef LQG_BOUNDS_CHECK_H
 #define LQG_BOUNDS_CHECK_H

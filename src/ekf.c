@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The extended Kalman filter with P = U diag(d) Uᵀ. */
 #include "lqg/ekf.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "factors.h"
 
 LQG_STRICT_BEGIN

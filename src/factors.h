@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* P = U diag(d) Uᵀ, U unit upper triangular: what all filters do that carry their covariance so. Not for
  * firmware. */
 #ifndef LQG_FACTORS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The Kalman filter that carries the covariance P of its error, as a lower triangle. */
 #include "bounds_check.h"
 #include "kernel.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The Kalman filter with constant gain. */
 #include "bounds_check.h"
 #include "kernel.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The Kalman filter that carries its covariance as P = U diag(d) Uᵀ, U unit upper triangular. */
 #include "bounds_check.h"
 #include "factors.h"

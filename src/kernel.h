@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The few operations of which everything is made. Their order is part of the contract: sums run in ascending
  * index in one accumulator, so that another text of the same algorithm finds the same bits. */
 #ifndef LQG_KERNEL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Filter and regulator together, one sample at a time. */
 #include "lqg/lqg.h"
 

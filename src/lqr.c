@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The control law. */
 #include "lqg/lqr.h"
 

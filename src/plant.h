@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What all filters do with the plant and with a watch, which MAY be NULL. Not for firmware. */
 #ifndef LQG_PLANT_H
 #define LQG_PLANT_H

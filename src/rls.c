@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Recursive least squares with P = U diag(d) Uᵀ. */
 #include "lqg/rls.h"
 

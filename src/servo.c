@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The control law with a memory. */
 #include "lqg/servo.h"
 

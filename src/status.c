@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A status in words. */
 #include "lqg/status.h"
 

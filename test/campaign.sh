@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Long campaigns: for as long as it takes to meet what is rare. The tests run a sample of each, test/README.md says which.
 #
 #   test/campaign.sh                             lists them, and how long they take

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds TinyLQG and passes all its tests; sets up what it needs.
 #
 #   test/run.sh [--sanitize] [--firmware] [option of ctest]…        CC and CXX choose the compilers

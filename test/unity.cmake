@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The target `unity`: Unity >= 2.6 that can compare doubles. An installed one if it can, else upstream's
 # release, built here. Without a network: -DFETCHCONTENT_SOURCE_DIR_UNITY=<folder with Unity's sources>.
 include(CheckCSourceCompiles)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Unity's sources from a source distribution on PyPI, whose hash is checked before it is unpacked. Nothing is built, and nothing of it
 # or of PyPI runs.
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # lqg_add_controller(<target> <design.toml> [STYLE unrolled|compact|auto] [REAL float|double] [OUTPUT_DIR
 # <folder>])
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # lqg_check_arithmetic(<target>): <target> is only built if its compiler, with its options, computes as lqg/arithmetic.h
 # says. lqg_add_controller calls it for its target.
 #

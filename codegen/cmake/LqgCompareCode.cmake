@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DTARGET=… -DGIVEN=… -DSTRICT=… -P LqgCompareCode.cmake: fails if the two files are not the same.
 execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${GIVEN} ${STRICT} RESULT_VARIABLE different OUTPUT_QUIET ERROR_QUIET)
 if(different)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What tinylqg::design is built on: Eigen, Boost.Multiprecision, MPFR, GMP. Those that are not found stand in
 # LQG_DESIGN_MISSING. MPFR and GMP bring no targets: tinylqg_mpfr is theirs; a program with the property LQG_STATIC_MPFR
 # gets their static libraries, where there are any.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # lqg_find_lqgen(<variable>): sets the variable to the lqgen to run: a path, or the generator expression of one that this build
 # makes. It is the first of
 #

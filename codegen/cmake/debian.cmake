@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What a Debian package has beyond an installation; cpack runs it on the files, staged in CPACK_TEMPORARY_INSTALL_DIRECTORY,
 # before it packs them.
 set(share ${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX}/share)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What `cmake --install` brings: the headers, the library's variants, lqgen with its manual and the design engine where
 # they were built, and the package that find_package(tinylqg) finds.
 include(CMakePackageConfigHelpers)

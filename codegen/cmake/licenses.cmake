@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The licences of what lqgen has inside, as Debian keeps them. The variable LQG_LICENSES names a folder that has them on other systems:
 # NAME.copyright for each library, and LGPL-3, GPL-3, MPL-2.0, Apache-2.0. One that is missing is an error: no package leaves
 # without it.

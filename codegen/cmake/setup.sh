@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # For bash scripts, to be sourced: the set-up that test/run.sh and the demos have in common. It stops with a
 # reason when it cannot.
 #
@@ -129,4 +130,4 @@ lqg_find_lqgen() {
   export LQGEN
 }
 
-lqg_print_help() { sed -n '2,/^[^#]/{/^#/{s/^# \{0,1\}//;p}}' "$1"; }
+lqg_print_help() { sed -n '2,/^[^#]/{/SPDX-/d;/^#/{s/^# \{0,1\}//;p}}' "$1"; }

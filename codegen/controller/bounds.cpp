@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/bounds.hpp"
 
 #include <algorithm>
@@ -51,7 +52,8 @@ class Scales {
     VectorXd scales = error_scales() * controller_.problem.plant.sample_time;
     for (const Gains& law : controller_.laws)  // by H, and by H_input as much as a load, or set_input, may need
       for (const design::RealMatrix* H : {&law[2], &law[3]})
-        if (H->size() > 0) scales = scales.cwiseMax(VectorXd(design::to_doubles(*H).cwiseAbs() * (law_of_states(law) + inputs_)));
+        if (H->size() > 0)
+          scales = scales.cwiseMax(VectorXd(design::to_doubles(*H).cwiseAbs() * (law_of_states(law) + inputs_)));
     return scales;
   }
 
@@ -119,7 +121,8 @@ class Scales {
   VectorXd error_scales() const {
     const MatrixXd C = design::to_doubles(controller_.solution.plant.C).cwiseAbs();
     VectorXd scales(controller_.size.nxi);
-    for (int i = 0; i < scales.size(); ++i) scales(i) = C.row(controller_.integrated[static_cast<std::size_t>(i)]).dot(states_);
+    for (int i = 0; i < scales.size(); ++i)
+      scales(i) = C.row(controller_.integrated[static_cast<std::size_t>(i)]).dot(states_);
     return scales;
   }
 
@@ -148,7 +151,8 @@ Outputs outputs_of_filter(const Controller& controller, std::size_t sample) {
 }
 
 template <class OutputsAt>
-VectorXd largest_limits(const Controller& controller, const Scales& scales, const std::vector<int>& x, OutputsAt outputs_at) {
+VectorXd largest_limits(const Controller& controller, const Scales& scales, const std::vector<int>& x,
+                        OutputsAt outputs_at) {
   VectorXd limits = VectorXd::Zero(controller.size.ny);
   for (const std::size_t at : controller.stage_starts) {
     const Outputs outputs = outputs_at(controller, at);
@@ -176,7 +180,8 @@ Bounds bounds_of(const Controller& controller) {
   bounds.xi = bounds_of(scales.integrals(), range);
   const VectorXd limits = largest_limits(controller, scales, bounds.x, outputs_as_they_are);
   bounds.error.resize(controller.size.nxi);
-  for (int i = 0; i < controller.size.nxi; ++i) bounds.error(i) = limits(controller.integrated[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < controller.size.nxi; ++i)
+    bounds.error(i) = limits(controller.integrated[static_cast<std::size_t>(i)]);
   return bounds;
 }
 

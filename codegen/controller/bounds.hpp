@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far a state or an innovation may be before no honest one is there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/controller.hpp"
 
 #include <algorithm>
@@ -60,7 +61,8 @@ Terms terms_of(const Controller& controller) {
 std::vector<std::size_t> stage_starts_of(const Controller& controller) {
   std::vector<std::size_t> starts = {0};
   if (controller.has.stages)
-    for (const design::StageSolution& stage : controller.solution.stages) starts.push_back(static_cast<std::size_t>(stage.from));
+    for (const design::StageSolution& stage : controller.solution.stages)
+      starts.push_back(static_cast<std::size_t>(stage.from));
   return starts;
 }
 
@@ -85,7 +87,8 @@ bool has_variances(const Controller& controller) {
 // What follows from problem and solution alone.
 Controller described(design::Problem problem, design::Solution solution, Source source) {
   Controller controller;
-  controller.target = {problem.code.real == design::Scalar::float64, problem.code.arithmetic == design::Arithmetic::fused};
+  controller.target = {problem.code.real == design::Scalar::float64,
+                       problem.code.arithmetic == design::Arithmetic::fused};
   controller.filter = filter_of(problem);
   controller.is_predictor = problem.estimator && problem.estimator->form == design::Form::predictor;
   controller.size = dimensions_of(problem, solution);
@@ -110,7 +113,8 @@ bool keeps_innovation(const Controller& controller) {
   if (!controller.has.filter) return false;
   if (controller.solution.online)
     return in_any_stage(controller, [&](std::size_t at) { return !is_zero(online_at(controller, at).M); });
-  return std::any_of(controller.filters.begin(), controller.filters.end(), [](const Gains& row) { return !is_zero(row[1]); });
+  return std::any_of(controller.filters.begin(), controller.filters.end(),
+                     [](const Gains& row) { return !is_zero(row[1]); });
 }
 
 // What is kept follows from the gains, too.
@@ -130,14 +134,17 @@ void check_emittable(const Controller& controller, design::Findings& findings) {
     findings.push_back({design::Severity::error, key, why});
   };
   if (controller.has.stages && controller.problem.code.style == design::Style::unrolled)
-    refuse("code.style", "expected \"compact\" or \"auto\": straight-line code is of one plant, the stages are of several");
+    refuse("code.style",
+           "expected \"compact\" or \"auto\": straight-line code is of one plant, the stages are of several");
   if (!controller.has.filter && controller.size.nxi && !controller.solution.stages.empty())
-    refuse("lqr.integral", "expected a [kalman]: without one the outputs are made of the states, by one C for all stages");
+    refuse("lqr.integral",
+           "expected a [kalman]: without one the outputs are made of the states, by one C for all stages");
   if (!controller.has.gate || has_variances(controller)) return;
   const std::string key = key_of_sigma(*controller.problem.estimator), none = key == "kalman.gate" ? "0" : "inf";
-  refuse(key, controller.has.variance
-                  ? "expected " + none + ", or gain = \"online\": tables of gains for several stages come without variances"
-                  : "expected " + none + ": there is no variance of the innovations to compare with");
+  refuse(key,
+         controller.has.variance
+             ? "expected " + none + ", or gain = \"online\": tables of gains for several stages come without variances"
+             : "expected " + none + ": there is no variance of the innovations to compare with");
 }
 
 // A start that the bounds, which cannot be wider than the target's squares, would not let be.
@@ -174,7 +181,8 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
   }
   check_numbers(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
-  controller.last_sample = std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
+  controller.last_sample =
+      std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
   controller.keeps = memory_of(controller);
   controller.bounds = bounds_of(controller);
   controller.gate = gate_of(controller);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One solved design as it is emitted: data only, in the target's terms. `controller_of` makes it.
 #pragma once
 
@@ -42,13 +43,13 @@ struct Terms {
   bool filter = false, regulator = false;
   bool feedthrough = false;  // D u needs the last input in every update
   bool gate = false;
-  bool range = false;  // of what a sensor can say
-  bool variance = false;     // of the innovations
-  bool stages = false;       // the filter is told of changes of the plant
-  bool input_change = false; // the law gives u[k] − u[k−1]
+  bool range = false;         // of what a sensor can say
+  bool variance = false;      // of the innovations
+  bool stages = false;        // the filter is told of changes of the plant
+  bool input_change = false;  // the law gives u[k] − u[k−1]
   bool rate_limit = false;
-  bool last_input = false;   // the law begins with u[k−1]
-  bool servo = false;        // the law is more than −K x̂ within limits
+  bool last_input = false;  // the law begins with u[k−1]
+  bool servo = false;       // the law is more than −K x̂ within limits
 };
 
 // What is kept from one call to the next beside x̂ and its covariance.
@@ -74,9 +75,10 @@ struct CodeCost {
 
 // What each form that the design can have costs and loses, when it asks for another than the physical one.
 struct FormCost {
-  long multiply_adds = 0;     // in one sample, of straight-line code
-  double rounding_error = 0;  // of u for the same y: rms of the error in the target's numbers / rms of u, the worst input
-  double agreement = 0;       // digits in which a linear form answers outputs as the physical form does
+  long multiply_adds = 0;  // in one sample, of straight-line code
+  double rounding_error =
+      0;                 // of u for the same y: rms of the error in the target's numbers / rms of u, the worst input
+  double agreement = 0;  // digits in which a linear form answers outputs as the physical form does
 };
 struct FormChoice {
   design::Realisation chosen = design::Realisation::physical;
@@ -102,10 +104,10 @@ struct Controller {
   std::vector<Gains> laws;     // of sample 0, 1, …; the last one is held. One only: it is constant. Empty: no regulator
   std::vector<Gains> filters;  // likewise; empty without a filter of given gains
   Bounds bounds;
-  Gate gate;                   // empty without one
-  Recovery recovery;           // of a filter
-  std::optional<design::LinearForm> linear;   // the controller keeps z of this form; else it keeps x̂
-  std::optional<FormChoice> forms;            // among which it was chosen
+  Gate gate;                                      // empty without one
+  Recovery recovery;                              // of a filter
+  std::optional<design::LinearForm> linear;       // the controller keeps z of this form; else it keeps x̂
+  std::optional<FormChoice> forms;                // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic
   CodeCost cost;
 };

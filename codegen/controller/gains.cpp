@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/gains.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The gains of a controller, sample by sample, and what a table of them has to hold.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/gate.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -27,7 +28,7 @@ constexpr double let_in_while_unsettled = 30;
 constexpr double least_widening = 1.5, most_widening = 0x1p20;
 constexpr double narrowing_of_online = 0.75;
 constexpr double slowest_narrowing = 1 - 0x1p-10, fastest_narrowing = 0.25;
-constexpr double negligible = 1.1;   // an S that is larger than in the steady state by less: 5 % in σ
+constexpr double negligible = 1.1;  // an S that is larger than in the steady state by less: 5 % in σ
 constexpr int longest_gap = 256, longest_settling = 1 << 14;
 // Numbers that are emitted are rounded up to few bits: those of the host's mathematics are not everywhere the same.
 
@@ -89,7 +90,8 @@ VectorXd widening_in_gaps(const PriorError& error, MatrixXd P, double narrow) {
 double next_power_of_two(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
 Gate gate_of_online(double sigma, Eigen::Index ny) {
-  return {sigma, VectorXd::Ones(ny), VectorXd::Constant(ny, least_widening), VectorXd::Constant(ny, narrowing_of_online)};
+  return {sigma, VectorXd::Ones(ny), VectorXd::Constant(ny, least_widening),
+          VectorXd::Constant(ny, narrowing_of_online)};
 }
 
 MatrixXd initial_covariance(const Controller& controller) {
@@ -119,12 +121,13 @@ Gate gate_of(const Controller& controller) {
   const PriorError error(controller);
   const double slowest = error.slowest_mode();
   const double narrow = std::clamp(std::ceil(slowest * slowest * 1024) / 1024, fastest_narrowing, slowest_narrowing);
-  const VectorXd start = controller.filters.size() > 1 ? VectorXd(VectorXd::Ones(controller.size.ny))  // S of each sample is known
-                                             : error.widening_from(initial_covariance(controller), narrow);
+  const VectorXd start = controller.filters.size() > 1
+                             ? VectorXd(VectorXd::Ones(controller.size.ny))  // S of each sample is known
+                             : error.widening_from(initial_covariance(controller), narrow);
   const MatrixXd P = design::to_doubles(controller.solution.estimator->P_prior);
   const VectorXd widen = widening_in_gaps(error, P, narrow).cwiseMax(least_widening).cwiseMin(most_widening);
-  return {controller.gate.sigma, start.unaryExpr([](double value) { return next_power_of_two(value); }), (widen * 4).array().ceil().matrix() / 4,
-          VectorXd::Constant(controller.size.ny, narrow)};
+  return {controller.gate.sigma, start.unaryExpr([](double value) { return next_power_of_two(value); }),
+          (widen * 4).array().ceil().matrix() / 4, VectorXd::Constant(controller.size.ny, narrow)};
 }
 
 }  // namespace lqg::controller

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a gate opens again for an output that it leaves out, and how it narrows.
 #pragma once
 

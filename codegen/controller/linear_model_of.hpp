@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a linear form in many digits to the constants of a step, rounded once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the solution in many digits to the constants of a step, rounded once.
 #pragma once
 
@@ -56,8 +57,10 @@ void convert_steady(const Controller& controller, Round round, std::size_t sampl
   if (controller.has.feedthrough) model.D = convert<S>(plant.D, round);
   model.L = convert<S>(gains[0], round);
   if (controller.keeps.innovation) model.M = convert<S>(gains[1], round);
-  if (controller.has.gate) model.variance = convert<S>(gains[2], round);
-  else if (controller.has.variance) model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
+  if (controller.has.gate)
+    model.variance = convert<S>(gains[2], round);
+  else if (controller.has.variance)
+    model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
 }
 
 // The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
@@ -79,7 +82,7 @@ step::Vector<S> convert_limits(const Eigen::VectorXd& from, int inward, bool is_
 // u_rate T, rounded down; the largest number where there is no limit.
 inline Eigen::VectorXd rate_steps(const Controller& controller) {
   const double largest = controller.target.is_double ? std::numeric_limits<double>::max()
-                                                : static_cast<double>(std::numeric_limits<float>::max());
+                                                     : static_cast<double>(std::numeric_limits<float>::max());
   return (controller.problem.limits->u_rate * controller.problem.plant.sample_time).cwiseMin(largest);
 }
 
@@ -91,7 +94,8 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
     model.u_min = convert_limits<S>(limits->u_min, +1, controller.target.is_double);
     model.u_max = convert_limits<S>(limits->u_max, -1, controller.target.is_double);
   }
-  if (controller.has.rate_limit) model.u_step = convert_limits<S>(rate_steps(controller), -1, controller.target.is_double);
+  if (controller.has.rate_limit)
+    model.u_step = convert_limits<S>(rate_steps(controller), -1, controller.target.is_double);
   model.gives_change = controller.has.input_change;
   const std::vector<int> references = controller.references;
   model.nr = controller.size.nr;
@@ -100,7 +104,8 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
   model.H_input = convert<S>(gains[3], round);
   model.integral = controller.integrated;
   for (const int output : model.integral)
-    model.wanted.push_back(static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));
+    model.wanted.push_back(
+        static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));
   model.T = round(design::Real(controller.problem.plant.sample_time));
   model.xi_bound = controller.bounds.xi;
   model.error_limit = controller.bounds.error.template cast<S>();
@@ -146,8 +151,10 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
       model.gate_widen = in_target(controller.gate.widen);
       model.gate_narrow = in_target(controller.gate.narrow);
     }
-    if (solution.online) convert_online(controller, round, sample, model);
-    else convert_steady(controller, round, sample, gain_row, model);
+    if (solution.online)
+      convert_online(controller, round, sample, model);
+    else
+      convert_steady(controller, round, sample, gain_row, model);
   }
   if (controller.has.regulator) convert_regulator(controller, round, sample, model);
   return model;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The outputs as they are, for those who watch a filter that makes their noise uncorrelated.
 #pragma once
 

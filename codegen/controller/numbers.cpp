@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/numbers.hpp"
 
 #include <cmath>
@@ -53,10 +54,11 @@ class NumberCheck {
     const std::string entry = "[" + std::to_string(input) + "]";
     const double low = limit_of_target(u_min, +1, is_double_), high = limit_of_target(u_max, -1, is_double_);
     if (!are_apart(low, high))
-      return design::add_error(findings_, "limits." + std::string(std::isinf(u_max) ? "u_min" : "u_max") + entry,
-                               "expected limits with two numbers of " + scalar() +
-                                   " or more from one to the other, found " + design::decimal(u_min) + " and " + design::decimal(u_max) +
-                                   remedy(are_apart(limit_of_target(u_min, +1, true), limit_of_target(u_max, -1, true))));
+      return design::add_error(
+          findings_, "limits." + std::string(std::isinf(u_max) ? "u_min" : "u_max") + entry,
+          "expected limits with two numbers of " + scalar() + " or more from one to the other, found " +
+              design::decimal(u_min) + " and " + design::decimal(u_max) +
+              remedy(are_apart(limit_of_target(u_min, +1, true), limit_of_target(u_max, -1, true))));
     note_limit("limits.u_min" + entry, u_min, low);
     note_limit("limits.u_max" + entry, u_max, high);
   }
@@ -66,10 +68,10 @@ class NumberCheck {
     const double change = rate * sample_time;
     if (std::isinf(rate)) return;
     if (limit_of_target(std::min(change, largest()), -1, is_double_) == 0)
-      return design::add_error(findings_, key, "expected a change in a sample, u_rate · sample_time, that " + scalar() +
-                                                   " can tell from 0, found " + design::decimal(rate) + " · " +
-                                                   design::decimal(sample_time) +
-                                                   remedy(limit_of_target(change, -1, true) != 0));
+      return design::add_error(findings_, key,
+                               "expected a change in a sample, u_rate · sample_time, that " + scalar() +
+                                   " can tell from 0, found " + design::decimal(rate) + " · " +
+                                   design::decimal(sample_time) + remedy(limit_of_target(change, -1, true) != 0));
     if (change > largest()) note(key, rate, "times sample_time is beyond", "the largest number is the limit");
   }
 
@@ -89,15 +91,17 @@ class NumberCheck {
   }
 
   void refuse(const std::string& key, const std::string& what, double found, bool helps_in_double) {
-    design::add_error(findings_, key, "expected " + what + " that " + scalar() + " can tell from 0 and infinity, found " +
-                                          design::decimal(found) + remedy(helps_in_double));
+    design::add_error(findings_, key,
+                      "expected " + what + " that " + scalar() + " can tell from 0 and infinity, found " +
+                          design::decimal(found) + remedy(helps_in_double));
   }
   void note(const std::string& key, double value, const std::string& is, const std::string& consequence) {
     design::add_note(findings_, key, design::decimal(value) + " " + is + " " + scalar() + ": " + consequence);
   }
   void note_limit(const std::string& key, double limit, double rounded) {
     if (limit != 0 && rounded == 0) note(key, limit, "is too small for", "the limit becomes 0");
-    if (std::isfinite(limit) && std::abs(limit) > largest()) note(key, limit, "is beyond", "the largest number is the limit");
+    if (std::isfinite(limit) && std::abs(limit) > largest())
+      note(key, limit, "is beyond", "the largest number is the limit");
   }
 
   bool is_double_;
@@ -143,11 +147,13 @@ void check_numbers(const Controller& controller, design::Findings& findings) {
   NumberCheck check(controller.target.is_double, findings);
   check.keep("plant.sample_time", controller.problem.plant.sample_time);
   if (controller.has.filter) check_filter(controller, check);
-  const std::string law = controller.problem.regulator && controller.problem.regulator->poles ? "pole_placement" : "lqr";
+  const std::string law =
+      controller.problem.regulator && controller.problem.regulator->poles ? "pole_placement" : "lqr";
   for (const Gains& row : controller.laws) {
     if (check.has_failed()) return;
-    for (const auto& [what, at] : {std::pair("a gain K", 0), std::pair("Nbar, of the references,", 1),
-                                   std::pair("H, of the integrals at a limit,", 2), std::pair("H_input, of the integrals,", 3)})
+    for (const auto& [what, at] :
+         {std::pair("a gain K", 0), std::pair("Nbar, of the references,", 1),
+          std::pair("H, of the integrals at a limit,", 2), std::pair("H_input, of the integrals,", 3)})
       check.keep(law, what, row[static_cast<std::size_t>(at)], true);
   }
   if (controller.has.regulator && controller.problem.limits) check_limits(controller, check);
@@ -155,9 +161,11 @@ void check_numbers(const Controller& controller, design::Findings& findings) {
 
 void check_numbers(const design::LinearForm& form, bool is_double, design::Findings& findings) {
   NumberCheck check(is_double, findings);
-  const auto keep = [&](const RealMatrix& matrix) { check.keep("code.realisation", "a matrix of this form", matrix, true); };
-  for (const RealMatrix* matrix : {&form.A, &form.B, &form.C, &form.D, &form.expected, &form.estimate, &form.heard,
-                                   &form.of_state, &form.keep})
+  const auto keep = [&](const RealMatrix& matrix) {
+    check.keep("code.realisation", "a matrix of this form", matrix, true);
+  };
+  for (const RealMatrix* matrix :
+       {&form.A, &form.B, &form.C, &form.D, &form.expected, &form.estimate, &form.heard, &form.of_state, &form.keep})
     keep(*matrix);
   keep(form.z0);
 }

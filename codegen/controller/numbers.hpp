@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Are the numbers that a controller is made of numbers of its target?
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/recovery.hpp"
 
 #include <algorithm>
@@ -42,7 +43,8 @@ bool is_within(const MatrixXd& power, const VectorXd& start, const VectorXd& tar
 std::optional<long> samples_until(const MatrixXd& M, const VectorXd& start, const VectorXd& target) {
   std::vector<MatrixXd> squares = {M};  // M^(2^j)
   while (!is_within(squares.back(), start, target)) {
-    if (static_cast<int>(squares.size()) > longest_recovery_exponent || !squares.back().allFinite()) return std::nullopt;
+    if (static_cast<int>(squares.size()) > longest_recovery_exponent || !squares.back().allFinite())
+      return std::nullopt;
     squares.push_back(squares.back() * squares.back());
   }
   long outside = 0;
@@ -147,7 +149,8 @@ Loop loop_of(const Controller& controller) {
   const design::ClosedLoop loop =
       design::closed_loop(design::measured_plant(problem, plant), design::compensator(problem, controller.solution));
   const Index kept = problem.estimator && problem.estimator->form == design::Form::filter && !design::is_zero(plant.D)
-                         ? controller.size.nu : 0;
+                         ? controller.size.nu
+                         : 0;
   return {design::to_doubles(loop.A), controller.size.nx + kept};
 }
 
@@ -184,7 +187,8 @@ long samples_of_gate(const Controller& controller) {
 
 bool has_limits(const Controller& controller) {
   const auto& limits = controller.problem.limits;
-  return controller.has.regulator && limits && (limits->u_min.array().isFinite().any() || limits->u_max.array().isFinite().any());
+  return controller.has.regulator && limits &&
+         (limits->u_min.array().isFinite().any() || limits->u_max.array().isFinite().any());
 }
 
 // What the states can be before all begins anew.
@@ -209,7 +213,8 @@ Recovery recovery_of(const Controller& controller) {
   const std::optional<long> loop =
       controller.has.regulator ? samples_of_loop(controller, far, recovery) : std::optional<long>(0);
   if (!filter || !loop) return recovery;
-  const long schedule = controller.filters.empty() ? 0 : static_cast<long>(controller.filters.size()) - 1;  // a reset begins it anew
+  const long schedule =
+      controller.filters.empty() ? 0 : static_cast<long>(controller.filters.size()) - 1;  // a reset begins it anew
   const long deceived = samples_of_gate(controller) + *filter;
   const long settling = schedule + (controller.solution.online ? *filter : 0);
   const long way_back = has_limits(controller) ? deceived : 0;

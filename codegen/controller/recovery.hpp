@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In how many samples a controller is back to normal after a fault.
 #pragma once
 
@@ -10,9 +11,10 @@ struct Controller;
 
 // After one fault that ends: a flipped bit of the state, a spike, a drop-out.
 struct Recovery {
-  long samples = 0;         // until every state is `within` of what it would be without the fault; 0: no number can be said
-  Eigen::VectorXd within;   // nx: the standard deviation of the estimate in the steady state, or what is rounding beside its scale
-  std::vector<int> lasting; // states that no noise reaches and that do not die out: what a fault leaves there stays
+  long samples = 0;  // until every state is `within` of what it would be without the fault; 0: no number can be said
+  Eigen::VectorXd
+      within;  // nx: the standard deviation of the estimate in the steady state, or what is rounding beside its scale
+  std::vector<int> lasting;  // states that no noise reaches and that do not die out: what a fault leaves there stays
 };
 
 // Of a controller with a filter, whose gains, bounds and gate are there. It is the sum of

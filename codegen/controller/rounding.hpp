@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many digits to the target's number, rounded once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/stage_in_force.hpp"
 
 namespace lqg::controller {

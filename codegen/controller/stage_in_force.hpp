@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is in force in a sample of a design with stages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "controller/state_fields.hpp"
 
 #include "controller/model_of.hpp"
@@ -19,7 +20,8 @@ void add_estimate(const Controller& controller, Fields& fields) {
   const auto model =
       model_of<double>(controller, [&](const design::Real& value) { return rounded_to_target(value, is_double); });
   const auto size = [](const std::vector<double>& values) { return static_cast<int>(values.size()); };
-  add_reals(fields, "x", model.nx, "{NAME}_NX", "x̂, the estimate: of this sample after update, of the next after predict",
+  add_reals(fields, "x", model.nx, "{NAME}_NX",
+            "x̂, the estimate: of this sample after update, of the next after predict",
             {model.x0.data(), model.x0.data() + model.nx});
   add_reals(fields, "P", size(model.P0), std::to_string(model.P0.size()),
             "covariance of its error: lower triangle, row by row, P_ij at [i*(i+1)/2 + j]", model.P0);
@@ -44,7 +46,8 @@ void add_law(const Controller& controller, Fields& fields) {
 
 void add_linear_state(const Controller& controller, Fields& fields) {
   std::vector<double> z0;
-  for (int i = 0; i < controller.size.nz; ++i) z0.push_back(rounded_to_target(controller.linear->z0(i), controller.target.is_double));
+  for (int i = 0; i < controller.size.nz; ++i)
+    z0.push_back(rounded_to_target(controller.linear->z0(i), controller.target.is_double));
   add_reals(fields, "z", controller.size.nz, "{NAME}_NZ", "the numbers that stand for x̂, see above", z0);
   if (!controller.is_predictor)
     add_reals(fields, "y", controller.size.ny, "{NAME}_NY", "the outputs that control has heard, for advance");
@@ -54,7 +57,8 @@ void add_linear_state(const Controller& controller, Fields& fields) {
 
 std::vector<Field> state_fields(const Controller& controller) {
   Fields fields;
-  const Field resets = {"resets", Kind::total, 1, "", "how often it began anew, since init; after ULONG_MAX comes 0", {}};
+  const Field resets = {"resets", Kind::total, 1, "", "how often it began anew, since init; after ULONG_MAX comes 0",
+                        {}};
   if (controller.linear) {
     add_linear_state(controller, fields);
     fields.push_back(resets);
@@ -62,22 +66,31 @@ std::vector<Field> state_fields(const Controller& controller) {
   }
   if (controller.has.filter) add_estimate(controller, fields);
   if (controller.keeps.input)
-    add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU", "the input that acts: of the last predict or control");
+    add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU",
+              "the input that acts: of the last predict or control");
   if (controller.has.gate)
     add_reals(fields, "widening", controller.size.ny, "{NAME}_NY",
-              "how much wider than its σ the gate is, squared: more while an output is left out", start_of_gate(controller));
+              "how much wider than its σ the gate is, squared: more while an output is left out",
+              start_of_gate(controller));
   if (controller.keeps.innovation)
-    add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY", "what predict has yet to hear of the last outputs");
+    add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY",
+              "what predict has yet to hear of the last outputs");
   if (controller.has.servo) add_law(controller, fields);
   if (controller.keeps.sample)
-    fields.push_back({"sample", Kind::counter, 1, "", "how many samples are over; stops with the last that has gains of its own", {}});
+    fields.push_back({"sample",
+                      Kind::counter,
+                      1,
+                      "",
+                      "how many samples are over; stops with the last that has gains of its own",
+                      {}});
   if (controller.keeps.gain_row)
     fields.push_back({"gain_row", Kind::counter, 1, "", "the same for the filter's gains; 0 after a reset", {}});
   if (controller.has.filter) fields.push_back(resets);
   if (controller.solution.online)
     fields.push_back({"covariance_resets", Kind::total, 1, "", "how often P alone began anew, likewise", {}});
   if (controller.has.gate)
-    fields.push_back({"gated", Kind::counters, controller.size.ny, "{NAME}_NY", "how often the gate left an output out", {}});
+    fields.push_back(
+        {"gated", Kind::counters, controller.size.ny, "{NAME}_NY", "how often the gate left an output out", {}});
   return fields;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the struct NAME_t holds.
 #pragma once
 
@@ -15,7 +16,7 @@ struct Field {
   std::string name;
   Kind kind = Kind::reals;
   int count = 1;
-  std::string dimension;        // of an array, in C
+  std::string dimension;  // of an array, in C
   std::string comment;
   std::vector<double> initial;  // numbers of the target; empty: 0
 };

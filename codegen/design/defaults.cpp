@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/defaults.hpp"
 
 namespace lqg::design {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a design file may leave out, for problems that are made in C++.
 #pragma once
 

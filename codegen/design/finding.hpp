@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is wrong with a design, or worth a note, and under which key of the design file.
 #pragma once
 

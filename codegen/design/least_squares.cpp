@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/least_squares.hpp"
 
 #include "design/numeric/exact_reach.hpp"
@@ -39,17 +40,16 @@ std::optional<LeastSquares> solve_in_present_digits(const Eigen::MatrixXd& C, co
   const Index nx = C.cols();
   const RealMatrix seen = real(C);
   const RealMatrix weighed = *solve(real(V), beside(seen, real(y)));
-  const std::optional<RealMatrix> both =
-      solve(transpose_multiply(seen, weighed.leftCols(nx)),
-            beside(transpose_multiply(seen, weighed.rightCols(1)), identity(nx)));
+  const std::optional<RealMatrix> both = solve(transpose_multiply(seen, weighed.leftCols(nx)),
+                                               beside(transpose_multiply(seen, weighed.rightCols(1)), identity(nx)));
   if (!both) return std::nullopt;
   return LeastSquares{both->col(0), symmetric_part(both->rightCols(nx)), Real::default_precision()};
 }
 
 }  // namespace
 
-std::optional<LeastSquares> least_squares(const Eigen::MatrixXd& C, const Eigen::MatrixXd& V,
-                                          const Eigen::VectorXd& y, Findings& findings) {
+std::optional<LeastSquares> least_squares(const Eigen::MatrixXd& C, const Eigen::MatrixXd& V, const Eigen::VectorXd& y,
+                                          Findings& findings) {
   std::optional<LeastSquares> coarse;
   unsigned coarse_digits = 0;
   for (const unsigned digits : {50u, 100u, 200u, 400u}) {
@@ -60,13 +60,14 @@ std::optional<LeastSquares> least_squares(const Eigen::MatrixXd& C, const Eigen:
       const Index rank = reached_dimension(Eigen::MatrixXd::Zero(C.cols(), C.cols()), C.transpose());
       if (rank < C.cols()) {
         add_error(findings, "C",
-                  "has the rank " + text_of(rank) + ", expected " + text_of(C.cols())
-                      + ": the outputs do not determine " + undetermined(C));
+                  "has the rank " + text_of(rank) + ", expected " + text_of(C.cols()) +
+                      ": the outputs do not determine " + undetermined(C));
         return std::nullopt;
       }
     }
     std::optional<LeastSquares> fine = solve_in_present_digits(C, V, y);
-    if (coarse && fine && passes_ziv_test(coarse->x, fine->x, coarse_digits) && passes_ziv_test(coarse->P, fine->P, coarse_digits))
+    if (coarse && fine && passes_ziv_test(coarse->x, fine->x, coarse_digits) &&
+        passes_ziv_test(coarse->P, fine->P, coarse_digits))
       return fine;
     coarse = std::move(fine);
     coarse_digits = digits;

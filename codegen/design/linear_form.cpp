@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/linear_form.hpp"
 
 #include <algorithm>
@@ -83,7 +84,8 @@ double cancellation(const LinearForm& form, const std::vector<Index>& starts) {
   const RealMatrix C = above(form.C, form.estimate), D = above(form.D, form.heard);
   RealMatrix parts = D.cwiseAbs(), whole = D.cwiseProduct(D);
   for (Index j = 0; j < D.cols(); ++j) {
-    const std::optional<RealMatrix> P = solve_stein(form.A.transpose(), multiply_transpose(form.B.col(j), form.B.col(j)));
+    const std::optional<RealMatrix> P =
+        solve_stein(form.A.transpose(), multiply_transpose(form.B.col(j), form.B.col(j)));
     if (!P) return std::numeric_limits<double>::infinity();
     for (Index i = 0; i < D.rows(); ++i) {
       whole(i, j) += congruence(C.row(i), *P)(0, 0);
@@ -132,7 +134,8 @@ bool form_passes_ziv_test(const LinearForm& coarse, LinearForm& fine, unsigned c
   const auto before = matrices_of(coarse);
   const auto after = matrices_of(fine);
   bool settled = true;
-  for (std::size_t i = 0; i < after.size(); ++i) settled = passes_ziv_test(*before[i], *after[i], coarse_digits) && settled;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    settled = passes_ziv_test(*before[i], *after[i], coarse_digits) && settled;
   return settled;
 }
 
@@ -173,7 +176,8 @@ LinearFormResult settled_form(const Problem& problem, const Solution& solution, 
                   short_number(most) + " will do");
   if (!form_passes_ziv_test(*coarse, *result.form, digits / 2))
     return refuse(std::to_string(digits / 2) + " digits do not settle its numbers");
-  if (!fits(*result.form, problem.code.real)) return refuse("a number of it is too large for " + name_of(problem.code.real));
+  if (!fits(*result.form, problem.code.real))
+    return refuse("a number of it is too large for " + name_of(problem.code.real));
   return result;
 }
 
@@ -213,7 +217,8 @@ void check_rounded_form(const Problem& problem, const LinearForm& form, Solution
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   if (!solution.loop.rounded) return;
   const auto controller_in = [&](Scalar real) -> Compensator {
-    return {held_by(real, form.A), held_by(real, form.B), held_by(real, form.C), held_by(real, form.D), form.A.rows(), 0};
+    return {held_by(real, form.A), held_by(real, form.B), held_by(real, form.C),
+            held_by(real, form.D), form.A.rows(),         0};
   };
   check_rounded_controller(problem, sample_stages(problem).back(), controller_in, solution, findings);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The controller as one linear system in numbers z of its own: fewer operations than x̂ takes.
 #pragma once
 

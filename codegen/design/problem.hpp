@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A control problem as a design file states it: the doubles of the file, nothing computed yet.
 //
 // Shapes and finiteness hold when a Problem leaves `input`; what the file left out has its default here:
@@ -61,20 +62,20 @@ constexpr int most_steps = 100000;
 enum class AntiWindup { model, conditioning };
 
 struct Regulator {
-  Eigen::MatrixXd Q, R, N;          // Q and R are empty where Q_output or bryson give them
-  Eigen::MatrixXd Q_output;         // ny × ny instead of Q, or empty: yᵀ Q_output y with y = Cx + Du
-  std::optional<Bryson> bryson;     // instead of Q and R
+  Eigen::MatrixXd Q, R, N;       // Q and R are empty where Q_output or bryson give them
+  Eigen::MatrixXd Q_output;      // ny × ny instead of Q, or empty: yᵀ Q_output y with y = Cx + Du
+  std::optional<Bryson> bryson;  // instead of Q and R
   Cost cost = Cost::sampled;
   std::optional<double> decay;          // α: every closed-loop pole inside |z| < 1/α, or left of −α 1/s
   std::optional<double> settling_time;  // s, to 1 %: α = 100^(T/ts), or ln(100)/ts
-  int horizon = 0;                  // 0: infinite
-  Eigen::MatrixXd Q_final;          // nx × nx, or empty: 0
-  Eigen::MatrixXd structure;        // nu × nx of 0 and 1, or empty: the entries of K that may differ from 0
+  int horizon = 0;                      // 0: infinite
+  Eigen::MatrixXd Q_final;              // nx × nx, or empty: 0
+  Eigen::MatrixXd structure;            // nu × nx of 0 and 1, or empty: the entries of K that may differ from 0
   std::optional<Integral> integral;
-  std::vector<int> track;           // outputs that follow r by feed-forward
+  std::vector<int> track;                      // outputs that follow r by feed-forward
   AntiWindup anti_windup = AntiWindup::model;  // what ξ is made true to where a limit holds u: the state, or u
-  Eigen::MatrixXd input_rate;       // nu × nu, or empty: the weight on Δu, a sample
-  std::optional<WantedPoles> poles; // [pole_placement]: K has these poles; no weight is there then
+  Eigen::MatrixXd input_rate;                  // nu × nu, or empty: the weight on Δu, a sample
+  std::optional<WantedPoles> poles;            // [pole_placement]: K has these poles; no weight is there then
 };
 
 // Placed poles need no weights.
@@ -91,16 +92,16 @@ struct Estimator {
   Eigen::VectorXd process_correlation_time, measurement_correlation_time;  // s, or empty: W and V are densities
   Noise noise = Noise::continuous;
   Gain gain = Gain::steady;
-  int horizon = 0;                  // of a schedule; 0: until converged
+  int horizon = 0;  // of a schedule; 0: until converged
   Form form = Form::filter;
   Covariance covariance = Covariance::ud;
   Eigen::VectorXd x0;
   Eigen::MatrixXd P0;
-  double gate = 0;                  // σ; 0: none
+  double gate = 0;                         // σ; 0: none
   Eigen::VectorXd output_min, output_max;  // what a sensor can say at all, or empty; infinite: anything
-  std::optional<double> spike;      // σ, or infinite for none; not given: that of the default where there can be one
-  Eigen::MatrixXd structure;        // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
-  std::optional<WantedPoles> poles; // [observer]: L has these poles; no noise is there then
+  std::optional<double> spike;       // σ, or infinite for none; not given: that of the default where there can be one
+  Eigen::MatrixXd structure;         // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
+  std::optional<WantedPoles> poles;  // [observer]: L has these poles; no noise is there then
 };
 
 // Placed poles need no noise.

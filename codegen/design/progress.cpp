@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/progress.hpp"
 
 #include <chrono>
@@ -31,8 +32,8 @@ void report_progress(const char* work, long step, long all) {
   const Clock::time_point now = Clock::now();
   if (now - listener.last < std::chrono::seconds(1)) return;
   listener.last = now;
-  (*listener.progress)(std::string(work) + " in " + std::to_string(Real::default_precision()) + " digits, step "
-                       + std::to_string(step) + (all > 0 ? " of " + std::to_string(all) : ""));
+  (*listener.progress)(std::string(work) + " in " + std::to_string(Real::default_precision()) + " digits, step " +
+                       std::to_string(step) + (all > 0 ? " of " + std::to_string(all) : ""));
 }
 
 }  // namespace lqg::design

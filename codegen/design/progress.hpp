@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A line now and then from long work, for a person who waits.
 #pragma once
 

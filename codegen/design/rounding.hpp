@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From many digits to the numbers of a machine: correctly rounded, to nearest even, subnormals included. Whatever digits are
 // in force elsewhere: a number brings its own.
 #pragma once
@@ -18,8 +19,12 @@ auto rounded_entries(const Eigen::MatrixBase<Derived>& matrix, Round round) {
   return result;
 }
 template <class Derived>
-auto to_doubles(const Eigen::MatrixBase<Derived>& matrix) { return rounded_entries<double>(matrix, to_double); }
+auto to_doubles(const Eigen::MatrixBase<Derived>& matrix) {
+  return rounded_entries<double>(matrix, to_double);
+}
 template <class Derived>
-auto to_floats(const Eigen::MatrixBase<Derived>& matrix) { return rounded_entries<float>(matrix, to_float); }
+auto to_floats(const Eigen::MatrixBase<Derived>& matrix) {
+  return rounded_entries<float>(matrix, to_float);
+}
 
 }  // namespace lqg::design

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the design engine found, in many digits: every number here rounds correctly to `double` and to `float`.
 #pragma once
 
@@ -33,7 +34,7 @@ struct Margins {
   std::optional<double> gain_dB, phase_deg, disk;
   std::optional<double> gain_up_dB, gain_down_dB;  // how far the gain may rise and fall; gain_dB is the lesser
   std::optional<double> delay_samples;             // what a delay may add
-  std::optional<double> crossover;                 // rad a sample: where the gain is 1 and the phase margin is the least
+  std::optional<double> crossover;  // rad a sample: where the gain is 1 and the phase margin is the least
 };
 
 // Of the loop at work, with its noises: root mean squares, in the signals' units.
@@ -43,10 +44,10 @@ struct Rms {
 
 // What keeping only some entries of a gain costs.
 struct StructureReport {
-  RealMatrix full;         // the gain without structure
+  RealMatrix full;  // the gain without structure
   Poles full_poles;
-  double cost_ratio = 1;   // of the structured gain's cost to the full one's
-  Margins full_margins;    // at the plant's inputs
+  double cost_ratio = 1;  // of the structured gain's cost to the full one's
+  Margins full_margins;   // at the plant's inputs
 };
 
 // u = −K z + Nbar r, z = [x; ξ of `integral`; u[k−1] with `input_rate`: then Δu is what the law gives];
@@ -58,9 +59,9 @@ struct RegulatorSolution {
   Poles poles;                         // of z⁺ = A z + B u under u = −K z
   std::vector<RealMatrix> K_schedule;  // with a horizon or stages: K of step 0, 1, …; K from its end on
   RealMatrix X0;                       // the cost to go from step 0, with a schedule
-  RealMatrix Nx, Nu, Nbar;             // with `track`: the set point (x, u) of r; Nbar = Nu + (Kx − Kξ Γ) Nx, over all r
-  RealMatrix Gamma;                    // with `integral`: ξ + Γ x is what of ξ the model does not explain; or empty
-  RealMatrix H;                        // with Γ: ξ + H (u − v) keeps it true where u was applied in place of v
+  RealMatrix Nx, Nu, Nbar;  // with `track`: the set point (x, u) of r; Nbar = Nu + (Kx − Kξ Γ) Nx, over all r
+  RealMatrix Gamma;         // with `integral`: ξ + Γ x is what of ξ the model does not explain; or empty
+  RealMatrix H;             // with Γ: ξ + H (u − v) keeps it true where u was applied in place of v
   std::optional<StructureReport> structure;
 };
 
@@ -70,8 +71,9 @@ struct EstimatorSolution {
   SampledNoise noise;
   RealMatrix L, M, L_predictor;
   RealMatrix P_prior, P_posterior, S;
-  RealMatrix L_continuous, P_continuous;  // of the unsampled filter x̂' = A x̂ + B u + L (y − Cx̂ − Du), with noise that is continuous
-  Poles poles;  // of A − L_predictor C
+  RealMatrix L_continuous,
+      P_continuous;  // of the unsampled filter x̂' = A x̂ + B u + L (y − Cx̂ − Du), with noise that is continuous
+  Poles poles;       // of A − L_predictor C
   std::vector<RealMatrix> L_schedule, M_schedule;  // of sample 0, 1, …; L and M from the end on
   std::optional<StructureReport> structure;
 };
@@ -113,25 +115,25 @@ struct RoundedLoop {
 struct LoopSolution {
   Poles poles;
   std::optional<double> cost_per_sample;
-  std::optional<double> cost_per_second;   // of the continuous cost
-  Margins at_input;   // gain and phase: the smallest over the inputs, one opened at a time; disk: all at once,
-  Margins at_output;  // symmetric, (S − T)/2; likewise over the outputs that the filter uses
-  std::optional<Rms> rms;   // with noise
+  std::optional<double> cost_per_second;  // of the continuous cost
+  Margins at_input;        // gain and phase: the smallest over the inputs, one opened at a time; disk: all at once,
+  Margins at_output;       // symmetric, (S − T)/2; likewise over the outputs that the filter uses
+  std::optional<Rms> rms;  // with noise
   std::optional<RoundedLoop> rounded;
 };
 
 struct Numerics {
-  unsigned digits = 0;      // with which the last of the two runs was made
-  double condition = 0;     // of the worst-conditioned equation that was solved
+  unsigned digits = 0;   // with which the last of the two runs was made
+  double condition = 0;  // of the worst-conditioned equation that was solved
 };
 
 struct Solution {
   SampledPlant plant;
   std::optional<RegulatorSolution> regulator;
-  std::optional<SampledNoise> noise;     // with an estimator that has noise, before any stage
+  std::optional<SampledNoise> noise;           // with an estimator that has noise, before any stage
   std::optional<EstimatorSolution> estimator;  // empty beside `online` where the filter never becomes steady
-  std::optional<OnlineSolution> online;  // with Gain::online only
-  std::vector<StageSolution> stages;     // by rising `from`
+  std::optional<OnlineSolution> online;        // with Gain::online only
+  std::vector<StageSolution> stages;           // by rising `from`
   LoopSolution loop;
   Numerics numerics;
 };

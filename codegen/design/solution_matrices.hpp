@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every matrix of a solution, one after the other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/solve.hpp"
 
 #include <algorithm>
@@ -49,8 +50,7 @@ Numbers numbers_of(const Solution& solution) {
 // False, too, when one has more matrices: a schedule became longer.
 bool matrices_pass_ziv_test(const Solution& coarse, Solution& fine, unsigned coarse_digits) {
   const Numbers before = numbers_of(coarse), after = numbers_of(fine);
-  if (before.matrices.size() != after.matrices.size() || before.vectors.size() != after.vectors.size())
-    return false;
+  if (before.matrices.size() != after.matrices.size() || before.vectors.size() != after.vectors.size()) return false;
   std::size_t matrix = 0, vector = 0;
   bool settled = true;
   for_each_matrix(fine, [&](const char*, Place, auto& a) {
@@ -112,9 +112,9 @@ bool is_well_posed(const Problem& problem, Findings& findings) {
     Findings of_stage;
     check_matrices(problems[i], of_stage);
     for (const Finding& finding : of_stage)
-      findings.push_back({finding.severity, "stage",
-                          "from step " + std::to_string(problem.stages[i - 1].from) + " on, " + finding.key + ": "
-                              + finding.message});
+      findings.push_back(
+          {finding.severity, "stage",
+           "from step " + std::to_string(problem.stages[i - 1].from) + " on, " + finding.key + ": " + finding.message});
   }
   return !has_error(findings);
 }
@@ -147,8 +147,8 @@ bool is_for_ever(const std::optional<Estimator>& estimator) {
 }
 
 bool keeps_distance(const Problem& problem, const DesignRun& coarse, const DesignRun& fine) {
-  return (!is_for_ever(problem.regulator) || keeps_distance(coarse.regulator_poles, fine.regulator_poles))
-         && (!is_for_ever(problem.estimator) || keeps_distance(coarse.estimator_poles, fine.estimator_poles));
+  return (!is_for_ever(problem.regulator) || keeps_distance(coarse.regulator_poles, fine.regulator_poles)) &&
+         (!is_for_ever(problem.estimator) || keeps_distance(coarse.estimator_poles, fine.estimator_poles));
 }
 
 // Has a pole no place but the circle to go to? From run to run it comes nearer, as near as the digits let it.
@@ -179,12 +179,12 @@ void check_tendencies(const Problem& problem, const DesignRun& coarse, const Des
   const std::string limit = " on the stability limit: that mode carries no ";
   if (is_for_ever(problem.regulator) && tendencies.regulator.continues(coarse.regulator_poles, fine.regulator_poles))
     add_error(findings, "lqr.Q",
-              "a closed-loop pole tends to z = " + tendencies.regulator.pole() + limit
-                  + "weight, and no stabilising gain is optimal");
+              "a closed-loop pole tends to z = " + tendencies.regulator.pole() + limit +
+                  "weight, and no stabilising gain is optimal");
   if (is_for_ever(problem.estimator) && tendencies.estimator.continues(coarse.estimator_poles, fine.estimator_poles))
     add_error(findings, "kalman.process_noise",
-              "a pole of the filter tends to z = " + tendencies.estimator.pole() + limit
-                  + "noise, and no stable steady filter is optimal");
+              "a pole of the filter tends to z = " + tendencies.estimator.pole() + limit +
+                  "noise, and no stable steady filter is optimal");
 }
 
 }  // namespace
@@ -203,13 +203,13 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
     const bool refused = coarse && failed && !fine.may_want_digits && same(coarse->findings, fine.findings);
     if (refused || (failed && digits == runs.back())) {
       for (Finding finding : fine.findings) {
-        if (fine.may_want_digits)
-          finding.message += " (or " + std::to_string(digits) + " digits are too few to tell)";
+        if (fine.may_want_digits) finding.message += " (or " + std::to_string(digits) + " digits are too few to tell)";
         findings.push_back(finding);
       }
       return std::nullopt;
     }
-    if (has_start && !failed && keeps_distance(problem, *coarse, fine) && run_passes_ziv_test(*coarse, fine, coarse_digits)) {
+    if (has_start && !failed && keeps_distance(problem, *coarse, fine) &&
+        run_passes_ziv_test(*coarse, fine, coarse_digits)) {
       finish(problem, fine, digits, findings);
       if (has_error(findings)) return std::nullopt;
       return fine.solution;
@@ -219,9 +219,8 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
     coarse = std::move(fine);
     coarse_digits = digits;
   }
-  add_error(
-      findings, "design",
-      "the problem is so ill conditioned that " + std::to_string(runs.back()) + " digits do not settle it");
+  add_error(findings, "design",
+            "the problem is so ill conditioned that " + std::to_string(runs.back()) + " digits do not settle it");
   return std::nullopt;
 }
 

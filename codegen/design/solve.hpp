@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The door to the design engine: from a problem to its solution.
 #pragma once
 

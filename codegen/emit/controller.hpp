@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every part of emit calls the data that it writes down.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/assemble.hpp"
 
 #include <limits>
@@ -27,8 +28,7 @@ Eigen::MatrixXd identity_or(const Values& values, const std::string& key, int si
 }
 
 // Names of the file, or "x0", "x1" …
-std::vector<design::Signal> signals(const Values& values, const std::string& key, const char* letter,
-                                    int count) {
+std::vector<design::Signal> signals(const Values& values, const std::string& key, const char* letter, int count) {
   const auto found = values.signals.find(key);
   if (found != values.signals.end()) return found->second;
   std::vector<design::Signal> result;
@@ -123,8 +123,8 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   design::Estimator result;
   result.W = *values.matrix("kalman.process_noise");
   result.V = *values.matrix("kalman.measurement_noise");
-  result.Swv = zero_or(values, "kalman.cross_noise", static_cast<int>(plant.G.cols()),
-                       static_cast<int>(plant.C.rows()));
+  result.Swv =
+      zero_or(values, "kalman.cross_noise", static_cast<int>(plant.G.cols()), static_cast<int>(plant.C.rows()));
   const std::string noise = values.text("kalman.noise");
   const bool discrete = noise.empty() ? plant.domain == design::Domain::discrete : noise == "discrete";
   result.noise = discrete ? design::Noise::discrete : design::Noise::continuous;

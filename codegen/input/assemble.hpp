@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The problem that a file without errors states, with the defaults of what it leaves out.
 #pragma once
 

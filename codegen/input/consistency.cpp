@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/consistency.hpp"
 
 #include <algorithm>
@@ -26,8 +27,7 @@ void check_tables(const Values& values, Report& report) {
     report.error("pole_placement", "expected [lqr] or [pole_placement], found both");
   if (values.has("kalman") && values.has("observer"))
     report.error("observer", "expected [kalman] or [observer], found both");
-  if (values.tables.count("limits") != 0 &&
-      !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate"}))
+  if (values.tables.count("limits") != 0 && !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate"}))
     report.error("limits", "expected u_min, u_max or both, found neither");
   if (values.tables.count("plant") == 0) return;
   for (const char* key : {"lqr", "pole_placement"})
@@ -146,8 +146,7 @@ void check_numbers(const Values& values, Report& report) {
   double before = 0;
   for (const std::string& stage : values.tables_of("stage")) {
     const double from = values.number(stage + ".from", before + 1);
-    if (from <= before)
-      report.error(stage + ".from", "expected more than " + shown(before) + ", found " + shown(from));
+    if (from <= before) report.error(stage + ".from", "expected more than " + shown(before) + ", found " + shown(from));
     before = from;
   }
 }
@@ -193,10 +192,8 @@ bool make_symmetric(Values& values, const std::string& key, Report& report) {
   const Asymmetry worst = worst_asymmetry(found->second);
   const std::string row = std::to_string(worst.row);
   const std::string column = std::to_string(worst.column);
-  const std::string entry =
-      "[" + row + "][" + column + "] = " + shown(found->second(worst.row, worst.column));
-  const std::string mirror =
-      "[" + column + "][" + row + "] = " + shown(found->second(worst.column, worst.row));
+  const std::string entry = "[" + row + "][" + column + "] = " + shown(found->second(worst.row, worst.column));
+  const std::string mirror = "[" + column + "][" + row + "] = " + shown(found->second(worst.column, worst.row));
   if (worst.size > symmetry_tolerance) {
     report.error(key, "expected a symmetric matrix, found " + entry + " and " + mirror);
     return false;
@@ -217,8 +214,8 @@ bool check_weight(Values& values, const std::string& key, bool strictly, Report&
   return false;
 }
 
-void check_joint(const Values& values, const std::string& first, const std::string& cross,
-                 const std::string& second, const std::string& layout, Report& report) {
+void check_joint(const Values& values, const std::string& first, const std::string& cross, const std::string& second,
+                 const std::string& layout, Report& report) {
   const Eigen::MatrixXd* N = values.matrix(cross);
   const Eigen::MatrixXd* Q = values.matrix(first);
   const Eigen::MatrixXd* R = values.matrix(second);
@@ -235,8 +232,8 @@ void check_definiteness(Values& values, Report& report) {
   const bool helped = values.has("plant.H");  // noise on every output may come from H, too
   const bool V = check_weight(values, "kalman.measurement_noise", !helped, report);
   if (W && V)
-    check_joint(values, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise",
-                "[W Swv; Swvᵀ V]", report);
+    check_joint(values, "kalman.process_noise", "kalman.cross_noise", "kalman.measurement_noise", "[W Swv; Swvᵀ V]",
+                report);
   for (const char* key :
        {"lqr.Q_output", "lqr.Q_final", "lqr.integral.Q", "lqr.input_rate", "kalman.initial_covariance"})
     check_weight(values, key, false, report);
@@ -258,9 +255,9 @@ void check_range(const Values& values, const std::string& table, const std::stri
     const double least = lower != nullptr ? (*lower)(i, 0) : -infinity;
     const double most = upper != nullptr ? (*upper)(i, 0) : infinity;
     if (least < most) continue;
-    report.error(table + (upper != nullptr ? high : low),
-                 "expected " + low + " < " + high + ", found " + shown(least) + " and " + shown(most) + " for " +
-                     signal + " " + std::to_string(i));
+    report.error(table + (upper != nullptr ? high : low), "expected " + low + " < " + high + ", found " + shown(least) +
+                                                              " and " + shown(most) + " for " + signal + " " +
+                                                              std::to_string(i));
   }
 }
 
@@ -269,8 +266,8 @@ void check_limits(const Values& values, Report& report) {
   if (const Eigen::MatrixXd* rate = values.matrix("limits.u_rate"))
     for (int i = 0; i < rate->rows(); ++i)
       if (!((*rate)(i, 0) > 0))
-        report.error("limits.u_rate", "expected numbers > 0, found " + shown((*rate)(i, 0)) + " for input " +
-                                          std::to_string(i));
+        report.error("limits.u_rate",
+                     "expected numbers > 0, found " + shown((*rate)(i, 0)) + " for input " + std::to_string(i));
   check_range(values, "limits.", "u_min", "u_max", "input", report);
   check_range(values, "kalman.", "output_min", "output_max", "output", report);
 }

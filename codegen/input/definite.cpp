@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/definite.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Symmetry and definiteness of weights and covariances.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/design_file.hpp"
 
 #include <algorithm>
@@ -31,9 +32,7 @@ DesignFile unreadable(const std::string& reason) {
 }
 
 // Stands for a place where no key is known.
-std::string place_key(Location where) {
-  return "@" + std::to_string(where.line) + ":" + std::to_string(where.column);
-}
+std::string place_key(Location where) { return "@" + std::to_string(where.line) + ":" + std::to_string(where.column); }
 
 DesignFile refused(const std::string& text, const std::vector<Fault>& faults) {
   DesignFile file;
@@ -106,8 +105,7 @@ void sort_by_place(const DesignFile& file, design::Findings& findings) {
     const Location where = locate(file, finding.key);
     return std::pair(where.line, where.column);
   };
-  std::stable_sort(findings.begin(), findings.end(),
-                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  std::stable_sort(findings.begin(), findings.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
 }
 
 std::string format(const std::string& path, Location where, const design::Finding& finding) {

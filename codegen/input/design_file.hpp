@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The design file: read, checked, and every finding with its place.
 //
 // A key is written as in the file, "kalman.gain"; rows, entries and names count from 0: "plant.A[2]",

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/document.hpp"
 
 #include <algorithm>
@@ -41,8 +42,7 @@ void convert_table(const toml::table& table, Node& result) {
   for (const auto& [key, value] : table)
     members.push_back({{std::string(key.str()), location(key.source().begin)}, &value});
   std::sort(members.begin(), members.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first.where.line, a.first.where.column) <
-           std::pair(b.first.where.line, b.first.where.column);
+    return std::pair(a.first.where.line, a.first.where.column) < std::pair(b.first.where.line, b.first.where.column);
   });
   for (const auto& [key, value] : members) {
     result.keys.push_back(key);
@@ -99,11 +99,9 @@ Fault find_assertion(const std::string& text) {
   const std::string_view before = std::string_view(text).substr(0, passes);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t line_start = before.rfind('\n') == before.npos ? 0 : before.rfind('\n') + 1;
-  const auto column =
-      1 + std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start), before.end(),
-                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; });
-  return {{static_cast<int>(line), static_cast<int>(column)},
-          "not TOML: unexpected `" + text.substr(passes, 1) + "`"};
+  const auto column = 1 + std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start), before.end(),
+                                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; });
+  return {{static_cast<int>(line), static_cast<int>(column)}, "not TOML: unexpected `" + text.substr(passes, 1) + "`"};
 }
 
 std::string_view line_of(std::string_view text, int line) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A TOML text as a tree of values with their places. The one file that sees toml++ is document.cpp.
 #pragma once
 

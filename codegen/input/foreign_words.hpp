@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Words of MATLAB, python-control and textbooks for keys of the design file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The table of keys: what the reader of files accepts, and what reference, schema and manual page say of it.
 #include "input/keys.hpp"
 
@@ -14,6 +15,7 @@ std::vector<KeyRule> table_of_keys() {
   constexpr auto required = Need::required;
   constexpr auto optional = Need::optional;
 
+  // clang-format off
   return {
       {"name", Type::identifier, no, no, required, {},
        "Name of the controller: a C identifier in lower case, at most 31 characters. All emitted names begin with it. "
@@ -221,6 +223,7 @@ std::vector<KeyRule> table_of_keys() {
        "Flash in bytes that code and constants of the controller may take.", "16384",
        "README.md#what-it-states-of-flash-and-stack"},
   };
+  // clang-format on
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/keys.hpp"
 
 #include <algorithm>
@@ -33,9 +34,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 // How far apart two names of this length may be and still be meant alike.
-std::size_t near_distance(std::size_t length) {
-  return length <= 2 ? 0 : length <= 4 ? 1 : length <= 8 ? 2 : 3;
-}
+std::size_t near_distance(std::size_t length) { return length <= 2 ? 0 : length <= 4 ? 1 : length <= 8 ? 2 : 3; }
 
 constexpr std::size_t longest_word = 32;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The keys of a design file, one row each. The reader of files checks by this table, and the reference, the schema and
 // the manual page are made from it.
 #pragma once
@@ -15,19 +16,19 @@ enum class Type {
   word,        // one of `words`
   positive,    // a number > 0
   not_negative,
-  threshold,   // a number > 0, or inf
-  whole,       // a whole number ≥ 1
-  steps,       // a number of samples that have gains of their own, 0 to most_steps
-  step,        // the number of such a sample, ≥ 1
-  matrix,      // an array of rows
-  weight,      // a square symmetric matrix, or the array of its diagonal
-  mask,        // a matrix of 0 and 1
-  vector,      // an array of numbers
-  positives,   // the same, all > 0
-  bounds,      // the same, infinite ones too
-  indices,     // an array of different whole numbers from 0 to below `rows`
-  poles,       // an array of numbers and of [re, im], conjugates in pairs
-  signals      // an array of "name [unit]"
+  threshold,  // a number > 0, or inf
+  whole,      // a whole number ≥ 1
+  steps,      // a number of samples that have gains of their own, 0 to most_steps
+  step,       // the number of such a sample, ≥ 1
+  matrix,     // an array of rows
+  weight,     // a square symmetric matrix, or the array of its diagonal
+  mask,       // a matrix of 0 and 1
+  vector,     // an array of numbers
+  positives,  // the same, all > 0
+  bounds,     // the same, infinite ones too
+  indices,    // an array of different whole numbers from 0 to below `rows`
+  poles,      // an array of numbers and of [re, im], conjugates in pairs
+  signals     // an array of "name [unit]"
 };
 
 // The dimensions that shapes are given in: states, inputs, outputs, process noises, integrated outputs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/lists.hpp"
 
 #include <algorithm>
@@ -12,9 +13,7 @@ namespace {
 
 using Pole = std::complex<double>;
 
-std::string item_of(const std::string& key, std::size_t index) {
-  return key + "[" + std::to_string(index) + "]";
-}
+std::string item_of(const std::string& key, std::size_t index) { return key + "[" + std::to_string(index) + "]"; }
 
 bool is_finite_number(const Node& node) { return node.kind == Kind::number && std::isfinite(node.number); }
 
@@ -53,13 +52,12 @@ std::string names_too(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node,
-                                             const std::map<Size, int>& sizes, const std::vector<std::string>& names,
-                                             Report& report) {
+std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                             const std::vector<std::string>& names, Report& report) {
   const int size = sizes.at(rule.rows);
-  const std::string wanted = size > 0 ? "a whole number from 0 to " + std::to_string(size - 1) + " (" +
-                                            name_of(rule.rows) + " − 1)"
-                                      : "a whole number ≥ 0";
+  const std::string wanted =
+      size > 0 ? "a whole number from 0 to " + std::to_string(size - 1) + " (" + name_of(rule.rows) + " − 1)"
+               : "a whole number ≥ 0";
   if (node.kind != Kind::array || node.items.empty()) {
     report.error(rule.path, "expected an array of indices or names, found " + describe(node));
     return {};
@@ -73,7 +71,9 @@ std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& no
     std::string wrong;
     if (!good)
       wrong = "expected " + wanted + names_too(names) + ", found " +
-              (is_number ? shown(item.number) : item.kind == Kind::text ? in_quotes(item.text) : describe(item));
+              (is_number                 ? shown(item.number)
+               : item.kind == Kind::text ? in_quotes(item.text)
+                                         : describe(item));
     else if (std::find(indices.begin(), indices.end(), static_cast<int>(item.number)) != indices.end())
       wrong = "expected every index once, found " + shown(item.number) + " again";
     if (!wrong.empty()) {

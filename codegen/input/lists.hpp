@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lists of a design file that are no vectors: indices, and poles.
 #pragma once
 
@@ -15,13 +16,11 @@ namespace lqg::input {
 // Different whole numbers from 0 to below the size of the rule's rows, each of them or the name that stands there in `names` (of
 // outputs; empty: not known); nothing, and what is wrong reported,
 // when they cannot be had.
-std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node,
-                                             const std::map<Size, int>& sizes, const std::vector<std::string>& names,
-                                             Report& report);
+std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                             const std::vector<std::string>& names, Report& report);
 
 // Numbers, and [re, im] with their conjugates somewhere in the list; in the result these stand side by side,
 // the positive imaginary part first.
-std::optional<std::vector<std::complex<double>>> read_poles(const std::string& key, const Node& node,
-                                                            Report& report);
+std::optional<std::vector<std::complex<double>>> read_poles(const std::string& key, const Node& node, Report& report);
 
 }  // namespace lqg::input

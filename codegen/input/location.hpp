@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A place in the design file.
 #pragma once
 

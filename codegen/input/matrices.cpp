@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/matrices.hpp"
 
 #include <algorithm>
@@ -17,9 +18,7 @@ bool all_of(const Node& node, bool (*predicate)(const Node&)) {
   return std::all_of(node.items.begin(), node.items.end(), predicate);
 }
 
-std::string indexed(const std::string& key, std::size_t index) {
-  return key + "[" + std::to_string(index) + "]";
-}
+std::string indexed(const std::string& key, std::size_t index) { return key + "[" + std::to_string(index) + "]"; }
 
 // Rows and columns of an array of equally long rows, {−1, −1} of anything else.
 std::pair<int, int> shape_of(const Node& node) {
@@ -65,8 +64,7 @@ class MatrixReader {
   }
 
   std::string expected() const {
-    if (is_list())
-      return "expected an array of " + sized(rows_, rule_.rows, "number");
+    if (is_list()) return "expected an array of " + sized(rows_, rule_.rows, "number");
     const std::string diagonal = rule_.type == Type::weight ? ", or the array of its diagonal" : "";
     return "expected an array of " + sized(rows_, rule_.rows, "row") + " of " +
            sized(columns_, rule_.columns, "number") + diagonal;
@@ -137,8 +135,8 @@ class MatrixReader {
   bool check_shape(int rows, int columns) const {
     const bool square = rule_.type == Type::weight || rule_.path == "plant.A";
     if (square && rows != columns && rows_ <= 0) {
-      report_.error(rule_.path, "expected a square matrix, found " + counted(rows, "row") + " of " +
-                                    counted(columns, "number"));
+      report_.error(rule_.path,
+                    "expected a square matrix, found " + counted(rows, "row") + " of " + counted(columns, "number"));
       return false;
     }
     const bool is_lying = rows == 1 && columns == rows_ && columns_ <= 0;
@@ -148,8 +146,8 @@ class MatrixReader {
 
   bool check_count(int found, int wanted, Size size, const std::string& noun, const std::string& hint = "") const {
     if (found > most_signals)
-      report_.error(rule_.path, "expected at most " + counted(most_signals, noun) + " (" + name_of(size) +
-                                    "), found " + std::to_string(found));
+      report_.error(rule_.path, "expected at most " + counted(most_signals, noun) + " (" + name_of(size) + "), found " +
+                                    std::to_string(found));
     else if (wanted > 0 && found != wanted)
       report_.error(rule_.path, "expected " + sized(wanted, size, noun) + ", found " + std::to_string(found) + hint);
     else
@@ -195,8 +193,8 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
   return sizes;
 }
 
-std::optional<Eigen::MatrixXd> read_matrix(const KeyRule& rule, const Node& node,
-                                           const std::map<Size, int>& sizes, Report& report) {
+std::optional<Eigen::MatrixXd> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                           Report& report) {
   return MatrixReader(rule, sizes, report).read(node);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/names.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 namespace lqg::input {
 namespace {
 
+// clang-format off
 constexpr std::string_view keywords[] = {
     "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch",
     "char", "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return", "co_yield", "compl",
@@ -72,6 +74,7 @@ constexpr std::string_view types[] = {
 // NAME_init or NAME_reset would be a function of theirs, where NAME_t is none.
 constexpr std::string_view prefixes[] = {
     "atomic", "fanotify", "inotify", "obstack", "res", "wdt"};
+// clang-format on
 
 // NAME_X_STATE would be a macro of the header, by the key of the signals; in capitals.
 constexpr std::pair<std::string_view, std::string_view> macros[] = {{"plant.states", "BOUNDS"}};
@@ -128,8 +131,7 @@ Complaint check_comment_text(const std::string& text) {
   }
   for (const char* sequence : {"*/", "/*", "\\", "?\?/"})
     if (text.find(sequence) != text.npos)
-      return "expected text that can stand in a C comment, without `" + std::string(sequence) + "`" +
-             found(text);
+      return "expected text that can stand in a C comment, without `" + std::string(sequence) + "`" + found(text);
   return {};
 }
 
@@ -145,8 +147,7 @@ Complaint check_file_name(const std::string& name) {
 Complaint check_signal_name(const std::string& key, const std::string& name) {
   const std::string capitals = in_capitals(name);
   for (const auto& [of, reserved] : macros)
-    if (key == of && capitals == reserved)
-      return "expected a name that the header has no macro of" + found(name);
+    if (key == of && capitals == reserved) return "expected a name that the header has no macro of" + found(name);
   return {};
 }
 

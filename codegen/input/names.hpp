@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names and texts that end up in generated C: what they may be.
 #pragma once
 

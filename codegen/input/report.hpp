@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the reader's findings go: each with its key and, beyond those of the keys themselves, its place.
 #pragma once
 
@@ -13,12 +14,8 @@ class Report {
   explicit Report(DesignFile& file) : file_(file) {}
 
   // At the key's own place, or above it.
-  void error(const std::string& key, std::string message) {
-    add(design::Severity::error, key, std::move(message));
-  }
-  void note(const std::string& key, std::string message) {
-    add(design::Severity::note, key, std::move(message));
-  }
+  void error(const std::string& key, std::string message) { add(design::Severity::error, key, std::move(message)); }
+  void note(const std::string& key, std::string message) { add(design::Severity::note, key, std::move(message)); }
 
   // At a place that the key alone does not tell.
   void error(const std::string& key, Location where, std::string message) {

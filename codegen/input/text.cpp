@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/text.hpp"
 
 #include <cstdio>
@@ -58,8 +59,7 @@ class Scanner {
   void judge(const Character& character) {
     const char32_t code = character.code;
     if (character.length == 0)
-      fault("expected UTF-8, found the byte " +
-            hexadecimal("0x%02X", static_cast<unsigned char>(text_[at_])));
+      fault("expected UTF-8, found the byte " + hexadecimal("0x%02X", static_cast<unsigned char>(text_[at_])));
     else if ((code < 0x20 && code != '\t' && code != '\n' && code != '\r') || code == 0x7F)
       fault("expected text, found the control character " + hexadecimal("U+%04X", code));
     else if (code >= 0x80 && (inside_ == Inside::plain || inside_ == Inside::lines))
@@ -128,8 +128,7 @@ class Scanner {
 
   // A backslash and the ASCII character after it, unless that ends the line.
   bool escapes(char c) const {
-    return c == '\\' && delimiter_ == '"' && at_ + 1 < text_.size() && text_[at_ + 1] >= 0x20 &&
-           text_[at_ + 1] < 0x7F;
+    return c == '\\' && delimiter_ == '"' && at_ + 1 < text_.size() && text_[at_ + 1] >= 0x20 && text_[at_ + 1] < 0x7F;
   }
 
   std::size_t delimiters_at(std::size_t from) const {
@@ -164,9 +163,8 @@ Character decode(std::string_view text, std::size_t at) {
 }
 
 bool is_control(char32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x061C ||
-         (code >= 0x200E && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
-         (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x061C || (code >= 0x200E && code <= 0x200F) ||
+         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
 }
 
 std::string printable(std::string_view text) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text from a file: its encoding, and how it is shown in a message.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/toml_hint.hpp"
 
 #include <regex>
@@ -31,7 +32,8 @@ bool has(const std::string& text, const char* pattern) { return std::regex_searc
 std::string toml_hint(std::string_view line) {
   if (line.size() > longest_line) return "";
   const std::string value = value_of(line);
-  if (has(value, "^\\s*\\[.*;") || has(value, "\\[[^\\]]*[0-9.]\\s+[-+]?[0-9.]") || has(value, "^\\s*(eye|diag|zeros|ones)\\("))
+  if (has(value, "^\\s*\\[.*;") || has(value, "\\[[^\\]]*[0-9.]\\s+[-+]?[0-9.]") ||
+      has(value, "^\\s*(eye|diag|zeros|ones)\\("))
     return "expected a matrix as an array of rows, [[1, 2], [3, 4]], found MATLAB's notation";
   if (has(value, "[0-9.)]\\s*[*/^]|[*/^]\\s*[0-9.(]|[0-9.)]\\s+[-+]\\s*[0-9.(]|\\b(pi|sqrt|exp|sin|cos)\\b"))
     return "expected numbers, found arithmetic: write its result";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What in a line that is not TOML is another language's.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input/values.hpp"
 
 #include <algorithm>
@@ -122,7 +123,8 @@ class ValueReader {
       case Type::step: read_whole(rule, node, 1, design::most_steps); break;
       case Type::signals: read_signals(rule, node); break;
       case Type::indices:
-        if (auto indices = read_indices(rule, node, values_.sizes, names_of(Size::ny), report_)) values_.indices[rule.path] = *indices;
+        if (auto indices = read_indices(rule, node, values_.sizes, names_of(Size::ny), report_))
+          values_.indices[rule.path] = *indices;
         break;
       case Type::poles:
         if (auto poles = read_poles(rule.path, node, report_)) values_.poles[rule.path] = *poles;
@@ -137,8 +139,7 @@ class ValueReader {
       case Type::vector:
       case Type::positives:
       case Type::bounds:
-        if (auto matrix = read_matrix(rule, node, values_.sizes, report_))
-          values_.matrices[rule.path] = *matrix;
+        if (auto matrix = read_matrix(rule, node, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         break;
       case Type::table:
       case Type::tables: break;
@@ -260,8 +261,8 @@ class ValueReader {
     if (const Complaint complaint = check_signal_name(rule.path, signal.name)) return complaint;
     const auto [first, is_new] = seen.emplace(in_capitals(signal.name), index);
     if (is_new) return {};
-    return "expected a name of its own, capitals aside, found that of [" + std::to_string(first->second) +
-           "], " + in_quotes(signal.name);
+    return "expected a name of its own, capitals aside, found that of [" + std::to_string(first->second) + "], " +
+           in_quotes(signal.name);
   }
 
   void expected(const KeyRule& rule, const std::string& wanted, const std::string& found) {
@@ -334,8 +335,7 @@ std::string counted(long count, const std::string& noun) {
 }
 
 std::string shown(double number) {
-  return decimal([](char* first, char* last, double x, int) { return std::to_chars(first, last, x); }, number,
-                 0);
+  return decimal([](char* first, char* last, double x, int) { return std::to_chars(first, last, x); }, number, 0);
 }
 
 std::string shown(double number, int digits) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the tree of a TOML text to the values of the known keys, each of the right type and shape.
 #pragma once
 
@@ -24,10 +25,9 @@ struct Values {
   std::map<std::string, std::vector<design::Signal>> signals;
   std::map<std::string, std::vector<int>> indices;
   std::map<std::string, std::vector<std::complex<double>>> poles;  // conjugates side by side, +j first
-  std::map<Size, int> sizes;  // 0: there are none; −1: not known, because what tells them is wrong
-  std::set<std::string>
-      present;  // keys in the file, right or wrong, and those that an unknown key seems to mean
-  std::set<std::string> tables;  // those of them that are tables, and "", the file's top
+  std::map<Size, int> sizes;      // 0: there are none; −1: not known, because what tells them is wrong
+  std::set<std::string> present;  // keys in the file, right or wrong, and those that an unknown key seems to mean
+  std::set<std::string> tables;   // those of them that are tables, and "", the file's top
 
   bool has(const std::string& key) const { return present.count(key) != 0; }
   const Eigen::MatrixXd* matrix(const std::string& key) const;  // nullptr: absent or wrong

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "reference/documents.hpp"
 
 #include <algorithm>

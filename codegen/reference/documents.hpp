@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is made from the table of keys for people and editors.
 #pragma once
 

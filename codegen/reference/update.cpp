@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // update_reference FOLDER [--check]: writes what is made from the table of keys into codegen's documents. With --check
 // it writes nothing and fails where a document differs.
 #include <fstream>

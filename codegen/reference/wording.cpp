@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "reference/wording.hpp"
 
 #include "input/matrices.hpp"

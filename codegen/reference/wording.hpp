@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A row of the table of keys in words.
 #pragma once
 

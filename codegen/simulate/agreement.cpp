@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simulate/agreement.hpp"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ unsigned digits_of_agreement(const design::Solution& solution) { return std::max
 double agreement(const Controller& physical, const design::LinearForm& form) {
   const design::Digits digits(digits_of_agreement(physical.solution));
   const std::vector<RealMatrix> wanted = answers_of(physical, 2 * form.A.rows() + 1);
-  RealMatrix found = form.D, states = form.B, difference = design::zeros(found.rows(), found.cols()), scale = difference;
+  RealMatrix found = form.D, states = form.B, difference = design::zeros(found.rows(), found.cols()),
+             scale = difference;
   for (const RealMatrix& answer : wanted) {
     difference = difference.cwiseMax((found - answer).cwiseAbs());
     scale = scale.cwiseMax(answer.cwiseAbs());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Is a linear form the controller that it stands for?
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simulate/drop_outs.hpp"
 
 #include <limits>
@@ -16,8 +17,7 @@ template <class S>
 class Covariance {
  public:
   explicit Covariance(const Controller& controller)
-      : emitted_(controller, constants_of<S>(controller.target)),
-        y_(Vector<S>::Constant(controller.size.ny, S(0))),
+      : emitted_(controller, constants_of<S>(controller.target)), y_(Vector<S>::Constant(controller.size.ny, S(0))),
         no_y_(Vector<S>::Constant(controller.size.ny, S(std::numeric_limits<double>::quiet_NaN()))),
         u_(Vector<S>::Constant(controller.size.nu, S(0))) {}
 
@@ -66,12 +66,15 @@ const std::vector<int>& tried_drop_outs() {
 
 void check_drop_outs(const Controller& controller, design::Findings& findings) {
   if (controller.filter != step::Filter::plain) return;
-  const int samples = with_scalar_of(controller.target, [&](auto zero) { return drop_out_that_breaks<decltype(zero)>(controller); });
+  const int samples =
+      with_scalar_of(controller.target, [&](auto zero) { return drop_out_that_breaks<decltype(zero)>(controller); });
   if (samples < 0) return;
   const std::string advice = controller.target.is_double ? "\"ud\"" : "\"ud\", or real = \"double\"";
   if (samples == 0)
-    return design::add_error(findings, "kalman.covariance",
-                             "expected " + advice + ": in the target's numbers a plain P loses its definiteness while all outputs are there");
+    return design::add_error(
+        findings, "kalman.covariance",
+        "expected " + advice +
+            ": in the target's numbers a plain P loses its definiteness while all outputs are there");
   design::add_note(findings, "kalman.covariance",
                    "in the target's numbers a plain P loses its definiteness when the outputs come back after " +
                        std::to_string(samples) + (samples == 1 ? " sample" : " samples") + " without them (" +

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Does a plain P stay a covariance when sensors fail and come back?
 #pragma once
 

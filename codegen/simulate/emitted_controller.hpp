@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The emitted controller at work: the calls of its header for any scalar, with what they keep, count and say.
 #pragma once
 
@@ -35,7 +36,8 @@ class EmittedController {
   using Constants = std::function<S(const design::Real&)>;
 
   EmittedController(const Controller& controller, Constants constants)
-      : controller_(controller), constants_(std::move(constants)), gated_(static_cast<std::size_t>(controller.size.ny), 0) {
+      : controller_(controller), constants_(std::move(constants)),
+        gated_(static_cast<std::size_t>(controller.size.ny), 0) {
     init();
   }
 
@@ -61,7 +63,8 @@ class EmittedController {
     for (Eigen::Index i = 0; i < there.size(); ++i)
       if (!is_used(i)) there(i) = S(std::numeric_limits<double>::infinity());
     step::Listener listener;
-    const auto lost = step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), there, listener);
+    const auto lost =
+        step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), there, listener);
     const unsigned not_finite = 1u << static_cast<unsigned>(step::Event::output_not_finite);
     const unsigned events = update(there) & ~not_finite;
     for (Eigen::Index i = 0; i < there.size(); ++i)
@@ -126,7 +129,8 @@ class EmittedController {
 
   void advance_counters() {
     const std::size_t sample = std::min(sample_ + 1, controller_.last_sample);
-    const std::size_t gain_row = controller_.keeps.gain_row ? std::min(gain_row_ + 1, controller_.filters.size() - 1) : 0;
+    const std::size_t gain_row =
+        controller_.keeps.gain_row ? std::min(gain_row_ + 1, controller_.filters.size() - 1) : 0;
     go_to(sample, gain_row);
   }
   void go_to(std::size_t sample, std::size_t gain_row) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The emitted controller that keeps z, at work: as emitted_controller.hpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simulate/noise.hpp"
 
 namespace lqg::simulate {

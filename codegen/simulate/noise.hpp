@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Noise that is the same on every host: no function of libm, no generator of a library.
 #pragma once
 

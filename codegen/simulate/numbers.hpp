@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Between the numbers of the host and those of a run.
 #pragma once
 
@@ -13,7 +14,9 @@ inline double as_double(double value) { return value; }
 inline double as_double(float value) { return static_cast<double>(value); }
 inline double as_double(const design::Real& value) { return design::to_double(value); }
 template <class T>
-double as_double(step::Fused<T> value) { return static_cast<double>(value.value); }
+double as_double(step::Fused<T> value) {
+  return static_cast<double>(value.value);
+}
 
 template <class S>
 Eigen::VectorXd as_doubles(const step::Vector<S>& values) {
@@ -46,7 +49,9 @@ auto with_scalar_of(const controller::Target& target, Act act) {
 // Many digits to S by way of the target's numbers, as the emitted constants are.
 template <class S>
 auto constants_of(const controller::Target& target) {
-  return [is_double = target.is_double](const design::Real& value) { return S(controller::rounded_to_target(value, is_double)); };
+  return [is_double = target.is_double](const design::Real& value) {
+    return S(controller::rounded_to_target(value, is_double));
+  };
 }
 
 }  // namespace lqg::simulate

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simulate/plant.hpp"
 
 #include <algorithm>
@@ -85,7 +86,8 @@ Plant::Stage Plant::stage_of(const Controller& controller, std::size_t from, Pla
   return result;
 }
 
-Plant::Plant(const Controller& controller, const VectorXd& x, PlantNoise noise, std::uint64_t seed) : noise_(seed), x_(x) {
+Plant::Plant(const Controller& controller, const VectorXd& x, PlantNoise noise, std::uint64_t seed)
+    : noise_(seed), x_(x) {
   stages_.push_back(stage_of(controller, 0, noise));
   for (const design::StageSolution& stage : controller.solution.stages)
     stages_.push_back(stage_of(controller, static_cast<std::size_t>(stage.from), noise));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The plant around the controller: the design's own samples, with its noise, in double.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simulate/simulation.hpp"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ struct Surroundings {
   }
   // Of an estimator alone.
   VectorXd given_input() const {
-    return in_target(controller.target, options.input ? options.input(k) : VectorXd(VectorXd::Zero(controller.size.nu)));
+    return in_target(controller.target,
+                     options.input ? options.input(k) : VectorXd(VectorXd::Zero(controller.size.nu)));
   }
 };
 
@@ -56,8 +58,10 @@ Sample take_sample(EmittedController<S>& emitted, Surroundings& around) {
   Vector<S> u;
   const auto act = [&] {
     sample.estimate = as_doubles(emitted.state().x);
-    if (controller.has.regulator) sample.events |= emitted.control(u);
-    else u = numbers_of<S>(around.given_input());
+    if (controller.has.regulator)
+      sample.events |= emitted.control(u);
+    else
+      u = numbers_of<S>(around.given_input());
   };
   const auto hear = [&](const VectorXd& acting) {
     sample.y = around.measure(acting);
@@ -153,11 +157,13 @@ Trajectory run_form(const Controller& controller, Surroundings around) {
 
 Trajectory simulate(const Controller& controller, const SimulationOptions& options) {
   const PlantNoise noise = options.noise ? PlantNoise::designed : PlantNoise::none;
-  Surroundings around = {controller, options, Plant(controller, padded(options.x0, controller.size.nx), noise, options.seed),
+  Surroundings around = {controller, options,
+                         Plant(controller, padded(options.x0, controller.size.nx), noise, options.seed),
                          VectorXd::Zero(controller.size.nu)};
   return with_scalar_of(controller.target, [&](auto zero) {
     using S = decltype(zero);
-    return controller.linear ? run_form<S>(controller, std::move(around)) : run_controller<S>(controller, std::move(around));
+    return controller.linear ? run_form<S>(controller, std::move(around))
+                             : run_controller<S>(controller, std::move(around));
   });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A controller at work around its plant, sample by sample: the controller that is emitted, in the target's numbers, with its
 // limits, gate, faults and resets. There is no other simulation.
 #pragma once
@@ -17,8 +18,9 @@ struct SimulationOptions {
   bool noise = true;   // w and v as the design has them (none without an estimator that has noise); false: none
   Eigen::VectorXd x0;  // of the sampled plant (nx), or of the plant without its delayed inputs; empty: 0
   Eigen::VectorXd r;   // of the outputs named in `integral` or `track`, by rising number; empty: 0
-  std::function<Eigen::VectorXd(int)> input;          // u of sample k, nu × 1, where there is no regulator; none: 0
-  std::function<void(int, Eigen::VectorXd&)> sensor;  // what the sensors make of y in sample k: drop-outs, outliers; none: y
+  std::function<Eigen::VectorXd(int)> input;  // u of sample k, nu × 1, where there is no regulator; none: 0
+  std::function<void(int, Eigen::VectorXd&)>
+      sensor;  // what the sensors make of y in sample k: drop-outs, outliers; none: y
 };
 
 // Column k belongs to sample k.

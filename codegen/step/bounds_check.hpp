@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The check that all of a state is within its bounds, and that its P can be a covariance.
 #pragma once
 

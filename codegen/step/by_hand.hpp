@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The state, set by hand; the input is in servo.hpp.
 #pragma once
 

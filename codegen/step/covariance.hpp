@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The covariance of the estimate's error, for those who look at it.
 #pragma once
 

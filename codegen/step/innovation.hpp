@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far the outputs are from what the estimate expects, for those who watch a filter.
 #pragma once
 

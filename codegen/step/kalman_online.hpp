@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The update of the filters that carry P, whatever form P has.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Kalman filter with its covariance P carried as a lower triangle; outputs one after the other.
 #pragma once
 
@@ -22,7 +23,8 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
   listener.name(variance, "S");
 
   listener.section(model.D.cols() ? "innovation = y − C x̂ − D u; a gain of 0 leaves the output out"
-                                  : "innovation = y − C x̂; a gain of 0 leaves the output out", i);
+                                  : "innovation = y − C x̂; a gain of 0 leaves the output out",
+                   i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
   auto usable = weigh(model, state, nu, variance, [&] { return variance; }, i, listener);

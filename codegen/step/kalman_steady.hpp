@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Kalman filter with its constant gain.
 #pragma once
 
@@ -14,7 +15,8 @@ struct Innovation {
 
 template <class S, class Listener>
 Innovation<S> innovate(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  listener.section(std::string(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + ", 0 if it is not used", i);
+  listener.section(
+      std::string(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + ", 0 if it is not used", i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
   const S variance = is_zero(model.gate) ? S(0) : S(model.variance(i));
@@ -26,7 +28,8 @@ Innovation<S> innovate(const Model<S>& model, State<S>& state, const S& y, int i
 
 // x̂ ← x̂ + L innovation over the outputs from `first` on.
 template <class S, class Listener>
-auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& innovation, int first, Listener& listener) {
+auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& innovation, int first,
+                    Listener& listener) {
   listener.section("x̂ ← x̂ + L innovation");
   BoundsCheck<S> bounds;
   for (int j = 0; j < model.nx; ++j) {

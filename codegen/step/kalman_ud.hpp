@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Kalman filter with P = U diag(D) Uᵀ, U unit upper triangular: Bierman's update, Thornton's prediction.
 //
 // D stays positive because it is only ever multiplied and divided by positive numbers or a sum of squares.
@@ -28,8 +29,8 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
     f(j) = sum;
     if (!is_zero(model.gate)) listener.name(f(j), "projected", j);
   }
-  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u, 0 if it is not used"
-                                  : "innovation = y − C x̂, 0 if it is not used", i);
+  const char* const equation = model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂";
+  listener.section(std::string(equation) + ", 0 if it is not used", i);
   S nu = residual(model, state, y, i);
   listener.name(nu, "measured");
   // S is V at least, and asked for only where that is not enough.
@@ -90,8 +91,7 @@ Matrix<S> rows_of_the_prior(const Model<S>& model, const State<S>& state, Listen
   for (int i = 0; i < nx; ++i) {
     for (int j = 0; j < nx; ++j) {
       S sum = model.A_free(i, j);
-      for (int k = 0; k < j; ++k)
-        sum = multiply_add(S(model.A_free(i, k)), S(state.U[strict_triangle(k, j)]), sum);
+      for (int k = 0; k < j; ++k) sum = multiply_add(S(model.A_free(i, k)), S(state.U[strict_triangle(k, j)]), sum);
       listener.name(sum, "T", i, j);
       T(i, j) = sum;
     }

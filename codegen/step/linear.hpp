@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A controller that is one linear system in numbers z of its own: what it does in a sample, for any scalar.
 //
 // Each function is written for outputs that may be anything. `control_expected` is the short way, for a sample in which
@@ -40,7 +41,8 @@ S add_product(S sum, const Matrix<S>& M, int i, const Vector<S>& v) {
 
 // y, what is expected where it is not finite: an output that is left out counts as one that came as expected.
 template <class S, class Listener>
-Vector<S> heard_outputs(const LinearModel<S>& model, const LinearState<S>& state, const Vector<S>& y, Listener& listener) {
+Vector<S> heard_outputs(const LinearModel<S>& model, const LinearState<S>& state, const Vector<S>& y,
+                        Listener& listener) {
   Vector<S> heard(y.size());
   for (int i = 0; i < y.size(); ++i) {
     listener.section("y, or what is expected where it is not finite", i);

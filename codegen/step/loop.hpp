@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One sample of the whole controller, whatever its filter.
 #pragma once
 

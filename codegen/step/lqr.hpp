@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The control law.
 #pragma once
 
@@ -43,7 +44,9 @@ S within(const S& low, const S& value, const S& high, Listener& listener) {
 
 template <class S>
 std::string equation_of_law(const Model<S>& model) {
-  return std::string(model.gives_change ? "u = u[k−1] − K [x̂" : model.integral.empty() ? "u = −K x̂" : "u = −K [x̂") +
+  return std::string(model.gives_change       ? "u = u[k−1] − K [x̂"
+                     : model.integral.empty() ? "u = −K x̂"
+                                              : "u = −K [x̂") +
          (model.integral.empty() ? "" : "; ξ") + (model.gives_change ? "; u[k−1]" : "") +
          (model.gives_change || !model.integral.empty() ? "]" : "") + (model.Nbar.cols() ? " + Nbar r" : "") +
          (model.u_min.size() || model.u_step.size() ? ", within its limits" : "");

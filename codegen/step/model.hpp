@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The constants and the state of one controller, for any scalar.
 #pragma once
 
@@ -22,39 +23,40 @@ struct Model {
   Filter filter = Filter::none;
   bool predictor_form = false;  // control before update
   int nx = 0, nu = 0, ny = 0;
-  Matrix<S> A, B;              // x⁺ = A x + B u
-  Matrix<S> C, D;              // y = C x + D u; of the decorrelated outputs E y when P is carried
-  Matrix<S> L;                 // nx × ny, steady
-  Matrix<S> M;                 // nx × ny: what the innovation (steady) or the residual (online) tells of w
-  Matrix<S> E;                 // ny × ny unit lower triangular, online
-  Vector<S> V;                 // ny, online
-  S gate = S(0);               // σ: an innovation beyond it leaves its output out, as a spike or a gate; 0: any is let in
-  Vector<S> gate_start, gate_widen, gate_narrow;  // ny, with a gate: how much wider it is, squared, and by what a sample changes that
-  Vector<S> variance;          // ny, steady, with a gate: of the innovations
-  Matrix<S> A_free, W;         // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
-  Matrix<S> G;                 // nx × nq, ud: W = G diag(w) Gᵀ
-  Vector<S> w;                 // nq, ud
-  Vector<S> y_min, y_max;      // ny, or empty: what a sensor can say at all
-  Vector<S> nu_limit;          // ny, of the outputs whose C this is: an innovation that is not below it is left out; or empty
-  std::vector<int> x_bound;    // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
-  Vector<S> x0;                // nx
-  std::vector<S> P0;           // plain: lower triangle, row by row
-  std::vector<S> U0, D0;       // ud: strict upper triangle, column by column; diagonal
-  int delayed = 0;             // the last of the nx states are this many inputs on their way, the oldest first
-  Matrix<S> K;                 // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
-  Vector<S> u_min, u_max;      // nu, or empty: no limits
+  Matrix<S> A, B;  // x⁺ = A x + B u
+  Matrix<S> C, D;  // y = C x + D u; of the decorrelated outputs E y when P is carried
+  Matrix<S> L;     // nx × ny, steady
+  Matrix<S> M;     // nx × ny: what the innovation (steady) or the residual (online) tells of w
+  Matrix<S> E;     // ny × ny unit lower triangular, online
+  Vector<S> V;     // ny, online
+  S gate = S(0);   // σ: an innovation beyond it leaves its output out, as a spike or a gate; 0: any is let in
+  Vector<S> gate_start, gate_widen,
+      gate_narrow;         // ny, with a gate: how much wider it is, squared, and by what a sample changes that
+  Vector<S> variance;      // ny, steady, with a gate: of the innovations
+  Matrix<S> A_free, W;     // nx × nx, online: P⁺ = A_free P A_freeᵀ + W
+  Matrix<S> G;             // nx × nq, ud: W = G diag(w) Gᵀ
+  Vector<S> w;             // nq, ud
+  Vector<S> y_min, y_max;  // ny, or empty: what a sensor can say at all
+  Vector<S> nu_limit;  // ny, of the outputs whose C this is: an innovation that is not below it is left out; or empty
+  std::vector<int> x_bound;  // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
+  Vector<S> x0;              // nx
+  std::vector<S> P0;         // plain: lower triangle, row by row
+  std::vector<S> U0, D0;     // ud: strict upper triangle, column by column; diagonal
+  int delayed = 0;           // the last of the nx states are this many inputs on their way, the oldest first
+  Matrix<S> K;               // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
+  Vector<S> u_min, u_max;    // nu, or empty: no limits
   // A law with a memory.
-  int nr = 0;                  // references
-  Matrix<S> Nbar;              // nu × nr, or no columns
-  bool gives_change = false;   // −K z + Nbar r is u[k] − u[k−1]
-  Vector<S> u_step;            // nu: largest |u[k] − u[k−1]|, or empty
-  std::vector<int> integral;   // the output that each ξ integrates,
-  std::vector<int> wanted;     // and which r it has to follow
-  Vector<S> error_limit;       // nxi: an r − y that is not below it does not count; or empty
-  std::vector<int> xi_bound;   // nxi: as x_bound
-  Matrix<S> H;                 // nxi × nu: ξ + H (u − v) is ξ where u was applied in place of v
-  Matrix<S> H_input;           // nxi × nu: ξ + H_input (u − v) makes the law give u, or nearly, where it gave v
-  S T = S(0);                  // s, the sample time, of ξ⁺ = ξ + T (r − y)
+  int nr = 0;                 // references
+  Matrix<S> Nbar;             // nu × nr, or no columns
+  bool gives_change = false;  // −K z + Nbar r is u[k] − u[k−1]
+  Vector<S> u_step;           // nu: largest |u[k] − u[k−1]|, or empty
+  std::vector<int> integral;  // the output that each ξ integrates,
+  std::vector<int> wanted;    // and which r it has to follow
+  Vector<S> error_limit;      // nxi: an r − y that is not below it does not count; or empty
+  std::vector<int> xi_bound;  // nxi: as x_bound
+  Matrix<S> H;                // nxi × nu: ξ + H (u − v) is ξ where u was applied in place of v
+  Matrix<S> H_input;          // nxi × nu: ξ + H_input (u − v) makes the law give u, or nearly, where it gave v
+  S T = S(0);                 // s, the sample time, of ξ⁺ = ξ + T (r − y)
 };
 
 // No gate is wider, squared: then it lets everything in that is believable.
@@ -87,16 +89,16 @@ bool carries_covariance(const Model<S>& model) {
 
 template <class S>
 struct State {
-  Vector<S> x;               // nx
-  std::vector<S> P;          // plain
-  std::vector<S> U, D;       // ud
-  Vector<S> u;               // nu: the input that acts; kept when D ≠ 0, and where the law begins with it
-  Vector<S> widening;        // ny, with a gate: its threshold is this in units of gate² S, 1 at least
-  Vector<S> innovation;      // ny: what predict still needs of the last outputs; kept when M ≠ 0
-  Vector<S> r;               // nr: what the outputs should be
-  Vector<S> xi;              // nxi: ξ, the integral of r − y
-  Vector<S> error;           // nxi: r − y of this sample, which predict adds to ξ
-  Vector<S> demand;          // nu: what the law asked for; kept where there is a ξ to correct
+  Vector<S> x;           // nx
+  std::vector<S> P;      // plain
+  std::vector<S> U, D;   // ud
+  Vector<S> u;           // nu: the input that acts; kept when D ≠ 0, and where the law begins with it
+  Vector<S> widening;    // ny, with a gate: its threshold is this in units of gate² S, 1 at least
+  Vector<S> innovation;  // ny: what predict still needs of the last outputs; kept when M ≠ 0
+  Vector<S> r;           // nr: what the outputs should be
+  Vector<S> xi;          // nxi: ξ, the integral of r − y
+  Vector<S> error;       // nxi: r − y of this sample, which predict adds to ξ
+  Vector<S> demand;      // nu: what the law asked for; kept where there is a ξ to correct
 };
 
 // Lower triangle row by row: P(i, j) = P(j, i).
@@ -132,7 +134,13 @@ void begin_anew(const Model<S>& model, State<S>& state) {
 }
 
 enum class Event {
-  output_not_finite, innovation_not_positive, input_limited, state_reset, reference_not_finite, output_gated, covariance_reset
+  output_not_finite,
+  innovation_not_positive,
+  input_limited,
+  state_reset,
+  reference_not_finite,
+  output_gated,
+  covariance_reset
 };
 
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
@@ -157,12 +165,16 @@ struct Listener {
     return accept(usable, believable ? if_believable : if_not);
   }
   // `condition`, and that the event did not happen in this call.
-  bool without(Event event, bool condition) const { return condition && !(events >> static_cast<unsigned>(event) & 1u); }
+  bool without(Event event, bool condition) const {
+    return condition && !(events >> static_cast<unsigned>(event) & 1u);
+  }
   // A gate left the output out, which is counted.
   void gate(bool gated, int) { raise(Event::output_gated, gated); }
   // Whether output i, of the innovation nu, is used: at once where it is as `expected`, else as `otherwise` finds.
   template <class S, class Variance, class Otherwise>
-  bool weigh(bool expected, int, const S&, Variance, Otherwise otherwise) { return expected || otherwise(); }
+  bool weigh(bool expected, int, const S&, Variance, Otherwise otherwise) {
+    return expected || otherwise();
+  }
 };
 
 }  // namespace lqg::step

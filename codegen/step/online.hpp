@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the filters that carry P have in common: decorrelated outputs, and the residual that cross noise keeps.
 #pragma once
 
@@ -42,8 +43,8 @@ void keep_residual_alone(const Model<S>& model, State<S>& state, const S& y, con
 }
 
 template <class S, class Listener, class Condition>
-void keep_residual(const Model<S>& model, State<S>& state, const Vector<S>& y,
-                   const std::vector<Condition>& usable, Listener& listener) {
+void keep_residual(const Model<S>& model, State<S>& state, const Vector<S>& y, const std::vector<Condition>& usable,
+                   Listener& listener) {
   for (int i = 0; i < model.ny; ++i)
     keep_residual_alone(model, state, S(y(i)), usable[static_cast<std::size_t>(i)], i, listener);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What becomes of the outputs when only some of them are there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What an algorithm of one sample asks of its scalar, and the scalars that compute with numbers.
 //
 // Each multiply-add is written as one, so that the same text rounds once (fused) or twice (plain) as the target does:
@@ -67,13 +68,21 @@ struct Fused {
   Fused(T v = 0) : value(v) {}
 };
 template <class T>
-Fused<T> operator+(Fused<T> a, Fused<T> b) { return a.value + b.value; }
+Fused<T> operator+(Fused<T> a, Fused<T> b) {
+  return a.value + b.value;
+}
 template <class T>
-Fused<T> operator-(Fused<T> a, Fused<T> b) { return a.value - b.value; }
+Fused<T> operator-(Fused<T> a, Fused<T> b) {
+  return a.value - b.value;
+}
 template <class T>
-Fused<T> operator*(Fused<T> a, Fused<T> b) { return a.value * b.value; }
+Fused<T> operator*(Fused<T> a, Fused<T> b) {
+  return a.value * b.value;
+}
 template <class T>
-Fused<T> operator/(Fused<T> a, Fused<T> b) { return a.value / b.value; }
+Fused<T> operator/(Fused<T> a, Fused<T> b) {
+  return a.value / b.value;
+}
 template <class T>
 Fused<T> multiply_add(const Fused<T>& a, const Fused<T>& b, const Fused<T>& c) {
   return std::fma(a.value, b.value, c.value);
@@ -83,18 +92,28 @@ Fused<T> multiply_subtract(const Fused<T>& a, const Fused<T>& b, const Fused<T>&
   return std::fma(-a.value, b.value, c.value);
 }
 template <class T>
-bool is_finite(const Fused<T>& a) { return is_finite(a.value); }
+bool is_finite(const Fused<T>& a) {
+  return is_finite(a.value);
+}
 template <class T>
-bool is_usable(const Fused<T>& a, const Fused<T>& b) { return is_usable(a.value, b.value); }
+bool is_usable(const Fused<T>& a, const Fused<T>& b) {
+  return is_usable(a.value, b.value);
+}
 template <class T>
 struct PowerOfTwo<Fused<T>> {
   static Fused<T> of(int exponent) { return std::ldexp(T(1), exponent); }
 };
 template <class T>
-bool is_zero(const Fused<T>& a) { return a.value == 0; }
+bool is_zero(const Fused<T>& a) {
+  return a.value == 0;
+}
 template <class T>
-Fused<T> absolute(const Fused<T>& a) { return std::abs(a.value); }
+Fused<T> absolute(const Fused<T>& a) {
+  return std::abs(a.value);
+}
 template <class T>
-bool is_less(const Fused<T>& a, const Fused<T>& b) { return a.value < b.value; }
+bool is_less(const Fused<T>& a, const Fused<T>& b) {
+  return a.value < b.value;
+}
 
 }  // namespace lqg::step

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The memory of a control law: integrals of r − y, kept true to the input that was applied.
 #pragma once
 
@@ -9,7 +10,8 @@ namespace lqg::step {
 // r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where the output was not used or r − y is
 // not believable.
 template <class S, class Condition, class Listener>
-void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Condition& used, int output, Listener& listener) {
+void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Condition& used, int output,
+                   Listener& listener) {
   for (std::size_t i = 0; i < model.integral.size(); ++i) {
     if (model.integral[i] != output) continue;
     listener.section("r − y, which predict adds to ξ; 0 if the output is not used, or it is not believable", output);
@@ -22,7 +24,8 @@ void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Con
 }
 
 template <class S, class Condition, class Listener>
-void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, const std::vector<Condition>& used, Listener& listener) {
+void observe(const Model<S>& model, State<S>& state, const Vector<S>& y, const std::vector<Condition>& used,
+             Listener& listener) {
   for (const int output : model.integral)
     observe_alone(model, state, S(y(output)), used[static_cast<std::size_t>(output)], output, listener);
 }
@@ -72,7 +75,8 @@ auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listene
     listener.name(y(i), "y", i);
   }
   const auto always = is_less(S(0), S(1));
-  observe(model, state, y, std::vector<decltype(is_less(S(), S()))>(static_cast<std::size_t>(y.size()), always), listener);
+  observe(model, state, y, std::vector<decltype(is_less(S(), S()))>(static_cast<std::size_t>(y.size()), always),
+          listener);
   BoundsCheck<S> bounds;
   remember(model, state, u, bounds, listener);
   return bounds.is_within();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parts that every filter shares: innovation and prediction of the state.
 #pragma once
 
@@ -18,14 +19,15 @@ S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {
 template <class S>
 struct Weighing {
   Filter filter = Filter::none;
-  S limit = S(0);              // |ν| below it is believable
-  S square = S(0);             // gate²
+  S limit = S(0);   // |ν| below it is believable
+  S square = S(0);  // gate²
   S widen = S(1), narrow = S(1);
 };
 
 template <class S>
 Weighing<S> weighing_of(const Model<S>& model, int i) {
-  return {model.filter, S(model.nu_limit(i)), S(model.gate * model.gate), S(model.gate_widen(i)), S(model.gate_narrow(i))};
+  return {model.filter, S(model.nu_limit(i)), S(model.gate * model.gate), S(model.gate_widen(i)),
+          S(model.gate_narrow(i))};
 }
 
 // w, from 1 to the widest whatever it was: a NaN is 1.
@@ -71,13 +73,13 @@ auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, con
 // expected: ν² < gate² least while w is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
 // ν² < limit² for a power of two. It tells that s is positive, too.
 template <class S, class Variance, class Listener>
-auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, Variance variance, int i, Listener& listener) {
+auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, Variance variance, int i,
+           Listener& listener) {
   if (is_zero(model.gate)) {
     auto believable = is_believable(model.nu_limit, i, nu);
-    return model.filter == Filter::plain
-               ? listener.accept(both(believable, is_less(S(0), least)), believable, Event::innovation_not_positive,
-                                 Event::output_not_finite)
-               : listener.accept(believable, Event::output_not_finite);
+    return model.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), least)), believable,
+                                                           Event::innovation_not_positive, Event::output_not_finite)
+                                         : listener.accept(believable, Event::output_not_finite);
   }
   const S most = S(model.gate * model.gate) * least, limit = model.nu_limit(i) * model.nu_limit(i);
   const S threshold = select(is_less(most, limit), most, limit);
@@ -113,7 +115,8 @@ Vector<S> in_range_or_nan(const Model<S>& model, Vector<S> y, Listener& listener
 
 // x ← A x + B u + M innovation;  innovation ← 0; what the regulator has to remember of u and of this sample
 template <class S, class Listener>
-void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, BoundsCheck<S>& bounds, Listener& listener) {
+void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, BoundsCheck<S>& bounds,
+                   Listener& listener) {
   listener.section(model.M.cols() ? "x̂ ← A x̂ + B u + M (what the outputs told of w)"
                    : model.nu     ? "x̂ ← A x̂ + B u"
                                   : "x̂ ← A x̂");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "trace/consequences.hpp"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ double root_of(double bound) {
 
 class Following {
  public:
-  explicit Following(const Graph& graph) : graph_(graph), is_known_finite_(graph.nodes().size(), false),
+  explicit Following(const Graph& graph)
+      : graph_(graph), is_known_finite_(graph.nodes().size(), false),
         is_known_not_negative_(graph.nodes().size(), false) {}
 
   void passed(int condition) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What follows from a test that passed for each value by itself: what a prover that computes with intervals cannot find.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The symbolic scalar: a run over it records its operations in the graph in force, and the graph is the program.
 #pragma once
 
@@ -52,7 +53,9 @@ inline Expr select(const Condition& condition, const Expr& yes, const Expr& no) 
   return Expr::of(graph().make(Op::select, condition.node, yes.node, no.node));
 }
 inline Expr absolute(const Expr& a) { return Expr::of(graph().make(Op::absolute, a.node)); }
-inline Expr not_a_number(const Expr&) { return Expr::of(graph().flag(graph().target().is_double ? "(double)NAN" : "NAN")); }
+inline Expr not_a_number(const Expr&) {
+  return Expr::of(graph().flag(graph().target().is_double ? "(double)NAN" : "NAN"));
+}
 inline bool is_zero(const Expr& a) { return graph().is_constant(a.node, 0); }
 inline Condition is_finite(const Expr& a) { return {graph().make(Op::finite, a.node)}; }
 inline Condition is_less(const Expr& a, const Expr& b) { return {graph().make(Op::less, a.node, b.node)}; }

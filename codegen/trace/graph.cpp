@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "trace/graph.hpp"
 
 #include <cmath>
@@ -36,16 +37,15 @@ double compute(Op op, bool fused, T a, T b, T c) {
 }
 
 bool commutes(Op op) {
-  return op == Op::add || op == Op::multiply || op == Op::either || op == Op::both ||
-         op == Op::multiply_add || op == Op::multiply_subtract;  // the two factors
+  return op == Op::add || op == Op::multiply || op == Op::either || op == Op::both || op == Op::multiply_add ||
+         op == Op::multiply_subtract;  // the two factors
 }
 
 }  // namespace
 
 bool is_condition(Op op) {
-  return op == Op::finite || op == Op::less || op == Op::either || op == Op::both ||
-         op == Op::negation || op == Op::usable || op == Op::same ||
-         op == Op::asked;
+  return op == Op::finite || op == Op::less || op == Op::either || op == Op::both || op == Op::negation ||
+         op == Op::usable || op == Op::same || op == Op::asked;
 }
 
 int Graph::insert(Node node) {
@@ -121,10 +121,9 @@ int Graph::fold_constants(Op op, int a, int b, int c) {
   for (const int operand : {a, b, c})
     if (operand >= 0 && !is_constant(operand)) return -1;
   const auto value = [&](int node) { return node >= 0 ? nodes_[node].value : 0.0; };
-  const double result =
-      target_.is_double ? compute<double>(op, target_.is_fused, value(a), value(b), value(c))
-                        : compute<float>(op, target_.is_fused, static_cast<float>(value(a)),
-                                         static_cast<float>(value(b)), static_cast<float>(value(c)));
+  const double result = target_.is_double ? compute<double>(op, target_.is_fused, value(a), value(b), value(c))
+                                          : compute<float>(op, target_.is_fused, static_cast<float>(value(a)),
+                                                           static_cast<float>(value(b)), static_cast<float>(value(c)));
   return std::isfinite(result) ? constant(result) : -1;
 }
 
@@ -140,15 +139,12 @@ int Graph::fold(Op op, int a, int b, int c) {
       if (is_constant(b, 0)) return a;
       if (is_constant(a, 0)) return make(Op::negate, b);
       return a == b ? constant(0) : -1;
-    case Op::multiply:
-      return fold_multiply(a, b);
+    case Op::multiply: return fold_multiply(a, b);
     case Op::divide:
       if (is_constant(a, 0) || is_constant(b, 1)) return a;
       return a == b ? constant(1) : -1;
-    case Op::negate:
-      return nodes_[a].op == Op::negate ? nodes_[a].a : -1;
-    case Op::absolute:
-      return nodes_[a].op == Op::absolute ? a : -1;
+    case Op::negate: return nodes_[a].op == Op::negate ? nodes_[a].a : -1;
+    case Op::absolute: return nodes_[a].op == Op::absolute ? a : -1;
     case Op::multiply_add: return fold_multiply_add(a, b, c);
     case Op::multiply_subtract: return fold_multiply_subtract(a, b, c);
     default: return fold_condition(op, a, b, c);
@@ -170,8 +166,7 @@ int Graph::fold_multiply_add(int a, int b, int c) {
   if (is_constant(a, -1)) return make(Op::subtract, c, b);
   if (is_constant(c, 0)) return make(Op::multiply, a, b);
   if (is_constant(a) && is_constant(b) && !target_.is_fused) return make(Op::add, c, make(Op::multiply, a, b));
-  if (is_constant(a) && nodes_[a].value < 0)
-    return make(Op::multiply_subtract, constant(-nodes_[a].value), b, c);
+  if (is_constant(a) && nodes_[a].value < 0) return make(Op::multiply_subtract, constant(-nodes_[a].value), b, c);
   return -1;
 }
 
@@ -196,8 +191,7 @@ int Graph::fold_condition(Op op, int a, int b, int c) {
       if (is_constant(a)) return nodes_[a].value != 0 ? b : a;
       if (is_constant(b)) return nodes_[b].value != 0 ? a : b;
       return a == b ? a : -1;
-    case Op::negation:
-      return nodes_[a].op == Op::negation ? nodes_[a].a : -1;
+    case Op::negation: return nodes_[a].op == Op::negation ? nodes_[a].a : -1;
     case Op::less: {  // nothing finite lies beyond infinity
       constexpr double infinity = std::numeric_limits<double>::infinity();
       return is_constant(a, infinity) || is_constant(b, -infinity) ? constant(0) : -1;
@@ -205,14 +199,11 @@ int Graph::fold_condition(Op op, int a, int b, int c) {
     case Op::select:
       if (is_constant(a)) return nodes_[a].value != 0 ? b : c;
       return b == c ? b : -1;
-    default:
-      return -1;
+    default: return -1;
   }
 }
 
-void Graph::section(const std::string& equation, const std::string& suffix) {
-  sections_.push_back({equation, suffix});
-}
+void Graph::section(const std::string& equation, const std::string& suffix) { sections_.push_back({equation, suffix}); }
 
 void Graph::name(int node, const std::string& base) {
   if (nodes_[node].op == Op::constant || !nodes_[node].name.empty()) return;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The record of a traced run: every operation once, constants folded as the target would compute them.
 #pragma once
 
@@ -11,15 +12,26 @@
 namespace lqg::trace {
 
 enum class Op {
-  constant, input, add, subtract, multiply, divide, negate, absolute,
+  constant,
+  input,
+  add,
+  subtract,
+  multiply,
+  divide,
+  negate,
+  absolute,
   multiply_add,       // a b + c
   multiply_subtract,  // c − a b
   select,             // a ? b : c
-  finite, less, either, both, negation,  // conditions
-  usable,             // a finite and b positive, in one comparison
-  flag,               // a status, by its name in C; select chooses between statuses too
-  same,               // a == b, of statuses
-  asked,              // a condition: a, or what a function answers where a does not hold
+  finite,
+  less,
+  either,
+  both,
+  negation,  // conditions
+  usable,    // a finite and b positive, in one comparison
+  flag,      // a status, by its name in C; select chooses between statuses too
+  same,      // a == b, of statuses
+  asked,     // a condition: a, or what a function answers where a does not hold
 };
 
 bool is_condition(Op op);

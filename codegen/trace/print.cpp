@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "trace/print.hpp"
 
 #include <charconv>
@@ -16,9 +17,7 @@ namespace {
 // How tightly an operator binds; an operand that binds less gets brackets.
 enum Level { any = 0, logical = 1, comparison = 2, sum = 3, product = 4, unary = 5 };
 
-std::string bracketed(const std::string& text, int binds, int level) {
-  return binds < level ? "(" + text + ")" : text;
-}
+std::string bracketed(const std::string& text, int binds, int level) { return binds < level ? "(" + text + ")" : text; }
 
 // x - x
 bool prints_twice(const Node& node, int operand) {
@@ -59,7 +58,9 @@ std::string literal(double value, bool is_double) {
   if (!std::isfinite(is_double ? value : static_cast<double>(static_cast<float>(value))))
     throw std::range_error(std::string("expected numbers that ") + (is_double ? "double" : "float") +
                            " can hold, found one that is not finite in what is to be printed" +
-                           (is_double ? "" : std::isfinite(value) ? ": choose larger units, or real = \"double\"" : ": choose larger units"));
+                           (is_double              ? ""
+                            : std::isfinite(value) ? ": choose larger units, or real = \"double\""
+                                                   : ": choose larger units"));
   char text[40];
   const std::to_chars_result end = is_double ? std::to_chars(text, text + sizeof text, value)
                                              : std::to_chars(text, text + sizeof text, static_cast<float>(value));
@@ -82,8 +83,7 @@ std::string wrap(const std::string& line, int indent, int width) {
   return out + line.substr(start);
 }
 
-Printer::Printer(const Graph& graph, const std::vector<int>& results)
-    : graph_(graph), uses_(graph.nodes().size(), 0) {
+Printer::Printer(const Graph& graph, const std::vector<int>& results) : graph_(graph), uses_(graph.nodes().size(), 0) {
   for (const int result : results) ++uses_[static_cast<std::size_t>(result)];
   for (std::size_t i = uses_.size(); i-- > 0;) {
     if (uses_[i] == 0) continue;
@@ -118,8 +118,9 @@ std::string Printer::print(int node, int level) const {
 std::string Printer::print_multiply_add(const Node& node, int level) const {
   const bool subtracts = node.op == Op::multiply_subtract;
   if (!graph_.target().is_fused)
-    return bracketed(print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " +
-                         print(node.b, unary), sum, level);
+    return bracketed(
+        print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " + print(node.b, unary), sum,
+        level);
   // The sign goes to a factor that is no number: for -0.5f compilers load another constant beside 0.5f.
   const bool second = subtracts && graph_.is_constant(node.a), first = subtracts && !second;
   const auto factor = [&](int operand, bool has_sign) {
@@ -193,7 +194,9 @@ std::string Printer::restated(int condition, const std::string& text, const std:
   std::string facts;
   for (const Consequence& consequence : consequences(graph_, condition)) {
     const bool is_bounded = consequence.limit >= 0 || std::isfinite(consequence.bound);
-    const std::string limit = consequence.limit >= 0 ? operand(consequence.limit) : is_bounded ? literal(consequence.bound, true) : "";
+    const std::string limit = consequence.limit >= 0 ? operand(consequence.limit)
+                              : is_bounded           ? literal(consequence.bound, true)
+                                                     : "";
     for (const std::string& place : places(consequence.node, stores)) {
       const std::string fact = is_bounded ? "BELOW(" + place + ", " + limit + ")" : "FINITE(" + place + ")";
       if (known.insert(fact).second) facts += (facts.empty() ? "" : " && ") + fact;
@@ -218,9 +221,9 @@ bool Printer::is_status(int node) const {
 std::string Printer::question(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   const std::string name = name_of(node), call = at.text + ", " + print(at.b, any) + ", " + print(at.c, any) + ")";
-  const std::string answer = !graph_.target().is_prover
-                                 ? call
-                                 : "RESTATED(" + call + ", BELOW(" + print(at.b, any) + ", " + literal(at.value, true) + "))";
+  const std::string answer = !graph_.target().is_prover ? call
+                                                        : "RESTATED(" + call + ", BELOW(" + print(at.b, any) + ", " +
+                                                              literal(at.value, true) + "))";
   // A prover follows both answers from here on, but not those to the questions before: they would multiply.
   const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
   return merge + wrap("    int " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ")\n" +
@@ -270,12 +273,17 @@ Operations Printer::operations() const {
   for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
     if (!needs(node)) continue;
     switch (graph_.nodes()[static_cast<std::size_t>(node)].op) {
-      case Op::add: case Op::subtract: case Op::absolute: case Op::finite: ++count.additions; break;
+      case Op::add:
+      case Op::subtract:
+      case Op::absolute:
+      case Op::finite: ++count.additions; break;
       case Op::multiply: ++count.multiplications; break;
-      case Op::multiply_add: case Op::multiply_subtract: ++count.multiply_adds; break;
+      case Op::multiply_add:
+      case Op::multiply_subtract: ++count.multiply_adds; break;
       case Op::divide: ++count.divisions; break;
       case Op::constant: ++count.constants; break;
-      case Op::input: case Op::flag: break;
+      case Op::input:
+      case Op::flag: break;
       case Op::negate: break;  // part of the operation before or after it
       default: ++count.selections;
     }

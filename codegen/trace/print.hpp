@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the graph to C99: declarations under their equations, in the order of the run.
 #pragma once
 

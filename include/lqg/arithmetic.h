@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: the scalar of the target, and what a compiler may do with it.
  *
  * Every product, sum and quotient of TinyLQG is rounded once, in the order in which it is written. That is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: whether this compiler, with the options that it is given here, computes as lqg/arithmetic.h says.
  *
  * That header refuses or overrules most options that would change a bit or let a NaN pass. A few of clang's it can

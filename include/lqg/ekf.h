@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: the extended Kalman filter, for plants that are not linear. Conventions: lqg/lqg.h. Derivations:
  * src/README.md.
  *

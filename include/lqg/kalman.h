@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: Kalman filters. Conventions of all functions: lqg/lqg.h. Derivations: src/README.md.
  *
  *     x⁺ = A x + B u + w,    y = C x + D u + v

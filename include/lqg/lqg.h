@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: Kalman filter and LQR for microcontrollers, and the two together. This header is the whole
  * library.
  *

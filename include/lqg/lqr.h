@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: the control law u = −K x. Conventions: lqg/lqg.h. */
 #ifndef LQG_LQR_H
 #define LQG_LQR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: recursive least squares, for parameters of a plant that are found while it runs. Conventions:
  * lqg/lqg.h. Derivations: src/README.md.
  *

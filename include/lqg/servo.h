@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: the control law with a memory. Conventions: lqg/lqg.h. Derivations: src/README.md.
  *
  *     v = −K z + Nbar r,          z = [x̂; ξ],              u = v within its limits

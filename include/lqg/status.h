@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: what happened in a sample. */
 #ifndef LQG_STATUS_H
 #define LQG_STATUS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG: version of the library, and the number by which a generated header and the library know each other. */
 #ifndef LQG_VERSION_H
 #define LQG_VERSION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* An AVR without more around it: what the program prints goes out of UART 0 at 115200 baud, and so does the exit status
  * that main() returns, as the last line. Then the core sleeps with interrupts off, which ends a simulation.
  *

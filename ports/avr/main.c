@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* How long one sample of a controller takes on an AVR: prints the cycles of update, control and predict, the mean and the
  * most of 100 samples of small random outputs. Timer 1 counts them, eight at a time.
  *

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # run.sh <mcu> <program.elf>: runs a program that has board.c in simavr, prints what it writes to UART 0, and ends with
 # its exit status; 99 when it ended without one.
 

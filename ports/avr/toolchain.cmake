@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # AVR, by avr-gcc:
 #     cmake --toolchain ports/avr/toolchain.cmake -DLQG_AVR_MCU=atmega328p …
 # Debian: gcc-avr avr-libc. Programs run in simavr where that is installed, and so do their tests.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Start-up of a Cortex-M without an operating system. What the program writes with putchar(), and what
  * main() returns, goes to the PC by semihosting: an emulator or a debugger has to be there. */
 #include <stdint.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the ports to Cortex-M share. Each of them is a file that sets
 #     lqg_cpu      the compiler's options for core and FPU
 #     lqg_machine  the machine of QEMU that has this core

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The UART of Arm's MPS2 and MPS3 boards, which QEMU's machines have: Arm, "Cortex-M System Design Kit", section 4.3.
  * LQG_UART is its address, from the port's toolchain file. */
 #include "board.h"

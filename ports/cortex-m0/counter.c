@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TIMER0 of the nRF51822, at the processor's 16 MHz: the nRF51 has no SysTick. Nordic, "nRF51 Series Reference Manual",
  * chapter 18. */
 #include "board.h"

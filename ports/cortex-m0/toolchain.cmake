@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cortex-M0, as in the micro:bit, by GCC:
 #     cmake --toolchain ports/cortex-m0/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m0")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cortex-M3, by GCC:
 #     cmake --toolchain ports/cortex-m3/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m3")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cortex-M33 with its single-precision FPU, by GCC:
 #     cmake --toolchain ports/cortex-m33/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m33 -mfpu=fpv5-sp-d16 -mfloat-abi=hard")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cortex-M4 with its single-precision FPU, by GCC:
 #     cmake --toolchain ports/cortex-m4f/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard")

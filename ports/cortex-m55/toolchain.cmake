@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cortex-M55 with Helium and FPU, by GCC:
 #     cmake --toolchain ports/cortex-m55/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m55 -mfloat-abi=hard")

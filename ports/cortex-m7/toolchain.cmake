@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cortex-M7 with an FPU for both precisions, by GCC:
 #     cmake --toolchain ports/cortex-m7/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard")

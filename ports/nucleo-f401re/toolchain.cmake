@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Nucleo-F401RE, by GCC:
 #     cmake --toolchain ports/nucleo-f401re/toolchain.cmake …
 set(lqg_cpu "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard")

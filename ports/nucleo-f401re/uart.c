@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* USART2 on PA2 and PA3: the board's ST-Link makes of it a serial port of the PC. */
 #include "board.h"
 #include "stm32f401.h"

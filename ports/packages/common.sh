@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # For the make.sh of each package, which has the arguments <root of the source tree> <output folder>. To be sourced; it
 # makes the output folder and gives
 #

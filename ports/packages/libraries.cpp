@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Prints what lqgen has inside: one library a line, its name in the SBOM and its version. MPFR and GMP say it themselves.
 #include <gmp.h>
 #include <mbedtls/version.h>
@@ -11,7 +12,8 @@
 #include <toml++/toml.h>
 
 int main() {
-  std::cout << "boost " << BOOST_VERSION / 100000 << '.' << BOOST_VERSION / 100 % 1000 << '.' << BOOST_VERSION % 100 << '\n'
+  std::cout << "boost " << BOOST_VERSION / 100000 << '.' << BOOST_VERSION / 100 % 1000 << '.' << BOOST_VERSION % 100
+            << '\n'
             << "cli11 " << CLI11_VERSION << '\n'
             << "eigen " << EIGEN_WORLD_VERSION << '.' << EIGEN_MAJOR_VERSION << '.' << EIGEN_MINOR_VERSION << '\n'
             << "gmp " << gmp_version << '\n'

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes the packages of the ecosystems, all or those that are named, each into a folder build/packages/NAME.
 #
 #   ports/packages/make.sh [NAME]…

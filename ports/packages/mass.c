@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A mass on a frictionless axis, let go 10 mm away, is brought to 0 by the controller of double_integrator.toml. A few
  * lines of physics stand in for the hardware: it runs on any board as it is, and prints where the mass is.
  *

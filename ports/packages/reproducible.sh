@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # For bash scripts that make packages, to be sourced: the same bytes come out whatever the umask, the time zone, the language and the
 # modes of the checked-out files.
 #

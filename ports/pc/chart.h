@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Curves over time: as characters for a terminal, as SVG for a browser. */
 #ifndef CHART_H
 #define CHART_H

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Designs the balancing robot's controller from its design file, compiles what was emitted, and runs it in closed loop
 # against the nonlinear robot with noise. Sets up what it needs.
 #

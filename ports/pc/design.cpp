@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The design engine as a C++ library: a cart on a track is regulated over a finite and over an infinite horizon, its
 // state is estimated, then both together, and each of them is simulated with noise from a seed. What the long runs
 // show has to be what the design says; the exit status is 0 if it is.
@@ -54,7 +55,8 @@ Estimator estimator() {
 Solution solved(const Problem& problem) {
   Findings findings;
   const std::optional<Solution> solution = solve(problem, findings);
-  for (const Finding& finding : findings) std::fprintf(stderr, "%s: %s\n", finding.key.c_str(), finding.message.c_str());
+  for (const Finding& finding : findings)
+    std::fprintf(stderr, "%s: %s\n", finding.key.c_str(), finding.message.c_str());
   if (!solution) std::exit(EXIT_FAILURE);
   return *solution;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The balancing robot in closed loop: the emitted controller, in float, against the nonlinear robot with noisy sensors.
  *
  *     balancing_robot_demo [PICTURE.svg]

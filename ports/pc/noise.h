@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Random numbers of a sensor, the same in every run. */
 #ifndef NOISE_H
 #define NOISE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "robot.h"
 
 #include <math.h>

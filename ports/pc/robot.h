@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The balancing robot as physics has it, not as the design sees it: nonlinear, in continuous time. */
 #ifndef ROBOT_H
 #define ROBOT_H

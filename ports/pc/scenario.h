@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What the robot goes through in the demos: let go 3° off upright, pushed after four seconds, its gyroscope dead for a
  * moment after seven; with noise on sensors and torque. */
 #ifndef SCENARIO_H

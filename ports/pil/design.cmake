@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The design of controller.h: LQG_PIL_DESIGN, default the balancing robot's.
 set(LQG_PIL_DESIGN ${CMAKE_CURRENT_LIST_DIR}/../../codegen/designs/balancing_robot.toml CACHE FILEPATH "Design file")
 set(lqg_pil_design ${LQG_PIL_DESIGN})

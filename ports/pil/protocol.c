@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "protocol.h"
 
 enum { SYNC = 0xA5, HEADER = 5, CRC = 2 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What the host that simulates the plant and the target that runs the controller say to each other, over any serial line.
  * One text for both: C99, freestanding, no heap.
  *

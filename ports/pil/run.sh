@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Processor in the loop: designs the balancing robot's controller, compiles it for a target, and lets it hold the robot that this
 # machine simulates; prints what every sample took.
 #

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What a counter says of a step: for the target, and for the test of it. */
 #ifndef PIL_TICKS_H
 #define PIL_TICKS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Start-up of a RISC-V without an operating system. What the program writes to stdout, and what main()
  * returns, goes to the PC by semihosting: an emulator or a debugger has to be there. */
 #include <stdint.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the ports to RISC-V share. Each of them is a file that sets
 #     lqg_cpu   the compiler's options for the instruction set and the calling convention
 #     lqg_bits  32 or 64

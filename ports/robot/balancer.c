@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "balancer.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The balancing robot but for its hardware: when it may drive, what it does in a sample, and when it has to stop.
  *
  *     WAITING ── held upright and still for a second ──▶ READY ── let go: it moves ──▶ BALANCING

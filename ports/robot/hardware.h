@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What the robot is made of, to the program that balances it: simulated/ and nucleo/ have it. */
 #ifndef HARDWARE_H
 #define HARDWARE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A line of text over the serial port, for a person or a plotter. */
 #ifndef REPORT_H
 #define REPORT_H

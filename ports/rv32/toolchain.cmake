@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # RV32IMAC, without FPU, by GCC:
 #     cmake --toolchain ports/rv32/toolchain.cmake …
 set(lqg_cpu "-march=rv32imac -mabi=ilp32")

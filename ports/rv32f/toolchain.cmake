@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # RV32IMAFC, with a single-precision FPU, by GCC:
 #     cmake --toolchain ports/rv32f/toolchain.cmake …
 set(lqg_cpu "-march=rv32imafc -mabi=ilp32f")

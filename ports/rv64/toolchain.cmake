@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # RV64GC, with an FPU for both precisions, by GCC:
 #     cmake --toolchain ports/rv64/toolchain.cmake …
 set(lqg_cpu "-march=rv64imafdc -mabi=lp64d")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # For bash scripts, to be sourced: how programs are built and run for a core, from its port's own files.
 #
 #   every_core             the cores that there are

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Counts instructions, exactly, in an emulator that counts time by them: QEMU with -icount. */
 #ifndef BENCH_COUNTER_H
 #define BENCH_COUNTER_H

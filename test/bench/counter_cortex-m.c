@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* SysTick, which counts down at MEGAHERTZ, the processor's clock in the emulated machine. With -icount shift=8 an
  * instruction takes 256 ns, four ticks and more, so that the rounded quotient is exact, up to two million of them. On a
  * board it would count cycles. */

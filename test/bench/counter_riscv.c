@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* minstret, which counts instructions by definition; in QEMU it does with -icount shift=0, and with another shift their
  * time in ns. */
 #include "counter.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The flash and stack that lqgen states, against what the compiler makes that they are stated for: arm-none-eabi-gcc 12.2, -O2, Cortex-M4F.
 #
 #   test/bench/estimates.sh [--random COUNT] [--from SEED] [DESIGN.toml]…

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A program that is nothing but the controller in HEADER: what the linker brings for its four functions,
  * constants and library functions included, is its flash. The table of the functions itself, from which the
  * linker starts, lies in a section of its own. */

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Of the library's loops, what codegen/emit/plan/library_cost.cpp has as numbers: bytes of flash, without the C library, of each filter's and
 # law's functions together with all that they call, and the deepest reach of the stack of each; of float, fused float, double, fused
 # double. To be run, and its numbers taken over, when src/ has changed. FOLDER is where all work is done, default build/figures.

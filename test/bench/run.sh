@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # What the emitted controllers cost on the cores of ports/: prints a table for each core.
 #
 #   test/bench/run.sh [--all] [core]… [DESIGN.toml]… [option of the compiler]…     after -O2 -std=c99, such as -Os or -std=gnu99

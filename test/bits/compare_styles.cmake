@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Both styles of a controller in HASHES have the same values: the same bits but for the sign of zeros.
 set(pairs 0)
 set(wrong)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Every bit of 1000 samples of one controller. To be included by what describe.cmake makes of the controller's header:
  * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS, ADVANCES and REFERS the controller does, and MEMBERS, a
  * HASH_MEMBER(name) for each part of its state. FUNCTION_OF(NAME) becomes the function that runs it. Included once for

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Makes OUTPUT, what a controller.h (of this test or of another that runs every controller) wants to hear of the controller
 # in HEADER, which lqgen has made of the design NAME in REAL.
 file(READ ${HEADER} header)

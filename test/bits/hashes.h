@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What a controller has computed, in two numbers. */
 #ifndef TEST_HASHES_H
 #define TEST_HASHES_H

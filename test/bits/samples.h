@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What a controller hears, and how it is noted, in REAL. Nothing here is rounded. */
 #ifndef TEST_SAMPLES_H
 #define TEST_SAMPLES_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C and C++ compilers that CMake uses, for tests of what was printed.
 #pragma once
 

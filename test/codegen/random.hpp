@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chance for the tests: the same on every host, as the standard fixes the generator.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DDOXYGEN=… -DROOT=… -DOUTPUT=… -P reference.cmake: makes the API reference in OUTPUT. Fails where Doxygen
 # warns, or where a header has no page or no text: then the comments were not seen.
 file(REMOVE_RECURSE ${OUTPUT})

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A controller in closed loop with its plant, sample by sample. plant.h, which closed_loop.py writes, has both. */
 #ifndef LQG_TEST_CLOSED_LOOP_H
 #define LQG_TEST_CLOSED_LOOP_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A controller in closed loop with its plant: runs lqgen, writes what closed_loop.h has to know, compiles a program.
 
 Everything is written below the current folder. CC is the compiler.

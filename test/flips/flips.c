@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Every bit of a controller's state, flipped once, in closed loop: after RECOVERY_SAMPLES the loop with the flip is where
  * its twin is that had none and hears the same noise. closed_loop.h has the loop.
  *

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Flips each bit of each number of a controller's state, one at a time, in closed loop with its plant; flips.c is the loop.
 
     flips.py <build> DESIGN.toml|SEED STYLE [--sample N] [--list] [--deaf]

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Honest samples of a controller in closed loop with its plant, in laps: each begins with a plant at x0 and a draw from
  * P0, and has a silence, all outputs NaN, after a third of it. honest.py says how long both are at most: a silence is
  * halved until the loop survives it.

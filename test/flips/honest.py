@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Honest samples of a controller in closed loop with its plant: none may be taken for a fault; honest.c is the loop.
 
     honest.py <build> DESIGN.toml STYLE [--samples N] [--lap N] [--spike SIGMA]

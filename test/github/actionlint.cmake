@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DGO=<go> -DPROGRAM=<file> -P actionlint.cmake: builds the actionlint of go.mod, checked by the hashes of
 # go.sum. Go itself knows whether it has built it already.
 if(NOT GO)

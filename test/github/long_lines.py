@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """long_lines.py ROOT LIST: counts the lines of more than 120 characters in all tracked text files. Fails where a file
 has more of them than LIST allows: `NUMBER PATH` in each of its lines, below the reason as a comment. Rows of tables in
 Markdown cannot be broken and may be longer."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """named_paths.py ROOT: fails where .github/ or .pre-commit-config.yaml name a file or folder of this tree that does not
 exist, or a heading that a document does not have."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """new_lines.py FILE…: fails where a line that is about to be committed in one of these files has more than 120
 characters. Rows of tables in Markdown cannot be broken and may be longer."""
 

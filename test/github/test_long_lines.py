@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """long_lines.py: a file with more long lines than the list allows is found; nothing else is."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """named_paths.py: what is named and not there is found, by its line; nothing else is."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """new_lines.py: what is new and too long is found, by its line; nothing else is."""
 
 import subprocess

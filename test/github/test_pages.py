@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """pages.sh: a report of every shipped design, and an index that leads to each and to nothing else."""
 
 import os

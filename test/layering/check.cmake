@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DROOT=<source folder> -P check.cmake: fails where a file includes what its room or floor may not know.
 
 cmake_minimum_required(VERSION 3.22)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Changes emitted headers and the library, one place at a time, and asks whether their tests notice.
 
     mutants.py <build> header DESIGN.toml STYLE [--sample N]    the header that lqgen makes, by its own NAME_test.c

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Small changes of C text, one at a time: what a test of that text has to notice. The same text gives the same mutants."""
 import re
 from typing import Iterator, NamedTuple

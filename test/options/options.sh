@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # No combination of a compiler's options is accepted and wrong: either it is refused when lqg/check.h or a controller is
 # compiled, or lqg_arithmetic_check() finds it, or controllers and library compute every bit as expected, with outputs that
 # are NaN left out.

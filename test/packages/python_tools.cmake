@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DPYTHON=… -DFOLDER=… -DREQUIREMENTS=… -P python_tools.cmake: installs the requirements into a virtual environment;
 # once is enough.
 if(NOT PYTHON)

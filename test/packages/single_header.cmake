@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DPACKAGE=… -DROOT=… -DCC=… -DCXX=… -DFLAGS=… -DWORK=… -Dtinylqg=<library> -Ddouble=… -Dfused=… -Ddouble_fused=…
 # -P single_header.cmake: tinylqg.h in all four variants, as C and as C++, with all warnings, finds the bits of the
 # library. The names of the library's private functions stay its own.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """test/unity.sh: what has not the hash is not unpacked, and nothing of what is fetched runs."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DPACKAGES=… -DVERSION=… -P versions.cmake: every manifest names the version of include/lqg/version.h, and no
 # template was left unfilled.
 function(expect_version file pattern)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """zephyr_module.py FOLDER: zephyr/module.yml has only keys that Zephyr's schema for modules knows, and what they name is
 there. Keys: Zephyr documentation, "Modules (External projects)", "Module yaml file description"."""
 import pathlib

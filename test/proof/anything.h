@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What a proof of a controller begins with: the controller in NAME_proof.h, its names, and anything. */
 #ifndef PROOF_ANYTHING_H
 #define PROOF_ANYTHING_H

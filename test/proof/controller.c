@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A controller, called in any order, for ever, with anything: "calls.h" is made of its header by calls.awk. */
 #include "anything.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The library's own estimators, with states, samples and results of the caller's functions of any bits, in
  * any order. */
 #include <stddef.h>

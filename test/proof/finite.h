@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* v − v == 0 in words that intervals can follow: v is a number, and within the range. Included before everything else
  * that the prover reads. */
 #ifndef PROOF_FINITE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Four lemmas that README.md uses, tried on every 251st float and on the edges of the range. */
 #include <float.h>
 #include <math.h>

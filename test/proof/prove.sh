@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Proves of the controller of a design file, yours or ours, what README.md says, by Frama-C's Eva; says what it could not
 # prove or does not understand.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Proves of the library's own estimators what README.md says, by Frama-C's Eva; fails when it cannot.
 #
 #   test/proof/prove_library.sh <folder for scratch> [option of the preprocessor]…

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Proves random designs in both styles; prints the first one that is not proved, and what was said of it. --try: without the
 # prover, as prove.sh does.
 #

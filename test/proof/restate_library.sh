@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # restate_library <folder>: the library's sources into the folder, restated for the prover; see README.md.
 restate_library() {
   cp "$root"/src/*.[ch] "$1"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Calls a controller with anything, from any state, to see that what is said to follow from its tests does. Compiled with
  * tried.h in place of unknown.h. */
 #include "anything.h"

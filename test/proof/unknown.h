@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What the prover knows nothing about, and what in the proof stands for "the sum of v, and of more, is finite". */
 #ifndef PROOF_UNKNOWN_H
 #define PROOF_UNKNOWN_H

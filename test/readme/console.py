@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """console.py PAGE LQGEN DESIGN…: runs the commands of a page's ```console blocks, one after the other in one folder
 with these designs, and fails where a command does not print the lines below it. A line … stands for any lines."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """picture.py REPORT.html PICTURE.svg [--check]: makes the README's picture of three charts of a report, as they are;
 with --check fails where the picture is another one."""
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The rest of the README's firmware: sensors and actuators that a test can look at. */
 #include <math.h>
 

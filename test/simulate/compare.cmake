@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Records runs of a DESIGN in STYLE and REAL in FILE, and holds them against its CONTROLLER.
 execute_process(COMMAND ${RECORD} ${DESIGN} ${STYLE} ${REAL} ${FILE} RESULT_VARIABLE result)
 if(NOT result EQUAL 0)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the host's simulation shows of a controller, for replay.h, which holds it against the compiled header.
 //
 //     record_runs DESIGN.toml STYLE REAL FILE
@@ -75,9 +76,8 @@ std::vector<simulate::SimulationOptions> runs_of(const Controller& controller) {
   simulate::SimulationOptions fair, failing, far;
   fair.samples = failing.samples = far.samples = 400;
   fair.r = failing.r = far.r = Eigen::VectorXd::Constant(controller.size.nr, 1);
-  fair.input = failing.input = far.input = [&](int k) {
-    return Eigen::VectorXd::Constant(controller.size.nu, std::sin(0.1 * k));
-  };
+  fair.input = failing.input =
+      far.input = [&](int k) { return Eigen::VectorXd::Constant(controller.size.nu, std::sin(0.1 * k)); };
   failing.seed = 2;
   failing.sensor = fail_some;
   far.seed = 3;

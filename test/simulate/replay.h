@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Numbers of a file of record_runs, as REAL has them. */
 #ifndef TEST_REPLAY_H
 #define TEST_REPLAY_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Holds the runs of record_runs against the compiled header of their controller.
  *
  *     replay_runs "<design> <arithmetic> <style> <real>" FILE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a single absurd value costs the loop, and that no honest sample is taken for one.
 //
 //     spikes DESIGN.toml [samples]     default: 20000 honest samples
@@ -99,7 +100,8 @@ std::string cost_of_spike(const Controller& controller, int output, double facto
   SimulationOptions options;
   options.samples = run_length;
   const Trajectory twin = simulate::simulate(controller, options);
-  const Eigen::VectorXd of_outputs = deviations(twin.y.rightCols(run_length / 2)), of_states = deviations(twin.x.rightCols(run_length / 2));
+  const Eigen::VectorXd of_outputs = deviations(twin.y.rightCols(run_length / 2)),
+                        of_states = deviations(twin.x.rightCols(run_length / 2));
   const double spike = factor * of_outputs(output);
   options.sensor = [&](int k, Eigen::VectorXd& y) {
     if (k == spike_at) y(output) += spike;
@@ -109,7 +111,8 @@ std::string cost_of_spike(const Controller& controller, int output, double facto
   if (run.resets || run.covariance_resets) return "begins anew";
   const Eigen::VectorXd moved = (run.x - twin.x).cwiseAbs().rowwise().maxCoeff();
   for (Eigen::Index i = 0; i < moved.size(); ++i)
-    if (!(moved(i) <= allowed * of_states(i))) return "moves " + controller.problem.plant.states[static_cast<std::size_t>(i)].name;
+    if (!(moved(i) <= allowed * of_states(i)))
+      return "moves " + controller.problem.plant.states[static_cast<std::size_t>(i)].name;
   return "";
 }
 
@@ -133,6 +136,7 @@ int main(int count, char* arguments[]) {
       std::printf("a spike of %g σ in output %d %s\n", factor, output, cost.c_str());
     }
   const int alarms = count_false_alarms(controller, samples);
-  std::printf("%s: %d outputs left out in %ld honest samples, %d spikes that cost\n", controller.problem.name.c_str(), alarms, samples, failures);
+  std::printf("%s: %d outputs left out in %ld honest samples, %d spikes that cost\n", controller.problem.name.c_str(),
+              alarms, samples, failures);
   return alarms || failures ? 1 : 0;
 }

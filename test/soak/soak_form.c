@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A controller that keeps z for a long time: noise for outputs, one in 16 missing. z and u stay finite, and near what
  * they were: it never begins anew, and no output that was missing is left in it.
  *

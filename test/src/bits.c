@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A hash of every bit that the library computes in 1000 samples of all its filters, in the variant it is
  * compiled in. */
 #include "bits.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Every bit of the library's results in one number. */
 #ifndef TEST_BITS_H
 #define TEST_BITS_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Builds print_bits.c and the library with COMPILER and many options: all of one variant print the same hash. Where
 # the processor has fused multiply-adds, FMA is the option that allows them.
 set(modes "-std=c99 -O0" "-std=c99 -Os" "-std=c99 -O3" "-std=gnu99 -O3 ${FMA}" "-std=gnu99 -O2 -flto ${FMA}" "-x c++ -O2 ${FMA}")

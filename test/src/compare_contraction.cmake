@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Runs CONTRACTED and PLAIN, two builds of contraction.c: same hash, and only the first contracts what it may.
 execute_process(COMMAND ${CONTRACTED} OUTPUT_VARIABLE contracted COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${PLAIN} OUTPUT_VARIABLE plain COMMAND_ERROR_IS_FATAL ANY)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the compiler has to say: each header stands alone, in C99 and in C++; the library is C++ too; -ffast-math
 # is refused; variants do not mix; contraction changes no bit.
 set(warnings -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror)

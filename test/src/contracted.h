@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Whether the compiler turns a*b + c into one operation where nobody tells it not to. */
 #ifndef TEST_CONTRACTED_H
 #define TEST_CONTRACTED_H

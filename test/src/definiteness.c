@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* How often the covariance of a random filter loses its definiteness when it is carried as it is, in Joseph's
  * form, and as U diag(d) Uᵀ. Prints one table; fails when a UD filter is among the lost, or no other.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Whatever outputs, inputs and states are, to the bit, and in whatever order the library is called: it stays
  * inside the caller's arrays, which have the lengths of its macros, x̂ stays finite, u within its limits and d
  * ≥ 0. */

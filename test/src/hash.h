@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Many bits in one number. */
 #ifndef TEST_HASH_H
 #define TEST_HASH_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The three filters behind one face, with a regulator, so that a test can be made of all of them. */
 #ifndef TEST_LOOP_H
 #define TEST_LOOP_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Links a caller of each variant with the library of each variant: when they are the same it links and runs,
 # otherwise it does not link.
 set(variants tinylqg double fused double_fused)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Plants as a textbook writes them, and what the library wants to know of them. */
 #ifndef TEST_MODEL_H
 #define TEST_MODEL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Prints the hash of every bit of the library's results, for bits_everywhere.cmake. */
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Every bit of the library, the same on every machine. The numbers are those of x86-64, gcc 12, -O2: run the
  * test to see the new ones after a change that is meant. */
 #include "bits.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The bounds of a state and of what is believed: hit exactly, just missed, and left far behind, in each entry. The plant
  * is x⁺ = x + u, y = x, so that a prediction from x = 0 leaves x = u. */
 #include <float.h>

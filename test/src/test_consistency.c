@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Is P what it says? Over many runs of plants with the noises of their models; and a published series. */
 #include <math.h>
 #include <string.h>

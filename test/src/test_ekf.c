@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The extended Kalman filter: against a textbook's in double, against the linear filter, and under attack. */
 #include <math.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What the sensors, or the application, should never say. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The filters that carry P, against the textbook and against each other. */
 #include <float.h>
 #include <math.h>

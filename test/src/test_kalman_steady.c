@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The filter with constant gain. */
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Filter and regulator together: the recipe of a sample, and memory of exactly the sizes that the macros say.
  * */
 #include <stdlib.h>

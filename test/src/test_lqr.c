@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The control law and its limits, and a status in words. */
 #include <math.h>
 #include <string.h>

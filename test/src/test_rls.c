@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Recursive least squares against the batch solution, and against what drives it to its limits. */
 #include <math.h>
 #include <string.h>

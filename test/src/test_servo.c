@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The control law with a memory. All numbers are sums of few powers of two: exact, fused or not. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Updates by some of the outputs, by one alone, at several rates, with a gate; and plants that vary. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The Kalman filter as a textbook has it, in double: all outputs at once, S inverted, nothing decorrelated.
  * Shares nothing with the library but the letters. Source: Anderson & Moore, Optimal Filtering (1979). */
 #ifndef TEST_TEXTBOOK_H

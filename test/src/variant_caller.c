@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A program that uses one function of the library. */
 #include "lqg/lqg.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/well_posed.hpp"
 #include "design/numeric/factor.hpp"
 #include "design/numeric/poles.hpp"
@@ -27,9 +28,8 @@ void check_symmetric(const Eigen::MatrixXd& a, const std::string& key, Findings&
 }
 
 // Errors at `key_a` or `key_b` for one alone, at `key_cross` when only the two together are indefinite.
-void check_joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b,
-                 const std::string& key_a, const std::string& key_cross, const std::string& key_b,
-                 Findings& findings) {
+void check_joint(const RealMatrix& a, const RealMatrix& cross, const RealMatrix& b, const std::string& key_a,
+                 const std::string& key_cross, const std::string& key_b, Findings& findings) {
   const std::string expected = "expected a positive semidefinite matrix, found the eigenvalue ";
   const std::size_t before = findings.size();
   for (const auto& [matrix, key] : {std::make_pair(&a, &key_a), std::make_pair(&b, &key_b)})
@@ -60,8 +60,7 @@ void check_symmetry(const Problem& problem, Findings& findings) {
 namespace {
 
 void check_semidefinite(const Eigen::MatrixXd& a, const std::string& key, Findings& findings) {
-  if (a.size() > 0 && is_indefinite(real(a)))
-    add_error(findings, key, "expected a positive semidefinite matrix");
+  if (a.size() > 0 && is_indefinite(real(a))) add_error(findings, key, "expected a positive semidefinite matrix");
 }
 
 void check_regulator_definiteness(const Problem& problem, Findings& findings) {
@@ -84,8 +83,8 @@ void check_measurement_noise(const Plant& plant, const RealMatrix& V, Findings& 
     const std::size_t k = static_cast<std::size_t>(i);
     const std::string name = k < plant.outputs.size() ? plant.outputs[k].name : "y" + std::to_string(i);
     return add_error(findings, "kalman.measurement_noise",
-                     "expected a positive definite matrix: every output needs some noise of its own, " + name
-                         + (V(i, i) > 0 ? " has only that of the outputs before it" : " has none"));
+                     "expected a positive definite matrix: every output needs some noise of its own, " + name +
+                         (V(i, i) > 0 ? " has only that of the outputs before it" : " has none"));
   }
 }
 
@@ -94,8 +93,7 @@ void check_estimator_definiteness(const Problem& problem, Findings& findings) {
   check_joint(real(kalman.W), real(kalman.Swv), real(kalman.V), "kalman.process_noise", "kalman.cross_noise",
               "kalman.measurement_noise", findings);
   if (!has_error(findings)) check_measurement_noise(problem.plant, noise_of(problem).V, findings);
-  if (kalman.gain != Gain::steady)
-    check_semidefinite(kalman.P0, "kalman.initial_covariance", findings);
+  if (kalman.gain != Gain::steady) check_semidefinite(kalman.P0, "kalman.initial_covariance", findings);
 }
 
 }  // namespace

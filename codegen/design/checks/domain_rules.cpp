@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/well_posed.hpp"
 
 namespace lqg::design {
@@ -6,7 +7,8 @@ namespace {
 
 void check_discrete_plant(const Problem& problem, Findings& findings) {
   const std::string expected = "expected \"discrete\": the plant is given at its samples only";
-  if (has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete) add_error(findings, "lqr.cost", expected);
+  if (has_cost(problem.regulator) && problem.regulator->cost != Cost::discrete)
+    add_error(findings, "lqr.cost", expected);
   if (has_noise(problem.estimator) && problem.estimator->noise != Noise::discrete)
     add_error(findings, "kalman.noise", expected);
   if (!delay_of(problem.plant).is_whole)
@@ -33,13 +35,13 @@ void check_gains_and_stages(const Problem& problem, Findings& findings) {
   bool changes_plant = false, changes_filter = false;
   for (const Stage& stage : problem.stages) {
     changes_plant = changes_plant || stage.A.size() + stage.B.size() + stage.C.size() + stage.D.size() > 0;
-    changes_filter = changes_filter || stage.A.size() + stage.C.size() + stage.G.size() > 0
-                     || stage.W.size() + stage.V.size() > 0;
+    changes_filter =
+        changes_filter || stage.A.size() + stage.C.size() + stage.G.size() > 0 || stage.W.size() + stage.V.size() > 0;
   }
   const int end = problem.stages.empty() ? 0 : problem.stages.back().from;
   const auto is_over = [&](int horizon) { return horizon > 0 && end >= horizon; };
-  if ((has_cost(problem.regulator) && is_over(problem.regulator->horizon))
-      || (has_noise(problem.estimator) && is_over(problem.estimator->horizon)))
+  if ((has_cost(problem.regulator) && is_over(problem.regulator->horizon)) ||
+      (has_noise(problem.estimator) && is_over(problem.estimator->horizon)))
     add_error(findings, "stage",
               "a stage begins at step " + std::to_string(end) + ", when the horizon is over and its last gain is held");
   if (has_noise(problem.estimator) && problem.estimator->gain == Gain::steady && changes_filter)
@@ -55,8 +57,7 @@ void check_gains_and_stages(const Problem& problem, Findings& findings) {
 void check_correlation_times(const Estimator& kalman, Findings& findings) {
   const bool of_process = kalman.process_correlation_time.size() > 0;
   const bool of_measurement = kalman.measurement_correlation_time.size() > 0;
-  const std::string key =
-      of_process ? "kalman.process_correlation_time" : "kalman.measurement_correlation_time";
+  const std::string key = of_process ? "kalman.process_correlation_time" : "kalman.measurement_correlation_time";
   if (!of_process && !of_measurement) return;
   if (kalman.noise == Noise::discrete)
     add_error(findings, key, "expected noise = \"continuous\": samples have no correlation time");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/mode_names.hpp"
 
 #include "design/numeric/poles.hpp"
@@ -34,12 +35,11 @@ ComplexReal continuous_pole(const ComplexReal& z, double sample_time) {
 std::string name_mode(const Plant& plant, const Mode& mode, bool is_continuous) {
   const double T = plant.sample_time;
   const std::string states = name_states(plant, mode.states);
-  if (plant.domain == Domain::discrete)
-    return "the mode at z = " + short_complex(mode.value, 1) + " (" + states + ")";
+  if (plant.domain == Domain::discrete) return "the mode at z = " + short_complex(mode.value, 1) + " (" + states + ")";
   const ComplexReal s = is_continuous ? mode.value : continuous_pole(mode.value, T);
   const ComplexReal z = is_continuous ? sampled_pole(mode.value, T) : mode.value;
-  return "the mode at s = " + short_complex(s, norm(real(plant.A))) + " (z = " + short_complex(z, 1) + "; "
-         + states + ")";
+  return "the mode at s = " + short_complex(s, norm(real(plant.A))) + " (z = " + short_complex(z, 1) + "; " + states +
+         ")";
 }
 
 Decay decay_per_mode(const Problem& problem) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How messages speak of a mode: its eigenvalue and the states that take part.
 #pragma once
 

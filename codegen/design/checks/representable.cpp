@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/representable.hpp"
 
 #include <cmath>
@@ -31,8 +32,8 @@ void check_representable(const Solution& solution, Scalar real, Findings& findin
   for_each_matrix(solution, [&](const std::string& name, Place place, const auto& matrix) {
     const bool in_float = place == Place::target && real == Scalar::float32;
     const std::string scalar = in_float ? "float" : "double", key = name.substr(0, name.find('.'));
-    const Misfit found = in_float ? misfit(matrix.data(), matrix.size(), to_float)
-                                  : misfit(matrix.data(), matrix.size(), to_double);
+    const Misfit found =
+        in_float ? misfit(matrix.data(), matrix.size(), to_float) : misfit(matrix.data(), matrix.size(), to_double);
     if (found.overflows) add_error(findings, key, name + " has an entry too large for " + scalar);
     if (!found.vanishes) return;
     if (name == "kalman.V" && place == Place::target)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Do the numbers of a design fit into those of the target, and of the report?
 #pragma once
 

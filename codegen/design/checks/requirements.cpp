@@ -1,8 +1,8 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/requirements.hpp"
 
 #include <algorithm>
 #include <cstdio>
-
 
 namespace lqg::design {
 
@@ -17,8 +17,8 @@ std::string text_of(double value, const char* format) {
 // With as many digits as it takes to tell the two apart.
 std::string compared(const char* limit, double required, double found, const char* unit) {
   const char* format = text_of(required, "%.6g") != text_of(found, "%.6g") ? "%.6g" : "%.17g";
-  return std::string("requires ") + limit + " " + text_of(required, format) + unit + ", the loop has "
-         + text_of(found, format) + unit;
+  return std::string("requires ") + limit + " " + text_of(required, format) + unit + ", the loop has " +
+         text_of(found, format) + unit;
 }
 
 void check_margin(const std::optional<double>& required, const std::optional<double>& found, bool has_loop,

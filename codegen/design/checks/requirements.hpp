@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the design file requires of the closed loop.
 #pragma once
 

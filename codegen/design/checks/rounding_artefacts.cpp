@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/rounding_artefacts.hpp"
 
 #include <algorithm>
@@ -143,8 +144,8 @@ std::string name_of(const Problem& problem, const Artefact& mode) {
 std::string how_far(double share, const std::string& numbers, const std::string& then) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", std::max(share, 1e-17));
-  return " only by the rounding of the file's numbers: move every number of " + numbers + " by " + text
-         + " of itself (a double's last place is 2.2e-16), and " + then;
+  return " only by the rounding of the file's numbers: move every number of " + numbers + " by " + text +
+         " of itself (a double's last place is 2.2e-16), and " + then;
 }
 
 void add(Findings& findings, const Problem& problem, const std::string& key, const Artefact& mode,
@@ -154,9 +155,7 @@ void add(Findings& findings, const Problem& problem, const std::string& key, con
 
 Pencil reach_of(const Plant& plant) { return pencil(plant.A.rows(), side(plant.A, plant.B)); }
 
-Pencil sight_of(const Plant& plant) {
-  return pencil(plant.A.rows(), side(plant.A.transpose(), plant.C.transpose()));
-}
+Pencil sight_of(const Plant& plant) { return pencil(plant.A.rows(), side(plant.A.transpose(), plant.C.transpose())); }
 
 }  // namespace
 
@@ -168,8 +167,8 @@ void check_reach_is_no_artefact(const Problem& problem, Findings& findings) {
     const bool is_slow = Region{region.is_continuous, Which::beyond, stable}.excess(mode.value) < -split;
     const std::string key = !is_slow ? "plant.B" : problem.regulator->settling_time ? "lqr.settling_time" : "lqr.decay";
     add(findings, problem, key, mode,
-        " is reached by the inputs" + how_far(mode.share, "A and B", "no input reaches it: ")
-            + (is_slow ? "it is slower than asked for" : "the plant is not stabilisable"));
+        " is reached by the inputs" + how_far(mode.share, "A and B", "no input reaches it: ") +
+            (is_slow ? "it is slower than asked for" : "the plant is not stabilisable"));
   }
 }
 
@@ -185,8 +184,7 @@ void check_placement_is_no_artefact(const Problem& problem, Findings& findings) 
   const Digits enough(50);
   for (const Artefact& mode : artefacts(reach_of(problem.plant), real(problem.plant.A), {is_continuous(problem)}))
     add(findings, problem, "plant.B", mode,
-        " is reached by the inputs"
-            + how_far(mode.share, "A and B", "no input reaches it: its pole cannot be moved"));
+        " is reached by the inputs" + how_far(mode.share, "A and B", "no input reaches it: its pole cannot be moved"));
 }
 
 void check_observer_is_no_artefact(const Problem& problem, Findings& findings) {
@@ -213,10 +211,10 @@ void check_set_points_are_no_artefact(const Problem& problem, const std::vector<
       distance_at(pencil(nx, stack(side(plant.A, plant.B), CD)), Complex(is_continuous(problem) ? 0 : 1, 0));
   if (zero.share > artefact) return;
   add_error(findings, key,
-            "constant inputs hold these outputs at a set point"
-                + how_far(zero.share, "A, B, C and D",
-                          "the plant has a zero at z = 1 (s = 0; " + name_states(plant, zero.states)
-                              + ") from its inputs to them: no constant input holds them"));
+            "constant inputs hold these outputs at a set point" +
+                how_far(zero.share, "A, B, C and D",
+                        "the plant has a zero at z = 1 (s = 0; " + name_states(plant, zero.states) +
+                            ") from its inputs to them: no constant input holds them"));
 }
 
 namespace {
@@ -241,7 +239,8 @@ Motion free_of_cost(const Plant& plant, const SampledCost& weights) {
 void add_integrals(const Plant& plant, const std::vector<int>& outputs, Pencil& motion) {
   for (const int output : outputs) {
     MatrixXd seen(motion.numbers.rows(), 1);
-    seen << plant.C.row(output).transpose(), plant.D.row(output).transpose().head(motion.numbers.rows() - plant.A.rows());
+    seen << plant.C.row(output).transpose(),
+        plant.D.row(output).transpose().head(motion.numbers.rows() - plant.A.rows());
     motion = pencil(motion.states, side(motion.numbers, seen));
   }
 }
@@ -249,19 +248,19 @@ void add_integrals(const Plant& plant, const std::vector<int>& outputs, Pencil& 
 // The motion's u is that of the plant's own time, and free to move.
 bool may_move_inputs(const Problem& problem, const SampledCost& weights) {
   const Regulator& lqr = *problem.regulator;
-  return positive_definite(weights.R) && lqr.input_rate.size() == 0
-         && lqr.cost == (is_continuous(problem) ? Cost::continuous : Cost::discrete);
+  return positive_definite(weights.R) && lqr.input_rate.size() == 0 &&
+         lqr.cost == (is_continuous(problem) ? Cost::continuous : Cost::discrete);
 }
 
 // [w; t]ᴴ [A − z  G W  G Swv; C  Swvᵀ  V] = 0: a motion that no noise drives. Without Swv nothing but w is in it.
 Motion free_of_noise(const Plant& plant, const SampledNoise& noise) {
   const MatrixXd W = to_doubles(noise.W), GW = plant.G * W, sizes = plant.G.cwiseAbs() * W.cwiseAbs();
-  if (is_zero(noise.Swv))
-    return {{plant.A.rows(), side(plant.A, GW), side(plant.A.cwiseAbs(), sizes)}, real(plant.A)};
+  if (is_zero(noise.Swv)) return {{plant.A.rows(), side(plant.A, GW), side(plant.A.cwiseAbs(), sizes)}, real(plant.A)};
   const MatrixXd S = to_doubles(noise.Swv);
   const MatrixXd of_y = side(side(plant.C, S.transpose()), to_doubles(noise.V));
-  const Pencil motion = {plant.A.rows(), stack(side(side(plant.A, GW), plant.G * S), of_y),
-                         stack(side(side(plant.A.cwiseAbs(), sizes), plant.G.cwiseAbs() * S.cwiseAbs()), of_y.cwiseAbs())};
+  const Pencil motion = {
+      plant.A.rows(), stack(side(side(plant.A, GW), plant.G * S), of_y),
+      stack(side(side(plant.A.cwiseAbs(), sizes), plant.G.cwiseAbs() * S.cwiseAbs()), of_y.cwiseAbs())};
   const RealMatrix told = *solve(noise.V, real(plant.C));
   return {motion, real(plant.A) - multiply(multiply(real(plant.G), noise.Swv), told)};
 }
@@ -277,8 +276,8 @@ void check_weights_are_no_artefact(const Problem& problem, Findings& findings) {
   const Region region = {is_continuous(problem), Which::on, limit_of_regulator(problem)};
   for (const Artefact& mode : artefacts(motion.pencil, motion.A, region))
     add(findings, problem, "lqr.Q", mode,
-        " carries a weight, or is off the stability limit,"
-            + how_far(mode.share, "A and Q", "it is on the limit without a weight: no stabilising gain is optimal"));
+        " carries a weight, or is off the stability limit," +
+            how_far(mode.share, "A and Q", "it is on the limit without a weight: no stabilising gain is optimal"));
 }
 
 void check_noise_is_no_artefact(const Problem& problem, Findings& findings) {
@@ -289,9 +288,9 @@ void check_noise_is_no_artefact(const Problem& problem, Findings& findings) {
   const Region region = {is_continuous(problem), Which::on, limit_of_stability(problem)};
   for (const Artefact& mode : artefacts(motion.pencil, motion.A, region))
     add(findings, problem, "kalman.process_noise", mode,
-        " is driven by process noise, or is off the stability limit,"
-            + how_far(mode.share, "A, G and the noise",
-                      "it is on the limit without noise: no stable steady filter is optimal"));
+        " is driven by process noise, or is off the stability limit," +
+            how_far(mode.share, "A, G and the noise",
+                    "it is on the limit without noise: no stable steady filter is optimal"));
 }
 
 }  // namespace lqg::design

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Does a design hang on the rounding of the file's numbers? Exactly taken, a plant that was sampled or turned in floating
 // point has no unreachable mode and no zero at z = 1: both are a rounding away, and a gain of 1e15 is what comes of it.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/checks/well_posed.hpp"
 
 #include "design/checks/mode_names.hpp"
@@ -45,8 +46,7 @@ Mode without_decay(const Problem& problem, Mode mode) {
 
 bool is_too_slow(const Plant& plant, const Mode& mode, const Decay& decay) {
   const ComplexReal& value = mode.value;
-  if (plant.domain == Domain::discrete)
-    return on_or_outside_circle({decay.alpha * value.re, decay.alpha * value.im});
+  if (plant.domain == Domain::discrete) return on_or_outside_circle({decay.alpha * value.re, decay.alpha * value.im});
   return on_or_right_of_axis({value.re + decay.rate, value.im}, norm(real(plant.A)) + decay.rate);
 }
 
@@ -60,8 +60,8 @@ Unreached unreached_modes_of(const Plant& plant, const Eigen::MatrixXd& A, const
 bool become_one(const ComplexReal& s, const ComplexReal& r, double sample_time) {
   const Real near = 1e-9;
   const Real turns = (s.im - r.im) * sample_time / (8 * atan(Real(1)));
-  return abs(turns) > 0.5 && abs(turns - round(turns)) <= near * abs(turns)
-         && abs(s.re - r.re) * sample_time <= near * abs(turns);
+  return abs(turns) > 0.5 && abs(turns - round(turns)) <= near * abs(turns) &&
+         abs(s.re - r.re) * sample_time <= near * abs(turns);
 }
 
 std::vector<ComplexReal> rough_poles(const Plant& plant) {
@@ -72,24 +72,23 @@ std::vector<ComplexReal> rough_poles(const Plant& plant) {
 // Unstable modes (or all) that B reaches in continuous time and does not in the samples. With the numbers of a file no
 // two poles become one exactly; where two nearly do, couplings down to 10^−6 count as lost. A held input is
 // one more pole at s = 0.
-std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B,
-                                         bool is_held, bool every_mode, const Real& alpha) {
+std::vector<Mode> modes_lost_by_sampling(const Plant& plant, const RealMatrix& A, const RealMatrix& B, bool is_held,
+                                         bool every_mode, const Real& alpha) {
   const Real weak = 1e-6;
   std::vector<ComplexReal> merged, poles = rough_poles(plant);
   const std::size_t count = poles.size();
   if (is_held) poles.push_back({Real(0), Real(0)});
   for (std::size_t i = 0; i < count; ++i)
     for (const ComplexReal& other : poles)
-      if (become_one(poles[i], other, plant.sample_time))
-        merged.push_back(sampled_pole(poles[i], plant.sample_time));
+      if (become_one(poles[i], other, plant.sample_time)) merged.push_back(sampled_pole(poles[i], plant.sample_time));
   std::vector<Mode> lost;
   if (merged.empty()) return lost;
   const Real usual = is_held ? Real(plant.sample_time * largest_entry(real(plant.B))) : largest_entry(B);
   const RealMatrix reach = B.unaryExpr([&](const Real& b) { return abs(b) > weak * usual ? b : Real(0); });
   for (const Mode& mode : unreached_sampled_modes(A, reach, weak).modes)
     for (const ComplexReal& z : merged)
-      if ((every_mode || on_or_outside_circle({alpha * z.re, alpha * z.im}))
-          && hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
+      if ((every_mode || on_or_outside_circle({alpha * z.re, alpha * z.im})) &&
+          hypot(mode.value.re - z.re, mode.value.im - z.im) < 1e-6 * hypot(z.re, z.im)) {
         lost.push_back({z, mode.states});
         break;
       }
@@ -117,8 +116,7 @@ struct Words {
 
 // Errors for unstable modes (or all) that B does not reach, or that it reaches no more by sampling. False when the
 // digits in force see another number of modes than there are exactly.
-bool check_pair(const Plant& plant, const Pair& pair, const Decay& decay, const Words& words,
-                Findings& findings) {
+bool check_pair(const Plant& plant, const Pair& pair, const Decay& decay, const Words& words, Findings& findings) {
   const Unreached unreached = unreached_modes_of(plant, pair.A, pair.B);
   const bool certain = unreached.dimension == pair.A.rows() - reached_dimension(pair.A, pair.B);
   for (const Mode& mode : unreached.modes)
@@ -127,8 +125,8 @@ bool check_pair(const Plant& plant, const Pair& pair, const Decay& decay, const 
     else if (is_too_slow(plant, mode, decay))
       add_once(findings, words.decay_key, name_mode(plant, mode, true) + words.slow);
   if (!certain || has_error(findings) || plant.domain == Domain::discrete) return certain;
-  for (const Mode& mode : modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held,
-                                                 words.every_mode, decay.alpha))
+  for (const Mode& mode :
+       modes_lost_by_sampling(plant, pair.sampled_A, pair.sampled_B, pair.is_held, words.every_mode, decay.alpha))
     add_once(findings, "plant.sample_time", name_mode(plant, mode, false) + words.lost);
   return true;
 }
@@ -150,8 +148,7 @@ bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Fin
 
 bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
-  const Pair pair = {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(),
-                     false};
+  const Pair pair = {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(), false};
   return check_pair(plant, pair, Decay(),
                     {"plant.C", " is seen in no output: the plant is not detectable",
                      " is seen too weakly in the outputs: the plant is hardly detectable",
@@ -173,15 +170,14 @@ bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findin
   return certain;
 }
 
-bool check_observable(const Problem& problem, const SampledPlant& sampled, const RealMatrix& seen,
-                      Findings& findings) {
+bool check_observable(const Problem& problem, const SampledPlant& sampled, const RealMatrix& seen, Findings& findings) {
   const Plant& plant = problem.plant;
-  const bool certain =
-      check_pair(plant, {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(), false}, Decay(),
-                 {"plant.C", " is seen in no output: its pole cannot be moved",
-                  " is seen too weakly in the outputs: its pole can hardly be moved",
-                  " cannot be seen at these samples: the sample time matches its oscillation", true},
-                 findings);
+  const bool certain = check_pair(
+      plant, {plant.A.transpose(), plant.C.transpose(), sampled.A.transpose(), sampled.C.transpose(), false}, Decay(),
+      {"plant.C", " is seen in no output: its pole cannot be moved",
+       " is seen too weakly in the outputs: its pole can hardly be moved",
+       " cannot be seen at these samples: the sample time matches its oscillation", true},
+      findings);
   if (has_error(findings)) return certain;
   for (const Mode& mode : unreached_sampled_modes(sampled.A.transpose(), seen.transpose()).modes)
     add_once(findings, "plant.C", name_mode(plant, mode, false) + " is not seen in time: its pole cannot be moved");
@@ -192,19 +188,17 @@ namespace {
 
 // A pair whose modes on the stability limit all have to be reached, for X or P to be stabilising.
 struct LimitPair {
-  RealMatrix A, weight;   // weight: symmetric, or any columns that reach
+  RealMatrix A, weight;  // weight: symmetric, or any columns that reach
   bool is_continuous;
 
-  bool on_limit(const ComplexReal& value) const {
-    return is_continuous ? on_axis(value, norm(A)) : on_circle(value);
-  }
+  bool on_limit(const ComplexReal& value) const { return is_continuous ? on_axis(value, norm(A)) : on_circle(value); }
 };
 
 // Modes on the limit that carry no weight, or, as rounded numbers may have it, less than none: vᴴ weight v < 0.
 std::vector<Mode> unweighted_on_limit(const LimitPair& pair) {
   std::vector<Mode> found;
-  const Unreached unreached = pair.is_continuous ? unreached_modes(pair.A, pair.weight)
-                                                 : unreached_sampled_modes(pair.A, pair.weight);
+  const Unreached unreached =
+      pair.is_continuous ? unreached_modes(pair.A, pair.weight) : unreached_sampled_modes(pair.A, pair.weight);
   for (const Mode& mode : unreached.modes)
     if (pair.on_limit(mode.value)) found.push_back(mode);
   if (!found.empty() || pair.weight.rows() != pair.weight.cols() || positive_definite(pair.weight)) return found;
@@ -231,8 +225,8 @@ void check_weights_on_limit(const Problem& problem, const RiccatiEquation& e, Fi
   const bool is_continuous = problem.regulator->cost == Cost::continuous;
   for (const Mode& mode : unweighted_on_limit(weighted_modes(e, is_continuous)))
     add_once(findings, "lqr.Q",
-             name_mode(with_regulated_states(problem), without_decay(problem, mode), is_continuous)
-                 + " is on the stability limit and carries no weight: no stabilising gain is optimal");
+             name_mode(with_regulated_states(problem), without_decay(problem, mode), is_continuous) +
+                 " is on the stability limit and carries no weight: no stabilising gain is optimal");
 }
 
 namespace {
@@ -244,8 +238,7 @@ LimitPair untold_noise(const Samples& samples) {
   const RealMatrix told = *solve(noise.V, beside(plant.C, noise.Swv.transpose()));
   const Index nx = plant.A.rows(), nw = plant.G.cols();
   const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
-  const RealMatrix own =
-      congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
+  const RealMatrix own = congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
   return {free, own, false};
 }
 
@@ -267,16 +260,17 @@ void check_start(const Problem& problem, const Samples& samples, Findings& findi
   const RealMatrix known = transpose_congruence(vectors, real(problem.estimator->P0));
   if (eliminated(known).rank < eliminated(transpose_multiply(vectors, vectors)).rank)
     add_error(findings, "kalman.initial_covariance",
-              modes + ": no process noise drives this, and in some direction of it P0 has no uncertainty: the gains never "
-                      "become the steady ones");
+              modes +
+                  ": no process noise drives this, and in some direction of it P0 has no uncertainty: the gains never "
+                  "become the steady ones");
 }
 
 void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings) {
   for (const Mode& mode : unweighted_on_limit(untold_noise(samples)))
     add_once(findings, "kalman.process_noise",
-             name_mode(problem.plant, mode, false)
-                 + " is on the stability limit and driven by no process noise: "
-                   "no stable steady filter is optimal");
+             name_mode(problem.plant, mode, false) +
+                 " is on the stability limit and driven by no process noise: "
+                 "no stable steady filter is optimal");
 }
 
 }  // namespace lqg::design

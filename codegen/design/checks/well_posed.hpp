@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Is the problem well posed? Each finding names the key and, for a mode, its eigenvalue and the states that
 // take part.
 #pragma once
@@ -25,8 +26,7 @@ bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findi
 // The same of every mode, stable or not: poles are to be placed. `seen` is what of the state an observer's error
 // shows: C, or CA in filter form.
 bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
-bool check_observable(const Problem& problem, const SampledPlant& sampled, const RealMatrix& seen,
-                      Findings& findings);
+bool check_observable(const Problem& problem, const SampledPlant& sampled, const RealMatrix& seen, Findings& findings);
 
 // A mode on the stability limit that carries no weight, or that no process noise drives, has no stabilising
 // solution. `equation` is the one that the gain solves.

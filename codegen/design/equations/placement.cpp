@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/placement.hpp"
 
 namespace lqg::design {
@@ -17,8 +18,7 @@ RealMatrix eigenvector_equation(const RealMatrix& A, const RealMatrix& B, const 
   const RealMatrix shifted = A - pole.re * identity(A.rows());
   if (pole.im.is_zero()) return beside(shifted, -B);
   const RealMatrix turn = pole.im * identity(A.rows()), none = zeros(B.rows(), B.cols());
-  return above(beside(beside(shifted, turn), beside(-B, none)),
-               beside(beside(-turn, shifted), beside(none, -B)));
+  return above(beside(beside(shifted, turn), beside(-B, none)), beside(beside(-turn, shifted), beside(none, -B)));
 }
 
 std::optional<RealMatrix> onto_null_space(const RealMatrix& F, const RealMatrix& d) {
@@ -60,13 +60,12 @@ std::optional<RealMatrix> place_by_one_input(const RealMatrix& A, const RealMatr
 
 // K X = G.
 std::optional<RealMatrix> place_by_eigenvectors(const RealMatrix& A, const RealMatrix& B,
-                                                const std::vector<ComplexReal>& poles,
-                                                const PlacementChoice& choice) {
+                                                const std::vector<ComplexReal>& poles, const PlacementChoice& choice) {
   const Index nx = A.rows(), nu = B.cols();
   RealMatrix X(nx, 0), G(nu, 0);
   for (std::size_t j = 0; j < poles.size(); ++j) {
-    const std::optional<RealMatrix> both = detail::onto_null_space(
-        detail::eigenvector_equation(A, B, poles[j]), real(choice.directions[j]));
+    const std::optional<RealMatrix> both =
+        detail::onto_null_space(detail::eigenvector_equation(A, B, poles[j]), real(choice.directions[j]));
     if (!both) return std::nullopt;
     const Index parts = poles[j].im.is_zero() ? 1 : 2;
     for (Index part = 0; part < parts; ++part) {
@@ -81,8 +80,7 @@ std::optional<RealMatrix> place_by_eigenvectors(const RealMatrix& A, const RealM
 
 // K of all inputs from that of the chosen ones, B = B_chosen T: T⁺ K_chosen = Tᵀ(TTᵀ)⁻¹K_chosen.
 std::optional<RealMatrix> spread_over_inputs(const RealMatrix& B, const RealMatrix& chosen, const RealMatrix& K) {
-  const std::optional<RealMatrix> T =
-      solve(transpose_multiply(chosen, chosen), transpose_multiply(chosen, B));
+  const std::optional<RealMatrix> T = solve(transpose_multiply(chosen, chosen), transpose_multiply(chosen, B));
   if (!T) return std::nullopt;
   const std::optional<RealMatrix> weighed = solve(multiply_transpose(*T, *T), K);
   if (!weighed) return std::nullopt;
@@ -94,8 +92,8 @@ std::optional<RealMatrix> spread_over_inputs(const RealMatrix& B, const RealMatr
 std::optional<RealMatrix> place(const RealMatrix& A, const RealMatrix& B, const std::vector<ComplexReal>& poles,
                                 const PlacementChoice& choice) {
   const RealMatrix chosen = detail::chosen_inputs(B, choice);
-  const std::optional<RealMatrix> K = chosen.cols() == 1 ? place_by_one_input(A, chosen, poles)
-                                                         : place_by_eigenvectors(A, chosen, poles, choice);
+  const std::optional<RealMatrix> K =
+      chosen.cols() == 1 ? place_by_one_input(A, chosen, poles) : place_by_eigenvectors(A, chosen, poles, choice);
   if (!K) return std::nullopt;
   return spread_over_inputs(B, chosen, *K);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gains that give a closed loop the poles that are wanted.
 #pragma once
 

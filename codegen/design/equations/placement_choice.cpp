@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/placement.hpp"
 #include "design/numeric/modes.hpp"
 #include "design/rounding.hpp"
@@ -120,8 +121,7 @@ class Eigenvectors {
   // projections of u and v. The largest |eigenvalue| μ of that matrix has the eigenvector −(qᴴq)p + (qᴴp − 2jμ)q.
   RealMatrix best_pair(const Freedom& freedom) const {
     const Index nx = X_.rows();
-    const RealMatrix u = inverse_.row(freedom.column).transpose(),
-                     v = inverse_.row(freedom.column + 1).transpose();
+    const RealMatrix u = inverse_.row(freedom.column).transpose(), v = inverse_.row(freedom.column + 1).transpose();
     const RealMatrix p = project(freedom.basis, above(u, zeros(nx, 1))),
                      q = project(freedom.basis, above(v, zeros(nx, 1)));
     const ComplexReal qp = complex_dot(q, p);
@@ -154,8 +154,7 @@ std::optional<std::vector<Freedom>> freedoms_of(const RealMatrix& A, const RealM
   for (const ComplexReal& pole : poles) {
     const Index parts = pole.im.is_zero() ? 1 : 2;
     const RealMatrix F = detail::eigenvector_equation(A, B, pole);
-    const std::optional<RealMatrix> free =
-        detail::onto_null_space(F, scatter.matrix(F.cols(), parts * B.cols()));
+    const std::optional<RealMatrix> free = detail::onto_null_space(F, scatter.matrix(F.cols(), parts * B.cols()));
     if (!free) return std::nullopt;
     freedoms.push_back({pole, orthonormal(free->topRows(parts * A.rows())), column});
     column += parts;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/refined_stein.hpp"
 
 #include "design/equations/riccati.hpp"

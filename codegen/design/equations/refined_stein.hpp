@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // X = AᵀXA + Y where A has few entries that are not zero.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/riccati.hpp"
 
 #include <limits>
@@ -162,8 +163,7 @@ bool satisfies(const RiccatiEquation& e, const RiccatiResult& result) {
 std::optional<RiccatiEquation> bilinear(const RiccatiEquation& e) {
   const Index nx = e.A.rows(), nu = e.B.cols();
   Real fastest;
-  for (const ComplexReal& value : eigenvalues(e.A))
-    fastest = std::max<Real>(fastest, hypot(value.re, value.im));
+  for (const ComplexReal& value : eigenvalues(e.A)) fastest = std::max<Real>(fastest, hypot(value.re, value.im));
   if (fastest < 1e-6 * norm(e.A)) fastest = norm(e.A);
   const Real gamma = fastest.is_zero() ? Real(1) : Real(2 * fastest), root = sqrt(2 * gamma);
   const std::optional<RealMatrix> solved =

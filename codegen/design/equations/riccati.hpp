@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Discrete and continuous algebraic Riccati equations: the stabilising solution, or the reason why there is
 // none.
 #pragma once

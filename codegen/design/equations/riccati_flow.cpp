@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/riccati_flow.hpp"
 
 namespace lqg::design {
@@ -37,14 +38,11 @@ std::optional<RiccatiFlow> mixed(const RealMatrix& E) {
 
 std::optional<RiccatiFlow> doubled(const RiccatiFlow& flow) {
   const Index nx = flow.A.rows();
-  const std::optional<RealMatrix> solved =
-      solve(identity(nx) + multiply(flow.G, flow.H), beside(flow.A, flow.G));
+  const std::optional<RealMatrix> solved = solve(identity(nx) + multiply(flow.G, flow.H), beside(flow.A, flow.G));
   if (!solved) return std::nullopt;
   const RealMatrix moved = solved->leftCols(nx);
-  return RiccatiFlow{
-      multiply(flow.A, moved),
-      flow.G + congruence(flow.A, symmetric_part(solved->rightCols(nx))),
-      flow.H + symmetric_part(transpose_multiply(flow.A, multiply(flow.H, moved)))};
+  return RiccatiFlow{multiply(flow.A, moved), flow.G + congruence(flow.A, symmetric_part(solved->rightCols(nx))),
+                     flow.H + symmetric_part(transpose_multiply(flow.A, multiply(flow.H, moved)))};
 }
 
 }  // namespace
@@ -59,8 +57,7 @@ std::optional<RiccatiFlow> riccati_flow(const RiccatiEquation& continuous, const
 }
 
 std::optional<RealMatrix> carried_back(const RiccatiFlow& flow, const RealMatrix& X) {
-  const std::optional<RealMatrix> solved =
-      solve(identity(X.rows()) + multiply(flow.G, X), flow.A);
+  const std::optional<RealMatrix> solved = solve(identity(X.rows()) + multiply(flow.G, X), flow.A);
   if (!solved) return std::nullopt;
   return RealMatrix(flow.H + symmetric_part(transpose_multiply(flow.A, multiply(X, *solved))));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Riccati differential equation over one period.
 #pragma once
 

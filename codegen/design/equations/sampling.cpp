@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/sampling.hpp"
 
 #include <algorithm>
@@ -77,8 +78,7 @@ Period short_period(const HeldPlant& plant, const RealMatrix& F, const Real& h) 
   const Real rounding = negligible(1) / 1000;
   const Index least = 2 * longest_reach(F) + orders_until_negligible(2 * h * norm(plant.A));
   const Index most = 8 * least + 100;  // an entry that cancels to nothing but rounding never settles
-  const RealMatrix cost_xx =
-      has_cost && has_noise ? RealMatrix(plant.cost.topLeftCorner(nx, nx)) : RealMatrix();
+  const RealMatrix cost_xx = has_cost && has_noise ? RealMatrix(plant.cost.topLeftCorner(nx, nx)) : RealMatrix();
   for (Index order = 2; order <= most; ++order) {
     const Real step = h / order;
     if (has_cost && has_noise) sum.noise_cost += step * trace_of_product(cost_xx, noise);
@@ -104,8 +104,7 @@ void double_period(Period& period, Index nx) {
   const RealMatrix phi = period.transition.topLeftCorner(nx, nx);
   if (period.cost.size() > 0) {
     if (period.noise.size() > 0)
-      period.noise_cost =
-          2 * period.noise_cost + trace_of_product(period.cost.topLeftCorner(nx, nx), period.noise);
+      period.noise_cost = 2 * period.noise_cost + trace_of_product(period.cost.topLeftCorner(nx, nx), period.noise);
     period.cost += transpose_congruence(period.transition, period.cost);
   }
   if (period.noise.size() > 0) period.noise += congruence(phi, period.noise);
@@ -139,8 +138,7 @@ SampledPeriod followed_by(const SampledPeriod& first, const SampledPeriod& secon
   if (first.cost.size() == 0) return both;
   const RealMatrix moves = above(beside(first.A, first.B), beside(zeros(held, nx), identity(held)));
   both.cost = first.cost + transpose_congruence(moves, second.cost);
-  if (first.noise.size() > 0)
-    both.noise_cost += trace_of_product(second.cost.topLeftCorner(nx, nx), first.noise);
+  if (first.noise.size() > 0) both.noise_cost += trace_of_product(second.cost.topLeftCorner(nx, nx), first.noise);
   return both;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A continuous plant under inputs that are held between samples, its cost integral and its noise, at the
 // samples.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/equations/sparse_gain.hpp"
 
 #include <algorithm>
@@ -182,7 +183,8 @@ StructureProblem rounded(const StructureProblem& problem) {
   const RiccatiEquation& e = problem.equation;
   return {{in_present_digits(e.A), in_present_digits(e.B), in_present_digits(e.Q), in_present_digits(e.R),
            in_present_digits(e.N)},
-          in_present_digits(problem.W), problem.kept};
+          in_present_digits(problem.W),
+          problem.kept};
 }
 
 // In few digits: a minimum, or as near as these come.
@@ -253,10 +255,10 @@ std::vector<ComplexReal> fixed_unstable_modes(const StructureProblem& problem) {
   };
   const std::vector<ComplexReal> other = poles_of(1.7);
   for (const ComplexReal& pole : poles_of(0.6))
-    if (pole.im >= 0 && on_or_outside_circle(pole)
-        && std::any_of(other.begin(), other.end(), [&](const ComplexReal& z) {
-             return hypot(z.re - pole.re, z.im - pole.im) <= near * (1 + hypot(z.re, z.im));
-           }))
+    if (pole.im >= 0 && on_or_outside_circle(pole) &&
+        std::any_of(other.begin(), other.end(), [&](const ComplexReal& z) {
+          return hypot(z.re - pole.re, z.im - pole.im) <= near * (1 + hypot(z.re, z.im));
+        }))
       fixed.push_back(pole);
   return fixed;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gains of which only some entries may differ from zero.
 #pragma once
 

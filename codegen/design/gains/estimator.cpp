@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/gains/estimator.hpp"
 
 #include "design/finding.hpp"
@@ -11,8 +12,7 @@ RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
   const SampledNoise& noise = *samples.noise;
   const Index nx = samples.own_states, all = samples.plant.A.rows();
   RiccatiResult result = solve_discrete_riccati(
-      {plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W), noise.V,
-       multiply(plant.G, noise.Swv)},
+      {plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W), noise.V, multiply(plant.G, noise.Swv)},
       start.size() > 0 ? RealMatrix(start.topLeftCorner(nx, nx)) : start);
   // The inputs on their way are known: no error.
   if (result.failure == RiccatiFailure::none) result.X = padded(result.X, all, all);
@@ -22,8 +22,8 @@ RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
 RiccatiResult solve_continuous_estimator(const Problem& problem, const RealMatrix& start) {
   const SampledNoise noise = noise_of(problem);
   const RealMatrix G = real(problem.plant.G);
-  return solve_continuous_riccati({real(problem.plant.A).transpose(), real(problem.plant.C).transpose(), congruence(G, noise.W),
-                                   noise.V, multiply(G, noise.Swv)},
+  return solve_continuous_riccati({real(problem.plant.A).transpose(), real(problem.plant.C).transpose(),
+                                   congruence(G, noise.W), noise.V, multiply(G, noise.Swv)},
                                   start);
 }
 
@@ -90,8 +90,7 @@ OnlineSolution online_filter(const Estimator& estimator, const Samples& samples)
 
 void explain_estimator(RiccatiFailure failure, Findings& findings) {
   switch (failure) {
-    case RiccatiFailure::none:
-      return;
+    case RiccatiFailure::none: return;
     case RiccatiFailure::not_definite:
       return add_error(findings, "kalman.measurement_noise",
                        "the innovation covariance CPCᵀ + V is not positive definite");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The steady Kalman filter, and the same filter prepared for the target to carry its covariance.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/gains/horizon.hpp"
 
 #include "design/equations/riccati_flow.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gains of a problem that ends, or that changes on the way: backward from the end.
 #pragma once
 
@@ -7,9 +8,9 @@
 namespace lqg::design {
 
 struct GainTable {
-  std::vector<RealMatrix> K;  // of step 0, 1, …
-  RealMatrix X_first, X_last; // the cost to go from step 0, and from the last step that has a gain
-  int failed_at = -1;         // the step whose R + BᵀXB is not positive definite
+  std::vector<RealMatrix> K;   // of step 0, 1, …
+  RealMatrix X_first, X_last;  // the cost to go from step 0, and from the last step that has a gain
+  int failed_at = -1;          // the step whose R + BᵀXB is not positive definite
 };
 
 // K[k] and X[k] for k = steps − 1 … 0 from X[steps] = X_end over z.

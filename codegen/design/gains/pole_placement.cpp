@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/gains/pole_placement.hpp"
 
 #include <algorithm>
@@ -80,8 +81,8 @@ PlacedGain placed(const WantedPoles& wanted, const std::string& section, double 
   }
   result.may_want_digits = !repeated;
   add_error(findings, key_of(wanted, section),
-            repeated ? text_of(*repeated) + " is wanted more than " + std::to_string(inputs)
-                           + " times, once for each independent " + (section == "observer" ? "output" : "input")
+            repeated ? text_of(*repeated) + " is wanted more than " + std::to_string(inputs) +
+                           " times, once for each independent " + (section == "observer" ? "output" : "input")
                      : "there are no independent eigenvectors for these poles: repeat fewer of them");
   return result;
 }
@@ -93,8 +94,8 @@ void check_wanted_poles(const WantedPoles& wanted, const std::string& section, E
   const std::string key = key_of(wanted, section);
   if (static_cast<Eigen::Index>(wanted.values.size()) != states)
     add_error(findings, key,
-              "expected " + std::to_string(states) + " poles, one for each state" + of_which + ", found "
-                  + std::to_string(wanted.values.size()));
+              "expected " + std::to_string(states) + " poles, one for each state" + of_which + ", found " +
+                  std::to_string(wanted.values.size()));
   for (auto pole = wanted.values.begin(); pole != wanted.values.end(); ++pole) {
     if (std::find(wanted.values.begin(), pole, *pole) != pole) continue;
     const auto own = std::count(wanted.values.begin(), wanted.values.end(), *pole);
@@ -102,8 +103,8 @@ void check_wanted_poles(const WantedPoles& wanted, const std::string& section, E
     if (own > other) add_error(findings, key, text_of(*pole) + " lacks its conjugate");
     if (is_stable(wanted, *pole)) continue;
     add_error(findings, key,
-              text_of(*pole) + " is not stable: expected "
-                  + (wanted.continuous ? "a negative real part" : "an absolute value below 1"));
+              text_of(*pole) + " is not stable: expected " +
+                  (wanted.continuous ? "a negative real part" : "an absolute value below 1"));
   }
 }
 
@@ -130,8 +131,8 @@ PlacedGain place_observer(const Problem& problem, const Samples& samples, const 
   if (!has_error(findings)) result.may_want_digits = !check_observable(problem, plant, seen, findings);
   if (!has_error(findings)) check_observer_is_no_artefact(problem, findings);
   if (has_error(findings)) return result;
-  result = placed(wanted, "observer", problem.plant.sample_time, plant.A.transpose(), seen.transpose(), choice,
-                  findings);
+  result =
+      placed(wanted, "observer", problem.plant.sample_time, plant.A.transpose(), seen.transpose(), choice, findings);
   result.gain.transposeInPlace();
   result.poles.resize(static_cast<std::size_t>(samples.plant.A.rows()), {Real(0), Real(0)});
   return result;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Regulators and observers whose poles are given: what is asked for, and whether it can be had.
 #pragma once
 
@@ -11,7 +12,7 @@ struct PlacedGain {
   RealMatrix gain;                 // K, or L in the observer's form: L or L_predictor
   std::vector<ComplexReal> poles;  // all that were wanted, in the z plane
   PlacementChoice choice;
-  bool may_want_digits = false;    // of an error
+  bool may_want_digits = false;  // of an error
 };
 
 // Are there as many poles as states, conjugates in pairs, all stable? Under "pole_placement.poles",

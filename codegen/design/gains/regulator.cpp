@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/gains/regulator.hpp"
 
 #include "design/finding.hpp"
@@ -28,9 +29,9 @@ SteadyRegulator solve_postponed(const Problem& problem, const Samples& samples, 
   result.riccati.K = multiply(result.riccati.K, prediction.predict);
   result.riccati.closed = e.A - multiply(e.B, result.riccati.K);
   result.poles.resize(static_cast<std::size_t>(e.A.rows()), {Real(0), Real(0)});
-  const std::optional<RealMatrix> X =
-      prediction.is_exact ? cost_after_prediction(problem, e, prediction, result.riccati.X)
-                          : solve_stein(result.riccati.closed, step_cost(e, result.riccati.K));
+  const std::optional<RealMatrix> X = prediction.is_exact
+                                          ? cost_after_prediction(problem, e, prediction, result.riccati.X)
+                                          : solve_stein(result.riccati.closed, step_cost(e, result.riccati.K));
   if (!X) result.riccati.failure = RiccatiFailure::residual;
   if (X) result.riccati.X = *X;
   return result;
@@ -59,15 +60,13 @@ RealMatrix regulated_loop(const Problem& problem, const SampledPlant& plant, con
 
 void explain_regulator(RiccatiFailure failure, Findings& findings) {
   switch (failure) {
-    case RiccatiFailure::none:
-      return;
+    case RiccatiFailure::none: return;
     case RiccatiFailure::not_definite:
       return add_error(findings, "lqr.R",
                        "R + BᵀXB is not positive definite: some input costs nothing and does nothing");
     case RiccatiFailure::no_start:
-      return add_error(
-          findings, "lqr",
-          "no stabilising gain was found: the plant is too close to one that cannot be stabilised");
+      return add_error(findings, "lqr",
+                       "no stabilising gain was found: the plant is too close to one that cannot be stabilised");
     case RiccatiFailure::not_converged:
       return add_error(findings, "lqr",
                        "no stabilising gain is optimal: a closed-loop pole tends to the stability limit");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The steady optimal gain K of the regulator.
 #pragma once
 

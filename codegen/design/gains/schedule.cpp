@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/gains/schedule.hpp"
 
 #include <algorithm>
@@ -14,8 +15,8 @@ RealMatrix next_covariance(const Samples& samples, const EstimatorSolution& filt
   const SampledPlant& plant = samples.plant;
   const SampledNoise& noise = *samples.noise;
   const RealMatrix F = plant.A - multiply(filter.L_predictor, plant.C);
-  return congruence(F, filter.P_prior)
-         + congruence(beside(plant.G, -filter.L_predictor), joint(noise.W, noise.Swv, noise.V));
+  return congruence(F, filter.P_prior) +
+         congruence(beside(plant.G, -filter.L_predictor), joint(noise.W, noise.Swv, noise.V));
 }
 
 bool round_alike(const Real& a, const Real& b, Scalar real) {

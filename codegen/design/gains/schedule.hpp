@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The gains of a filter that starts from P0: forward in time.
 #pragma once
 
@@ -9,8 +10,8 @@ namespace lqg::design {
 // L and M of sample 0, 1, … and the filter after the last of them (P_prior of the next sample).
 struct GainSchedule {
   std::vector<RealMatrix> L, M;
-  EstimatorSolution last;     // of the last sample in the table
-  bool is_settled = true;     // false: not within the most samples that were allowed
+  EstimatorSolution last;  // of the last sample in the table
+  bool is_settled = true;  // false: not within the most samples that were allowed
 };
 
 // `count` gains from P0 on: L = P Cᵀ S⁻¹, M = G Swv S⁻¹, P⁺ = A P Aᵀ + G W Gᵀ − (A L + M) S (A L + M)ᵀ.

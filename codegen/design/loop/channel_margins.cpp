@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/channel_margins.hpp"
 
 #include <algorithm>
@@ -70,8 +71,8 @@ void add_crossings(const Search& search, const Channel& t_at, Index channel, Val
       add(low, high);
       continue;
     }
-    const bool dips = i > 0 && i + 2 < values.size() && abs(values[i]) < abs(values[i - 1])
-                      && abs(values[i + 1]) < abs(values[i + 2]);
+    const bool dips = i > 0 && i + 2 < values.size() && abs(values[i]) < abs(values[i - 1]) &&
+                      abs(values[i + 1]) < abs(values[i + 2]);
     const Function slope = slope_of(f, rough.step * (high - low));
     if (!dips || (slope(low) < 0) == (slope(high) < 0)) continue;
     const Real bottom = root_between(slope, low, high, rough.end_of_extremum);
@@ -178,8 +179,13 @@ ChannelMargins channel_margins(const Search& search, const Channels& roughly, co
     return least;
   };
   const Least gain = gain_of(gain_margin), phase = unit.least(phase_margin);
-  return {gain.margin, gain_of(gain_margin_up).margin, gain_of(gain_margin_down).margin, phase.margin,
-          unit.least(delay_margin).margin, phase.angle, gain.as_expected && phase.as_expected};
+  return {gain.margin,
+          gain_of(gain_margin_up).margin,
+          gain_of(gain_margin_down).margin,
+          phase.margin,
+          unit.least(delay_margin).margin,
+          phase.angle,
+          gain.as_expected && phase.as_expected};
 }
 
 }  // namespace lqg::design

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Margins of the channels, one opened at a time with the others closed: where t = T_ii stands at a limit.
 #pragma once
 

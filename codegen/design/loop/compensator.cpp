@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/compensator.hpp"
 
 #include "design/sampled/reference.hpp"
@@ -6,9 +7,7 @@ namespace lqg::design {
 
 namespace {
 
-bool has_filter_form(const Problem& problem) {
-  return problem.estimator && problem.estimator->form == Form::filter;
-}
+bool has_filter_form(const Problem& problem) { return problem.estimator && problem.estimator->form == Form::filter; }
 
 bool has_rate(const Problem& problem) { return problem.regulator->input_rate.size() > 0; }
 
@@ -21,8 +20,8 @@ struct Signals {
 Signals signals_of(Index nx, Index integrals, Index kept, Index ny) {
   const Index states = nx + integrals + kept;
   const RealMatrix all = identity(states + ny);
-  return {all.topRows(nx), all.middleRows(nx, integrals), all.middleRows(nx + integrals, kept),
-          all.bottomRows(ny), states};
+  return {all.topRows(nx), all.middleRows(nx, integrals), all.middleRows(nx + integrals, kept), all.bottomRows(ny),
+          states};
 }
 
 // u = −K [x̂; ξ],  or  u[k−1] − K [x̂; ξ; u[k−1]].
@@ -34,8 +33,8 @@ RealMatrix law(const Problem& problem, const RealMatrix& K, const Signals& s, co
 
 Compensator system(const Signals& s, const RealMatrix& next, const RealMatrix& u) {
   const Index ny = s.y.rows();
-  return {next.leftCols(s.states), next.rightCols(ny), u.leftCols(s.states), u.rightCols(ny),
-          s.estimate.rows(), s.integral.rows()};
+  return {next.leftCols(s.states), next.rightCols(ny), u.leftCols(s.states),
+          u.rightCols(ny),         s.estimate.rows(),  s.integral.rows()};
 }
 
 // ξ⁺ = ξ − T y of the integrated outputs, and u is kept where it is needed again.
@@ -67,7 +66,8 @@ Compensator compensator(const Problem& problem, const Solution& solution) {
   const bool answers_at_once = has_filter_form(problem);
   const bool keeps = has_rate(problem) || (answers_at_once && !is_zero(plant.D));
   const Index nx = plant.A.rows(), nu = plant.B.cols();
-  const Signals s = signals_of(nx, static_cast<Index>(integrated_outputs(problem).size()), keeps ? nu : 0, plant.C.rows());
+  const Signals s =
+      signals_of(nx, static_cast<Index>(integrated_outputs(problem).size()), keeps ? nu : 0, plant.C.rows());
   const RealMatrix e = s.y - multiply(plant.C, s.estimate);
   RealMatrix innovation = e, u;
   if (answers_at_once) {
@@ -77,8 +77,8 @@ Compensator compensator(const Problem& problem, const Solution& solution) {
     u = law(problem, solution.regulator->K, s, s.estimate);
     innovation -= multiply(plant.D, u);
   }
-  const RealMatrix next = multiply(plant.A, s.estimate + multiply(filter.L, innovation)) + multiply(plant.B, u)
-                          + multiply(filter.M, innovation);
+  const RealMatrix next = multiply(plant.A, s.estimate + multiply(filter.L, innovation)) + multiply(plant.B, u) +
+                          multiply(filter.M, innovation);
   return system(s, above(next, next_memory(problem, s, s.y, u)), u);
 }
 

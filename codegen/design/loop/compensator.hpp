@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The controller as one linear system, and the loops that it closes around a plant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/cost.hpp"
 
 #include "design/equations/refined_stein.hpp"
@@ -11,8 +12,8 @@ namespace lqg::design {
 namespace {
 
 // [z; v] with z = [x; ξ; u[k−1]] and v = u or Δu, of x and u as they are, and of the controller's states.
-RealMatrix regulated(const Problem& problem, const Compensator& controller, const RealMatrix& x,
-                     const RealMatrix& u, const RealMatrix& states) {
+RealMatrix regulated(const Problem& problem, const Compensator& controller, const RealMatrix& x, const RealMatrix& u,
+                     const RealMatrix& states) {
   const RealMatrix z = above(x, states.middleRows(controller.estimates, controller.integrals));
   if (problem.regulator->input_rate.size() == 0) return above(z, u);
   const RealMatrix last = states.bottomRows(u.rows());
@@ -40,17 +41,14 @@ SteadyCost with_error(const Problem& problem, const Samples& samples, const Comp
   // E[w uᵀ] = Swv Dᵀ where the controller answers y at once; else u is older than v.
   Real between = samples.between->noise_cost;
   if (samples.between->u_noise.size() > 0)
-    between += 2
-               * trace_of_product(samples.between->u_noise,
-                                  multiply_transpose(noise_of(problem).Swv, controller.D));
+    between += 2 * trace_of_product(samples.between->u_noise, multiply_transpose(noise_of(problem).Swv, controller.D));
   cost.per_second = (cost.per_sample + between) / Real(problem.plant.sample_time);
   return cost;
 }
 
 }  // namespace
 
-std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples,
-                                      const Compensator& controller) {
+std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples, const Compensator& controller) {
   const SampledNoise& noise = *samples.noise;
   const Index nx = samples.plant.A.rows();
   const ClosedLoop loop = closed_loop(measured_plant(problem, samples.plant), controller);
@@ -62,8 +60,8 @@ std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& sam
   const auto seen = [&](const RealMatrix& one, const RealMatrix& u) {
     return regulated(problem, controller, one.topRows(nx), u, one.bottomRows(controller.A.rows()));
   };
-  const RealMatrix covariance = congruence(seen(merged.spread, multiply(loop.C, merged.spread)), *states)
-                                + congruence(seen(zeros(all, none), loop.D), disturbance);
+  const RealMatrix covariance = congruence(seen(merged.spread, multiply(loop.C, merged.spread)), *states) +
+                                congruence(seen(zeros(all, none), loop.D), disturbance);
   return with_error(problem, samples, controller, cost_of(problem, samples, covariance), zeros(nx, nx));
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the closed loop costs in the long run.
 #pragma once
 
@@ -12,8 +13,7 @@ struct SteadyCost {
 };
 
 // Of any controller around the plant of `samples`, which have a cost and a noise. Empty when the loop is not stable.
-std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples,
-                                      const Compensator& controller);
+std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples, const Compensator& controller);
 
 // The same of the controller of `solution`, whose filter is the optimal one: its innovations are white, and half of the
 // states are enough. Where the regulator's X is what this loop costs from any state on, X says what each innovation costs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/disk_margin.hpp"
 
 #include <algorithm>

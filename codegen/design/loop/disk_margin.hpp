@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far all channels at once may be disturbed.
 #pragma once
 
@@ -6,8 +7,8 @@
 namespace lqg::design {
 
 struct DiskMargin {
-  Real least;                // 1/max μ(I/2 − T) over the circle
-  bool as_expected = true;   // of one channel: where the search saw a minimum the refined evaluation has one
+  Real least;               // 1/max μ(I/2 − T) over the circle
+  bool as_expected = true;  // of one channel: where the search saw a minimum the refined evaluation has one
 };
 
 // Of one channel refined by `evaluate` in all digits of `fineness`, of several in double: with more than 8 the time is that of

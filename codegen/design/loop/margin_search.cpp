@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/margin_search.hpp"
 
 #include <algorithm>
@@ -23,9 +24,8 @@ std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
   const Real ratio = pow(Real(2), Real(1) / 8);
   for (Real angle = slowest / 4096; angle < end / 2; angle *= ratio) angles.push_back(angle);
   for (Real angle = fastest / 4096; angle < end / 2; angle *= ratio) angles.push_back(end - angle);
-  angles.erase(
-      std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
-      angles.end());
+  angles.erase(std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
+               angles.end());
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end()), angles.end());  // repeated poles
   return angles;

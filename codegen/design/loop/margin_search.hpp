@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the places of margins are looked for on the unit circle: on a grid of angles first, then in its cells.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/margins.hpp"
 
 #include "design/loop/channel_margins.hpp"
@@ -52,9 +53,7 @@ std::pair<Margins, bool> least_margins(const Search& search, const Way& searched
   return {result, of_one.as_expected && disk.as_expected};
 }
 
-Response closed_response(const OpenLoop& loop) {
-  return Response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C);
-}
+Response closed_response(const OpenLoop& loop) { return Response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C); }
 
 void keep_six_digits(std::optional<double>& value) {
   if (value) value = six_digits(*value);

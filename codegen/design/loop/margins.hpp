@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far the closed loop is from instability, at the plant's inputs or outputs.
 #pragma once
 

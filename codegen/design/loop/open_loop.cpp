@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/open_loop.hpp"
 
 namespace lqg::design {
@@ -7,15 +8,13 @@ namespace lqg::design {
 OpenLoop open_at_inputs(const MeasuredPlant& plant, const Compensator& controller) {
   const Index nx = plant.A.rows(), ns = controller.A.rows();
   return {above(beside(plant.A, zeros(nx, ns)), beside(multiply(controller.B, plant.C), controller.A)),
-          above(plant.B, multiply(controller.B, plant.D)),
-          -beside(multiply(controller.D, plant.C), controller.C)};
+          above(plant.B, multiply(controller.B, plant.D)), -beside(multiply(controller.D, plant.C), controller.C)};
 }
 
 OpenLoop open_at_outputs(const MeasuredPlant& plant, const Compensator& controller) {
   const Index nx = plant.A.rows(), ns = controller.A.rows();
   return {above(beside(plant.A, multiply(plant.B, controller.C)), beside(zeros(ns, nx), controller.A)),
-          above(multiply(plant.B, controller.D), controller.B),
-          -beside(plant.C, multiply(plant.D, controller.C))};
+          above(multiply(plant.B, controller.D), controller.B), -beside(plant.C, multiply(plant.D, controller.C))};
 }
 
 }  // namespace lqg::design

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The loop of plant and controller, opened at the plant's inputs or at its outputs.
 #pragma once
 

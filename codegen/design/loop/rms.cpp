@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/rms.hpp"
 
 #include <algorithm>
@@ -32,8 +33,8 @@ std::optional<Rms> steady_rms(const Problem& problem, const Samples& samples, co
   if (!states) return std::nullopt;
   const Index nx = plant.A.rows(), ny = plant.C.rows(), nw = noise.W.rows();
   const auto covariance = [&](const RealMatrix& of_states, const RealMatrix& of_noise) {
-    return RealMatrix(congruence(multiply(in_present_digits(of_states), merged.spread), *states)
-                      + congruence(in_present_digits(of_noise), disturbance));
+    return RealMatrix(congruence(multiply(in_present_digits(of_states), merged.spread), *states) +
+                      congruence(in_present_digits(of_noise), disturbance));
   };
   // y = C x + D u + v of the outputs; (controller's D)(plant's D) = 0.
   const RealMatrix y_states = beside(plant.C, multiply(plant.D, controller.C));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the noises make of the closed loop.
 #pragma once
 

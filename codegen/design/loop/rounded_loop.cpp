@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/loop/rounded_loop.hpp"
 
 #include <algorithm>
@@ -74,8 +75,8 @@ std::vector<ComplexReal> checked_poles(const PolesIn& poles_in, const std::strin
   const std::vector<ComplexReal> poles = poles_in(real);
   if (const ComplexReal* pole = unstable_pole(poles))
     add_error(findings, "code.real",
-              what + " with the numbers rounded to " + name_of(real) + " is unstable: a pole at z = "
-                  + short_complex(*pole, 1) + remedy(real, !unstable_pole(poles_in(Scalar::float64))));
+              what + " with the numbers rounded to " + name_of(real) + " is unstable: a pole at z = " +
+                  short_complex(*pole, 1) + remedy(real, !unstable_pole(poles_in(Scalar::float64))));
   return poles;
 }
 
@@ -85,13 +86,14 @@ void check_cost(const SampledStage& last, const Compensator& controller, const S
   const std::optional<SteadyCost> cost = steady_cost(last.problem, last.samples, controller);
   if (!cost)
     return add_note(findings, "code.real",
-                    "the cost of the loop with the numbers rounded to " + name_of(last.problem.code.real)
-                        + " is not known: its poles are too near to the unit circle");
+                    "the cost of the loop with the numbers rounded to " + name_of(last.problem.code.real) +
+                        " is not known: its poles are too near to the unit circle");
   rounded.cost_per_sample = to_double(cost->per_sample);
   const double ratio = *rounded.cost_per_sample / *solution.loop.cost_per_sample;
   if (ratio > 1.01)
     add_note(findings, "code.real",
-             "the numbers rounded to " + name_of(last.problem.code.real) + " cost " + short_number(100 * (ratio - 1)) + " % more");
+             "the numbers rounded to " + name_of(last.problem.code.real) + " cost " + short_number(100 * (ratio - 1)) +
+                 " % more");
 }
 
 std::vector<ComplexReal> poles_of_filter(const Solution& rounded) {
@@ -147,8 +149,8 @@ void check_rounded(const Problem& problem, const SampledStage& last, const std::
   if (solution.regulator && solution.estimator == std::nullopt && problem.estimator) return;
   const auto in = [&](Scalar real) { return held(solution, real); };
   if (solution.regulator)
-    check_rounded_controller(problem, last, [&](Scalar real) { return compensator(problem, in(real)); }, solution,
-                             findings);
+    check_rounded_controller(
+        problem, last, [&](Scalar real) { return compensator(problem, in(real)); }, solution, findings);
   else if (solution.estimator)
     checked_poles([&](Scalar real) { return poles_of_filter(in(real)); }, "the filter", problem.code.real, findings);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What becomes of the loop when the target holds the controller's numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What was found in double, without the digits that its way there decides.
 #pragma once
 

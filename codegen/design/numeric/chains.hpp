@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chains of delays: states that only take another one's value a sample later, and states that become the same number.
 #pragma once
 

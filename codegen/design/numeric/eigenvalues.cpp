@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Eigenvalues of a real matrix: Hessenberg form, then the implicit double-shift QR sweeps of J. G. F.
 // Francis, "The QR transformation, part 2", The Computer Journal 4 (1962), 332–345.
 #include <array>
@@ -224,8 +225,7 @@ std::vector<ComplexReal> eigenvalues(const RealMatrix& a) {
     if (low == high) {
       found.push_back({h(high, high), Real(0)});
     } else if (low + 1 == high) {
-      for (const ComplexReal& value :
-           eigenvalues_of_pair(h(low, low), h(low, high), h(high, low), h(high, high)))
+      for (const ComplexReal& value : eigenvalues_of_pair(h(low, low), h(low, high), h(high, low), h(high, high)))
         found.push_back(value);
     } else if (sweeps++ < most_sweeps) {
       report_progress("eigenvalues", a.rows() - high);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Linear equations of any rank.
 #pragma once
 
@@ -7,10 +8,10 @@ namespace lqg::design {
 
 // A x = b after elimination with the largest pivot of all that is left.
 struct Eliminated {
-  Index rank = 0;            // pivots that are more than rounding, of rows scaled to a largest entry of 1
-  RealMatrix null;           // columns: a basis of A x = 0
-  RealMatrix particular;     // A x = b where that has a solution, with zeros for the free unknowns
-  bool is_solvable = true;   // b depends on the columns of A
+  Index rank = 0;           // pivots that are more than rounding, of rows scaled to a largest entry of 1
+  RealMatrix null;          // columns: a basis of A x = 0
+  RealMatrix particular;    // A x = b where that has a solution, with zeros for the free unknowns
+  bool is_solvable = true;  // b depends on the columns of A
 };
 
 Eliminated eliminated(const RealMatrix& A);

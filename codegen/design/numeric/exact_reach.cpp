@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/exact_reach.hpp"
 
 #include <cmath>
@@ -94,8 +95,7 @@ Index reached_dimension(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   const std::vector<Vector> A_columns = columns_of(A);
   Echelon reached;
   for (const Vector& column : columns_of(B)) reached.append(column);
-  for (std::size_t k = 0; k < reached.vectors().size(); ++k)
-    reached.append(times(A_columns, reached.vectors()[k]));
+  for (std::size_t k = 0; k < reached.vectors().size(); ++k) reached.append(times(A_columns, reached.vectors()[k]));
   return static_cast<Index>(reached.vectors().size());
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much of the state space an input reaches, exactly.
 #pragma once
 

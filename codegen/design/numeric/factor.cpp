@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/factor.hpp"
 
 namespace lqg::design {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangular factors of symmetric matrices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/linear_algebra.hpp"
 
 #include <cmath>
@@ -196,8 +197,7 @@ Real trace_of_product(const RealMatrix& a, const RealMatrix& b) {
   Real result = 0;
   if (a.cols() == 0) return result;
   Accumulator sum;
-  for (Index i = 0; i < a.rows(); ++i)
-    sum.add(result, a.data() + i, a.rows(), b.data() + i * b.rows(), 1, a.cols());
+  for (Index i = 0; i < a.rows(); ++i) sum.add(result, a.data() + i, a.rows(), b.data() + i * b.rows(), 1, a.cols());
   return result;
 }
 

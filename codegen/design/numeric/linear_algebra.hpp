@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The matrix operations of the design, on Real, compiled once.
 //
 // Products with an exact zero are skipped, so that structural zeros stay exact zeros and cost nothing.

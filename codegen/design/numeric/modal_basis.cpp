@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/modal_basis.hpp"
 
 #include <algorithm>
@@ -39,14 +40,16 @@ std::vector<Eigenmode> modes_of(const RealMatrix& a, const std::vector<Index>& p
   const Index size = static_cast<Index>(part.size());
   RealMatrix own(size, size);
   for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j) own(i, j) = a(part[static_cast<std::size_t>(i)], part[static_cast<std::size_t>(j)]);
+    for (Index j = 0; j < size; ++j)
+      own(i, j) = a(part[static_cast<std::size_t>(i)], part[static_cast<std::size_t>(j)]);
   std::vector<Eigenmode> modes;
   for (const ComplexReal& value : eigenvalues(own)) {
     if (value.im < 0) continue;
     const LeftEigenvector of_transpose = left_eigenvector(own.transpose(), value);
     const RealMatrix vector = value.im.is_zero() ? of_transpose.re : beside(of_transpose.re, of_transpose.im);
     RealMatrix columns = zeros(a.rows(), vector.cols());
-    for (Index i = 0; i < size; ++i) columns.row(part[static_cast<std::size_t>(i)]) = vector.row(i) / largest_entry(vector);
+    for (Index i = 0; i < size; ++i)
+      columns.row(part[static_cast<std::size_t>(i)]) = vector.row(i) / largest_entry(vector);
     modes.push_back({value, columns});
   }
   return modes;

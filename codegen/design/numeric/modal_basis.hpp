@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A real matrix in the coordinates of its modes.
 #pragma once
 

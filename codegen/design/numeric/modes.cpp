@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/modes.hpp"
 
 #include "design/progress.hpp"

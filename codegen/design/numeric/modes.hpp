@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Modes of a pair (A, B) that B does not reach; of (Aᵀ, Cᵀ): that C does not see.
 #pragma once
 
@@ -24,8 +25,7 @@ struct Unreached {
 Unreached unreached_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling = no_coupling());
 
 // The same of a sampled plant, by way of A − I: with a short period A is the identity and little else.
-Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B,
-                                  const Real& coupling = no_coupling());
+Unreached unreached_sampled_modes(const RealMatrix& A, const RealMatrix& B, const Real& coupling = no_coupling());
 
 // v with vᴴA = λvᴴ, unscaled, and the states in it.
 struct LeftEigenvector {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/poles.hpp"
 
 #include <algorithm>
@@ -13,11 +14,10 @@ Poles sorted_poles(const std::vector<ComplexReal>& values) {
   for (const ComplexReal& value : values)  // + 0: no −0
     poles.emplace_back(to_double(value.re) + 0.0, to_double(value.im) + 0.0);
   const auto size = [](const std::complex<double>& z) { return z.real() * z.real() + z.imag() * z.imag(); };
-  std::stable_sort(poles.begin(), poles.end(),
-                   [&](const std::complex<double>& a, const std::complex<double>& b) {
-                     if (size(a) != size(b)) return size(a) > size(b);
-                     return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
-                   });
+  std::stable_sort(poles.begin(), poles.end(), [&](const std::complex<double>& a, const std::complex<double>& b) {
+    if (size(a) != size(b)) return size(a) > size(b);
+    return a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real();
+  });
   return poles;
 }
 

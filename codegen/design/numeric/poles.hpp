@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Poles as the report and the messages show them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/response.hpp"
 
 #include <algorithm>
@@ -14,8 +15,7 @@ namespace {
 // c ← c − a b, complex; without new numbers, for this is where the margins spend their time.
 class RealProducts {
  public:
-  void subtract(Real& c_re, Real& c_im, const Real& a_re, const Real& a_im, const Real& b_re,
-                const Real& b_im) {
+  void subtract(Real& c_re, Real& c_im, const Real& a_re, const Real& a_im, const Real& b_re, const Real& b_im) {
     apply(mpfr_sub, c_re, a_re, b_re);
     apply(mpfr_add, c_re, a_im, b_im);
     apply(mpfr_sub, c_im, a_re, b_im);
@@ -71,9 +71,7 @@ struct System {
   Products products;
 
   System(const Terms& terms, const Scalar& z_re, const Scalar& z_im, const Delays<Scalar>& delays)
-      : re(terms.A.cols() + terms.B.cols(), terms.A.rows()),
-        im(re.rows(), re.cols()),
-        size(terms.A.rows()),
+      : re(terms.A.cols() + terms.B.cols(), terms.A.rows()), im(re.rows(), re.cols()), size(terms.A.rows()),
         below(terms.below) {
     re.topRows(size) = -terms.A.transpose();
     re.bottomRows(terms.B.cols()) = terms.B.transpose();
@@ -91,8 +89,7 @@ struct System {
 
   // (re, im)(k, i) / (re, im)(k', i')
   std::pair<Scalar, Scalar> quotient(Index k, Index i, Index k_below, Index i_below) const {
-    const Scalar &a_re = re(k, i), &a_im = im(k, i), &b_re = re(k_below, i_below),
-                 &b_im = im(k_below, i_below);
+    const Scalar &a_re = re(k, i), &a_im = im(k, i), &b_re = re(k_below, i_below), &b_im = im(k_below, i_below);
     const Scalar length = b_re * b_re + b_im * b_im;
     return {(a_re * b_re + a_im * b_im) / length, (a_im * b_re - a_re * b_im) / length};
   }
@@ -179,8 +176,8 @@ Response::Terms<Real> with_chains_folded(const Chains& chains, const RealMatrix&
   const Index size = static_cast<Index>(kept.size());
   std::vector<Index> place(chains.source.size());
   RealMatrix own(size, A.cols());
-  Response::Terms<Real> terms = {
-      zeros(size, size), RealMatrix(size, B.cols()), zeros(C.rows(), size), {}, {}, size - 1};
+  Response::Terms<Real> terms = {zeros(size, size), RealMatrix(size, B.cols()), zeros(C.rows(), size), {}, {},
+                                 size - 1};
   for (Index k = 0; k < size; ++k) {
     const Index state = kept[static_cast<std::size_t>(k)];
     place[static_cast<std::size_t>(state)] = k;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The response of a discrete system on the unit circle.
 #pragma once
 

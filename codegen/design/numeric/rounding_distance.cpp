@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/rounding_distance.hpp"
 
 #include <Eigen/QR>

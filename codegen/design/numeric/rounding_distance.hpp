@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How near a matrix is to one of less rank, in roundings of its own numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/structured_singular_value.hpp"
 
 #include <Eigen/Eigenvalues>

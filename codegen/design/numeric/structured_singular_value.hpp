@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The structured singular value of a loop whose channels are disturbed independently of one another.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/numeric/ziv_test.hpp"
 
 #include <algorithm>
@@ -10,9 +11,7 @@ namespace lqg::design {
 
 namespace {
 
-bool round_alike(const Real& a, const Real& b) {
-  return to_double(a) == to_double(b) && to_float(a) == to_float(b);
-}
+bool round_alike(const Real& a, const Real& b) { return to_double(a) == to_double(b) && to_float(a) == to_float(b); }
 
 // The number midway between the roundings of low and high when these are two neighbours, else NaN.
 template <typename Scalar>
@@ -23,8 +22,8 @@ Real middle_of(Scalar low, Scalar high) {
 
 // Both numbers within their digits' rounding of the same middle.
 bool is_tie(const Real& coarse, const Real& fine, const Real& middle, unsigned digits) {
-  return isfinite(middle) && abs(coarse - middle) <= power_of_ten(-0.6 * digits) * abs(middle)
-         && abs(fine - middle) <= negligible(0.6) * abs(middle);
+  return isfinite(middle) && abs(coarse - middle) <= power_of_ten(-0.6 * digits) * abs(middle) &&
+         abs(fine - middle) <= negligible(0.6) * abs(middle);
 }
 
 bool settle_span(const Real* coarse, Real* fine, Index count, unsigned coarse_digits) {
@@ -38,8 +37,8 @@ bool settle_span(const Real* coarse, Real* fine, Index count, unsigned coarse_di
 // Nothing but rounding: it shrinks as the digits grow, while a true number stays what it is.
 bool is_rounding(const Real& coarse, const Real& fine, const Real& scale, unsigned coarse_digits) {
   const double more = Real::default_precision() - static_cast<double>(coarse_digits);
-  return abs(coarse) <= power_of_ten(-0.6 * coarse_digits) * scale && abs(fine) <= negligible(0.6) * scale
-         && (coarse.is_zero() || abs(fine) <= power_of_ten(-0.6 * more) * abs(coarse));
+  return abs(coarse) <= power_of_ten(-0.6 * coarse_digits) * scale && abs(fine) <= negligible(0.6) * scale &&
+         (coarse.is_zero() || abs(fine) <= power_of_ten(-0.6 * more) * abs(coarse));
 }
 
 // A pole at 0 that one run met exactly is only nearly there in the next.
@@ -63,8 +62,7 @@ bool passes_ziv_test(const Real& coarse, Real& fine, const Real& scale, unsigned
     fine = 0;
     return true;
   }
-  for (const Real& middle :
-       {middle_of(to_double(low), to_double(high)), middle_of(to_float(low), to_float(high))})
+  for (const Real& middle : {middle_of(to_double(low), to_double(high)), middle_of(to_float(low), to_float(high))})
     if (is_tie(coarse, fine, middle, coarse_digits)) {
       fine = middle;
       return true;
@@ -73,8 +71,8 @@ bool passes_ziv_test(const Real& coarse, Real& fine, const Real& scale, unsigned
 }
 
 bool passes_ziv_test(const RealMatrix& coarse, RealMatrix& fine, unsigned coarse_digits) {
-  return coarse.rows() == fine.rows() && coarse.cols() == fine.cols()
-         && settle_span(coarse.data(), fine.data(), fine.size(), coarse_digits);
+  return coarse.rows() == fine.rows() && coarse.cols() == fine.cols() &&
+         settle_span(coarse.data(), fine.data(), fine.size(), coarse_digits);
 }
 
 bool passes_ziv_test(const RealVector& coarse, RealVector& fine, unsigned coarse_digits) {
@@ -86,12 +84,10 @@ bool passes_ziv_test(const std::vector<ComplexReal>& coarse, std::vector<Complex
   bool settled = coarse.size() == fine.size();
   for (ComplexReal& pole : fine) {
     if (left.empty()) return false;
-    const auto distance = [&](const ComplexReal& other) {
-      return Real(hypot(other.re - pole.re, other.im - pole.im));
-    };
-    const auto nearest = std::min_element(
-        left.begin(), left.end(),
-        [&](const ComplexReal& a, const ComplexReal& b) { return distance(a) < distance(b); });
+    const auto distance = [&](const ComplexReal& other) { return Real(hypot(other.re - pole.re, other.im - pole.im)); };
+    const auto nearest = std::min_element(left.begin(), left.end(), [&](const ComplexReal& a, const ComplexReal& b) {
+      return distance(a) < distance(b);
+    });
     settled = settle_part(nearest->re, pole.re) && settled;
     settled = settle_part(nearest->im, pole.im) && settled;
     left.erase(nearest);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ziv's test: two runs, one with many more digits, must agree on every number that is emitted.
 #pragma once
 

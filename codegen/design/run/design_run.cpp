@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/run/design_run.hpp"
 
 #include <algorithm>
@@ -42,15 +43,16 @@ void take_loop_poles(const Problem& problem, DesignRun& run) {
   if (!run.has_steady_loop || !problem.estimator || is_separated(problem, final_plant(run.solution))) return;
   run.loop_poles = poles_of_closed_loop(problem, run.solution);
   if (!is_stable(run.loop_poles))
-    add_error(run.findings, "lqr.integral",
-              "the integrated outputs answer an input at once (plant.D), and in filter form they are measured before the "
-              "next input: the loop is unstable, use form = \"predictor\"");
+    add_error(
+        run.findings, "lqr.integral",
+        "the integrated outputs answer an input at once (plant.D), and in filter form they are measured before the "
+        "next input: the loop is unstable, use form = \"predictor\"");
 }
 
 // A loop that stays what it is in the end: with a filter where one is asked for, and stable.
 bool has_steady_loop(const Problem& problem, const DesignRun& run) {
-  return run.solution.regulator && problem.estimator.has_value() == run.solution.estimator.has_value()
-         && is_stable(run.regulator_poles) && is_stable(run.estimator_poles);
+  return run.solution.regulator && problem.estimator.has_value() == run.solution.estimator.has_value() &&
+         is_stable(run.regulator_poles) && is_stable(run.estimator_poles);
 }
 
 // White innovations need the filter that is optimal for ever.
@@ -65,8 +67,7 @@ std::optional<SteadyCost> cost_of_loop(const SampledStage& last, const Solution&
 }  // namespace
 
 bool is_stable(const std::vector<ComplexReal>& poles) {
-  return std::all_of(poles.begin(), poles.end(),
-                     [](const ComplexReal& pole) { return hypot(pole.re, pole.im) < 1; });
+  return std::all_of(poles.begin(), poles.end(), [](const ComplexReal& pole) { return hypot(pole.re, pole.im) < 1; });
 }
 
 void take_condition(const RiccatiResult& result, Solution& solution) {

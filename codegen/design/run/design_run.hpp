@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One run of the whole design in the digits in force.
 #pragma once
 
@@ -15,7 +16,7 @@ struct DesignRun {
   std::vector<SampledStage> stages;  // what it is of
   std::vector<ComplexReal> regulator_poles, estimator_poles, loop_poles;
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
-  std::optional<EstimatorSolution> full_filter;  // without the structure that its gain has
+  std::optional<EstimatorSolution> full_filter;                       // without the structure that its gain has
   std::optional<Real> cost_per_sample, cost_per_second;
   bool has_steady_loop = false;  // stable, with margins
   Findings findings;             // with an error: the rest is not complete

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The halves of a run, from the problem's stages at their samples.
 #pragma once
 
@@ -8,9 +9,9 @@ namespace lqg::design {
 
 // Each fills its part of `result`, or says in result.findings why there is none.
 void run_regulator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
-                     DesignRun& result);
+                   DesignRun& result);
 void run_estimator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
-                     DesignRun& result);
+                   DesignRun& result);
 
 bool is_stable(const std::vector<ComplexReal>& poles);
 

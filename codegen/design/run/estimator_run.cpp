@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 
 #include "design/checks/rounding_artefacts.hpp"
@@ -13,8 +14,7 @@ namespace {
 
 std::vector<ComplexReal> poles_of_filter(const Samples& samples, const RealMatrix& L_predictor) {
   const SampledPlant own = own_plant(samples);
-  std::vector<ComplexReal> poles =
-      eigenvalues(own.A - multiply(L_predictor.topRows(own.A.rows()), own.C));
+  std::vector<ComplexReal> poles = eigenvalues(own.A - multiply(L_predictor.topRows(own.A.rows()), own.C));
   poles.resize(static_cast<std::size_t>(samples.plant.A.rows()), {Real(0), Real(0)});  // of the known inputs
   return poles;
 }
@@ -38,7 +38,8 @@ bool has_steady_filter(const Problem& problem, const Samples& samples, DesignRun
 // What other tools call the Kalman gain of a continuous plant. Nothing here is made of it: where it is not found, it is left out.
 void add_continuous_gain(const Problem& problem, const DesignRun* coarser, EstimatorSolution& filter) {
   if (problem.plant.domain == Domain::discrete || problem.estimator->noise == Noise::discrete) return;
-  const RealMatrix start = coarser && coarser->solution.estimator ? coarser->solution.estimator->P_continuous : RealMatrix();
+  const RealMatrix start =
+      coarser && coarser->solution.estimator ? coarser->solution.estimator->P_continuous : RealMatrix();
   const RiccatiResult found = solve_continuous_estimator(problem, start);
   if (found.failure != RiccatiFailure::none) return;
   filter.P_continuous = found.X;
@@ -71,12 +72,12 @@ void run_schedule_to_steady(const Problem& problem, const std::vector<SampledSta
   if (has_error(result.findings)) return;
   const EstimatorSolution& steady = *result.solution.estimator;
   const int most = most_gains(problem, steady);
-  const GainSchedule schedule =
-      gains_until_steady(stages, initial_covariance(*problem.estimator, stages.front().samples), steady,
-                         problem.code.real, most);
+  const GainSchedule schedule = gains_until_steady(
+      stages, initial_covariance(*problem.estimator, stages.front().samples), steady, problem.code.real, most);
   if (!schedule.is_settled)
     return add_error(result.findings, "kalman.gain",
-                     "after " + std::to_string(most) + " samples, all that fit into code.flash, the gains are not the "
+                     "after " + std::to_string(most) +
+                         " samples, all that fit into code.flash, the gains are not the "
                          "steady ones yet: give a horizon, more flash, or use \"online\"");
   take_tables(schedule, result);
 }
@@ -95,21 +96,19 @@ void run_finite_schedule(const Problem& problem, const std::vector<SampledStage>
 }
 
 void run_optimal_filter(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
-                   DesignRun& result) {
+                        DesignRun& result) {
   const Gain gain = problem.estimator->gain;
   result.solution.noise = stages.front().samples.noise;
-  if (gain == Gain::schedule && problem.estimator->horizon > 0)
-    return run_finite_schedule(problem, stages, result);
+  if (gain == Gain::schedule && problem.estimator->horizon > 0) return run_finite_schedule(problem, stages, result);
   run_steady_filter(stages.back(), coarser, result);
   if (has_error(result.findings)) return;
   if (gain == Gain::schedule) run_schedule_to_steady(problem, stages, result);
-  if (gain == Gain::online)
-    result.solution.online = online_filter(*problem.estimator, stages.front().samples);
+  if (gain == Gain::online) result.solution.online = online_filter(*problem.estimator, stages.front().samples);
 }
 
 void run_placed_filter(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
-  const PlacedGain placed = place_observer(problem, samples,
-                                           coarser ? &*coarser->estimator_choice : nullptr, result.findings);
+  const PlacedGain placed =
+      place_observer(problem, samples, coarser ? &*coarser->estimator_choice : nullptr, result.findings);
   result.may_want_digits = result.may_want_digits || placed.may_want_digits;
   if (has_error(result.findings)) return;
   result.estimator_choice = placed.choice;
@@ -120,7 +119,7 @@ void run_placed_filter(const Problem& problem, const Samples& samples, const Des
 }  // namespace
 
 void run_estimator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
-                     DesignRun& result) {
+                   DesignRun& result) {
   if (has_noise(problem.estimator)) return run_optimal_filter(problem, stages, coarser, result);
   run_placed_filter(problem, stages.back().samples, coarser, result);
 }

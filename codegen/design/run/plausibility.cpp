@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/run/plausibility.hpp"
 
 #include <algorithm>
@@ -24,9 +25,9 @@ void note_domain(const Problem& problem, Findings& findings) {
   for (const ComplexReal& z : eigenvalues(real(problem.plant.A)))
     if (z.im.is_zero() && z.re < -1)
       add_note(findings, "plant.domain",
-               "the plant's mode at z = " + short_complex(z, 1)
-                   + " grows and changes its sign with every sample, as no plant does that was sampled: is A that of a "
-                     "continuous plant?");
+               "the plant's mode at z = " + short_complex(z, 1) +
+                   " grows and changes its sign with every sample, as no plant does that was sampled: is A that of a "
+                   "continuous plant?");
 }
 
 // s of a plant that changes much within a sample: beyond half a turn, unless it is over then, or more than e-fold.
@@ -40,10 +41,11 @@ void note_fast_modes(const Problem& problem, Findings& findings) {
   if (problem.plant.domain == Domain::discrete) return;
   for (const ComplexReal& s : eigenvalues(real(problem.plant.A)))
     if (s.im >= 0 && is_too_fast(s, problem.plant.sample_time))
-      add_note(findings, "plant.sample_time",
-               "the plant's mode at s = " + short_complex(s, 1)
-                   + (s.re * problem.plant.sample_time > 1 ? " grows more than e-fold" : " turns more than half a circle")
-                   + " within a sample: sample faster, or look at the units of the time");
+      add_note(
+          findings, "plant.sample_time",
+          "the plant's mode at s = " + short_complex(s, 1) +
+              (s.re * problem.plant.sample_time > 1 ? " grows more than e-fold" : " turns more than half a circle") +
+              " within a sample: sample faster, or look at the units of the time");
 }
 
 // Of the poles that are not those of inputs on their way.
@@ -52,17 +54,17 @@ void note_settling(const Problem& problem, const DesignRun& run, Findings& findi
   for (const ComplexReal& pole : run.regulator_poles) slowest = std::max<Real>(slowest, size_of(pole));
   if (has_cost(problem.regulator) && problem.regulator->horizon == 0 && slowest < 0.01)
     add_note(findings, problem.regulator->settling_time ? "lqr.settling_time" : "plant.sample_time",
-             "the regulator settles to 1 % within one sample (its slowest pole has |z| = "
-                 + short_number(to_double(slowest))
-                 + "): it is asked for more than these samples can do; look at Q beside R, and at the units of the time");
+             "the regulator settles to 1 % within one sample (its slowest pole has |z| = " +
+                 short_number(to_double(slowest)) +
+                 "): it is asked for more than these samples can do; look at Q beside R, and at the units of the time");
   Real fastest = 0;
   for (const ComplexReal& pole : run.loop_poles)
     fastest = std::max<Real>(
         fastest, size_of(pole).is_zero() ? Real(1) : Real(hypot(log(size_of(pole)), atan2(pole.im, pole.re))));
   if (!run.loop_poles.empty() && fastest < 1e-3)
     add_note(findings, "plant.sample_time",
-             "the fastest pole of the loop takes " + short_number(std::round(to_double(1 / fastest)))
-                 + " samples for its time constant, where 10 to 100 are enough: look at the units of the time");
+             "the fastest pole of the loop takes " + short_number(std::round(to_double(1 / fastest))) +
+                 " samples for its time constant, where 10 to 100 are enough: look at the units of the time");
 }
 
 // u acts a sample later than the design knows.
@@ -84,15 +86,16 @@ void note_margins(const Problem& problem, const DesignRun& run, Findings& findin
   const OpenLoop loop =
       open_at_inputs(measured_plant(problem, final_plant(run.solution)), compensator(problem, run.solution));
   if (!is_stable_when_late(loop))
-    add_note(findings, key_of_law(problem),
-             "the loop is unstable when u comes one sample later than the design says"
-                 + (margins.phase_deg ? " (its phase margin is " + short_number(*margins.phase_deg) + "°)" : std::string())
-                 + end);
+    add_note(
+        findings, key_of_law(problem),
+        "the loop is unstable when u comes one sample later than the design says" +
+            (margins.phase_deg ? " (its phase margin is " + short_number(*margins.phase_deg) + "°)" : std::string()) +
+            end);
   if (margins.gain_dB && *margins.gain_dB < 1)
     add_note(findings, key_of_law(problem),
-             "an error of " + short_number(100 * (std::pow(10, *margins.gain_dB / 20) - 1))
-                 + " % in the gain of an input makes the loop unstable (its gain margin is "
-                 + short_number(*margins.gain_dB) + " dB)" + end);
+             "an error of " + short_number(100 * (std::pow(10, *margins.gain_dB / 20) - 1)) +
+                 " % in the gain of an input makes the loop unstable (its gain margin is " +
+                 short_number(*margins.gain_dB) + " dB)" + end);
 }
 
 // |z| by falling size.
@@ -135,14 +138,17 @@ void note_free_inputs(const Problem& problem, const DesignRun& run, Findings& fi
   for (Index i = 0; i < R.rows(); ++i) {
     const Real share = by_states(i, i).is_zero() ? Real(1) : Real(period * R(i, i) / by_states(i, i));
     if (share > 0 && share < 1e-9)
-      add_note(findings, "lqr.R",
-               "the weight of " + name_of_input(problem, i) + " is " + short_number(to_double(share))
-                   + " of what it costs by way of the states, as good as none: look at Q beside R, and at the units of B");
+      add_note(
+          findings, "lqr.R",
+          "the weight of " + name_of_input(problem, i) + " is " + short_number(to_double(share)) +
+              " of what it costs by way of the states, as good as none: look at Q beside R, and at the units of B");
   }
 }
 
 // The nearer limit of an input.
-double reach_of(const Limits& limits, Index i) { return std::min(std::abs(limits.u_min(i)), std::abs(limits.u_max(i))); }
+double reach_of(const Limits& limits, Index i) {
+  return std::min(std::abs(limits.u_min(i)), std::abs(limits.u_max(i)));
+}
 
 std::string key_of_limit(const Limits& limits, Index i) {
   const bool is_upper = std::abs(limits.u_max(i)) <= std::abs(limits.u_min(i));
@@ -156,9 +162,9 @@ void note_noise_at_limits(const Problem& problem, const DesignRun& run, Findings
     const Index i = static_cast<Index>(j);
     if (rms[j] > reach_of(*problem.limits, i) / 2)
       add_note(findings, key_of_limit(*problem.limits, i),
-               "the noises alone move " + name_of_input(problem, i) + " by " + short_number(rms[j])
-                   + " rms, and it is limited to " + short_number(reach_of(*problem.limits, i))
-                   + ": the loop is at its limits without end; look at the noises, and at R");
+               "the noises alone move " + name_of_input(problem, i) + " by " + short_number(rms[j]) +
+                   " rms, and it is limited to " + short_number(reach_of(*problem.limits, i)) +
+                   ": the loop is at its limits without end; look at the noises, and at R");
   }
 }
 
@@ -173,8 +179,8 @@ Asked asked_by_reference(const Problem& problem, const Solution& solution) {
   const Index nx = plant.A.rows(), nu = plant.B.cols(), nr = static_cast<Index>(outputs.size());
   Asked asked = {solution.regulator->Nu, solution.regulator->Nbar};
   if (nr != nu) return asked;
-  const RealMatrix at_rest = above(beside(plant.A - identity(nx), plant.B),
-                                   beside(rows_of(plant.C, outputs), rows_of(plant.D, outputs)));
+  const RealMatrix at_rest =
+      above(beside(plant.A - identity(nx), plant.B), beside(rows_of(plant.C, outputs), rows_of(plant.D, outputs)));
   const std::optional<RealMatrix> point = solve(at_rest, above(zeros(nx, nr), identity(nr)));
   if (point) asked.held = point->bottomRows(nu);
   return asked;
@@ -189,8 +195,8 @@ void note_reference(const Problem& problem, const RealMatrix& asked, const std::
       if (!(size > reach)) continue;
       const int output = outputs[static_cast<std::size_t>(j)];
       add_note(findings, key_of_limit(*problem.limits, i),
-               "a reference of 1 for " + name_of(problem.plant.outputs, output, "y") + when + short_number(size) + " of "
-                   + name_of_input(problem, i) + ", which is limited to " + short_number(reach) + ": " + look);
+               "a reference of 1 for " + name_of(problem.plant.outputs, output, "y") + when + short_number(size) +
+                   " of " + name_of_input(problem, i) + ", which is limited to " + short_number(reach) + ": " + look);
     }
 }
 
@@ -213,8 +219,8 @@ void note_rounded_poles(const DesignRun& run, Findings& findings) {
   const double distance = to_double(1 - slowest), rounded = 1 - std::abs(loop.rounded->poles.front());
   if (distance > 1e-15 && std::abs(rounded - distance) > 0.1 * distance)
     add_note(findings, "code.real",
-             "rounding to the target's numbers moves the slowest pole from |z| = 1 - " + short_number(distance) + " to 1 - "
-                 + short_number(rounded) + ": choose longer samples, or other units of the states");
+             "rounding to the target's numbers moves the slowest pole from |z| = 1 - " + short_number(distance) +
+                 " to 1 - " + short_number(rounded) + ": choose longer samples, or other units of the states");
 }
 
 }  // namespace

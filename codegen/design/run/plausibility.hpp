@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is formally right and of little use: notes, each with the key to look at.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 
 #include "design/checks/rounding_artefacts.hpp"
@@ -27,8 +28,7 @@ void check_integral(const Problem& problem, const SampledPlant& plant, Findings&
 }
 
 void check_regulator(const Problem& problem, const Samples& samples, DesignRun& result) {
-  result.may_want_digits =
-      !check_stabilisable(problem, plant_without_delay(problem, samples), result.findings);
+  result.may_want_digits = !check_stabilisable(problem, plant_without_delay(problem, samples), result.findings);
   if (!has_error(result.findings)) check_reach_is_no_artefact(problem, result.findings);
   if (problem.regulator->integral) check_integral(problem, samples.plant, result.findings);
   if (!has_error(result.findings))
@@ -39,8 +39,8 @@ void check_regulator(const Problem& problem, const Samples& samples, DesignRun& 
 void take_table(const GainTable& table, const char* key, DesignRun& result) {
   if (table.failed_at >= 0)
     return add_error(result.findings, key,
-                     "R + BᵀXB of step " + std::to_string(table.failed_at)
-                         + " is not positive definite: some input costs nothing there");
+                     "R + BᵀXB of step " + std::to_string(table.failed_at) +
+                         " is not positive definite: some input costs nothing there");
   result.solution.regulator->K_schedule = table.K;
   result.solution.regulator->X0 = table.X_first;
 }
@@ -49,8 +49,8 @@ void take_table(const GainTable& table, const char* key, DesignRun& result) {
 void run_steady_law(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
   check_regulator(last.problem, last.samples, result);
   if (has_error(result.findings)) return;
-  const SteadyRegulator found = solve_regulator(last.problem, last.samples,
-                                                coarser ? coarser->solution.regulator->X : RealMatrix());
+  const SteadyRegulator found =
+      solve_regulator(last.problem, last.samples, coarser ? coarser->solution.regulator->X : RealMatrix());
   explain_regulator(found.riccati.failure, result.findings);
   if (found.riccati.failure != RiccatiFailure::none) {
     result.may_want_digits = true;
@@ -81,12 +81,13 @@ void run_finite(const std::vector<SampledStage>& stages, const Regulator& lqr, D
   regulator.X = table.X_last;
   result.regulator_poles = eigenvalues(regulated_loop(last.problem, last.samples.plant, regulator.K));
   if (!is_stable(result.regulator_poles))
-    add_note(result.findings, "lqr.horizon",
-             "the gain that is held at the end does not stabilise the plant: the loop has no margins and no steady cost");
+    add_note(
+        result.findings, "lqr.horizon",
+        "the gain that is held at the end does not stabilise the plant: the loop has no margins and no steady cost");
 }
 
 void run_optimal_law(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
-                   DesignRun& result) {
+                     DesignRun& result) {
   RegulatorSolution& regulator = result.solution.regulator.emplace();
   regulator.cost = *stages.front().samples.cost;
   if (problem.regulator->horizon > 0) return run_finite(stages, *problem.regulator, result);
@@ -109,17 +110,18 @@ void run_anti_windup(const SampledStage& last, DesignRun& result) {
   RegulatorSolution& regulator = *result.solution.regulator;
   const auto Gamma = state_share_of_integrals(last.problem, last.samples.plant, regulator.K);
   if (!Gamma)
-    return add_note(result.findings, "lqr.integral",
-                    "without its integrals the loop has a pole at 1, so the model does not tell what a limited input costs "
-                    "them: at a limit they follow the input (anti_windup = \"conditioning\")");
+    return add_note(
+        result.findings, "lqr.integral",
+        "without its integrals the loop has a pole at 1, so the model does not tell what a limited input costs "
+        "them: at a limit they follow the input (anti_windup = \"conditioning\")");
   regulator.Gamma = *Gamma;
   if (last.problem.regulator->anti_windup == AntiWindup::model)
     regulator.H = anti_windup(last.problem, last.samples.plant, regulator.Gamma);
 }
 
 void run_placed_law(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
-  const PlacedGain placed = place_regulator(problem, samples.plant,
-                                            coarser ? &*coarser->regulator_choice : nullptr, result.findings);
+  const PlacedGain placed =
+      place_regulator(problem, samples.plant, coarser ? &*coarser->regulator_choice : nullptr, result.findings);
   result.may_want_digits = placed.may_want_digits;
   if (has_error(result.findings)) return;
   result.regulator_choice = placed.choice;
@@ -131,12 +133,11 @@ void run_placed_law(const Problem& problem, const Samples& samples, const Design
 }  // namespace
 
 void run_regulator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
-                     DesignRun& result) {
+                   DesignRun& result) {
   if (!has_cost(problem.regulator)) return run_placed_law(problem, stages.back().samples, coarser, result);
   run_optimal_law(problem, stages, coarser, result);
   if (problem.regulator->integral && !has_error(result.findings)) run_anti_windup(stages.back(), result);
-  if (!problem.regulator->track.empty() && !has_error(result.findings))
-    run_feed_forward(stages.back(), result);
+  if (!problem.regulator->track.empty() && !has_error(result.findings)) run_feed_forward(stages.back(), result);
 }
 
 }  // namespace lqg::design

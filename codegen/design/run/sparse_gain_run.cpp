@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/run/sparse_gain_run.hpp"
 
 #include "design/equations/sparse_gain.hpp"
@@ -26,13 +27,15 @@ RealMatrix disturbance(const Samples& samples, const RiccatiEquation& e, const R
 void explain(const StructureProblem& problem, const StructuredGain& gain, const std::string& key, DesignRun& result) {
   if (gain.failure == StructureFailure::not_converged) {
     result.may_want_digits = true;
-    return add_error(result.findings, key, "the best gain of this structure is not isolated: some entry makes no difference");
+    return add_error(result.findings, key,
+                     "the best gain of this structure is not isolated: some entry makes no difference");
   }
   const std::vector<ComplexReal> fixed = fixed_unstable_modes(problem);
   if (fixed.empty()) return add_error(result.findings, key, "no stable gain of this structure was found");
   for (const ComplexReal& mode : fixed)
     add_error(result.findings, key,
-              "the mode at z = " + short_complex(mode, 1) + " is moved by no gain of this structure: it cannot be stabilised");
+              "the mode at z = " + short_complex(mode, 1) +
+                  " is moved by no gain of this structure: it cannot be stabilised");
 }
 
 // The filter's two forms as one dual problem: K = Lᵀ and X the posterior covariance, or K = L_predictorᵀ and X the prior
@@ -47,8 +50,7 @@ DualFilter dual_filter(const Samples& samples, Form form) {
   const SampledPlant own = own_plant(samples);
   const SampledNoise& noise = *samples.noise;
   const RealMatrix cross = multiply(own.G, noise.Swv), GWG = congruence(own.G, noise.W);
-  if (form == Form::predictor)
-    return {{own.A.transpose(), own.C.transpose(), GWG, noise.V, cross}, {}, {}, {}};
+  if (form == Form::predictor) return {{own.A.transpose(), own.C.transpose(), GWG, noise.V, cross}, {}, {}, {}};
   DualFilter dual;
   dual.M0 = solve(noise.V, cross.transpose())->transpose();
   dual.A_free = own.A - multiply(dual.M0, own.C);
@@ -95,8 +97,10 @@ void check_structure(const Problem& problem, Findings& findings) {
     const std::string key = "lqr.structure";
     if (lqr.structure.isZero(0)) add_error(findings, key, "keeps no entry: expected a 1 somewhere");
     if (lqr.cost == Cost::continuous)
-      add_error(findings, key, "needs cost = \"sampled\" or \"discrete\": the cost of a continuous gain is not that of its loop");
-    if (lqr.horizon > 0 || !problem.stages.empty()) add_error(findings, key, "needs a gain that stays the same: no horizon, no stages");
+      add_error(findings, key,
+                "needs cost = \"sampled\" or \"discrete\": the cost of a continuous gain is not that of its loop");
+    if (lqr.horizon > 0 || !problem.stages.empty())
+      add_error(findings, key, "needs a gain that stays the same: no horizon, no stages");
   }
   if (!problem.estimator || problem.estimator->structure.size() == 0) return;
   const std::string key = "kalman.structure";
@@ -105,10 +109,12 @@ void check_structure(const Problem& problem, Findings& findings) {
     add_error(findings, key, "needs gain = \"steady\" and no stages: the other gains have no structure");
 }
 
-void keep_regulator_structure(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
+void keep_regulator_structure(const Problem& problem, const Samples& samples, const DesignRun* coarser,
+                              DesignRun& result) {
   RegulatorSolution& regulator = *result.solution.regulator;
   const RealMatrix full = regulator.K, full_X = regulator.X;
-  StructureProblem structured = {regulator_equation(problem, samples), {}, Eigen::MatrixXd::Ones(full.rows(), full.cols())};
+  StructureProblem structured = {
+      regulator_equation(problem, samples), {}, Eigen::MatrixXd::Ones(full.rows(), full.cols())};
   structured.kept.leftCols(problem.regulator->structure.cols()) = problem.regulator->structure;
   structured.W = disturbance(samples, structured.equation, full);
   const StructuredGain found =
@@ -117,14 +123,14 @@ void keep_regulator_structure(const Problem& problem, const Samples& samples, co
   StructureReport& report = regulator.structure.emplace();
   report.full = full;
   report.full_poles = sorted_poles(result.regulator_poles);
-  report.cost_ratio =
-      to_double(trace_of_product(found.X, structured.W) / trace_of_product(full_X, structured.W));
+  report.cost_ratio = to_double(trace_of_product(found.X, structured.W) / trace_of_product(full_X, structured.W));
   regulator.K = found.K;
   regulator.X = found.X;
   result.regulator_poles = eigenvalues(regulated_loop(problem, samples.plant, found.K));
 }
 
-void keep_estimator_structure(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
+void keep_estimator_structure(const Problem& problem, const Samples& samples, const DesignRun* coarser,
+                              DesignRun& result) {
   const Form form = problem.estimator->form;
   const bool filtered = form == Form::filter;
   const Index own = samples.own_states;
@@ -135,8 +141,8 @@ void keep_estimator_structure(const Problem& problem, const Samples& samples, co
   };
   const RealMatrix full_P = (filtered ? full.P_posterior : full.P_prior).topLeftCorner(own, own);
   const StructureProblem structured = {dual.equation, unit_variances(full_P), problem.estimator->structure.transpose()};
-  const StructuredGain found = structured_gain(structured, gain_of(full),
-                                               coarser ? gain_of(*coarser->solution.estimator) : RealMatrix());
+  const StructuredGain found =
+      structured_gain(structured, gain_of(full), coarser ? gain_of(*coarser->solution.estimator) : RealMatrix());
   if (found.failure != StructureFailure::none) return explain(structured, found, "kalman.structure", result);
   result.solution.estimator = filter_with(samples, form, dual, found);
   StructureReport& report = result.solution.estimator->structure.emplace();

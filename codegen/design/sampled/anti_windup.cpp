@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/anti_windup.hpp"
 
 #include "design/numeric/elimination.hpp"
@@ -14,10 +15,12 @@ struct Integrated {
 
 Integrated integrated_plant(const Problem& problem, const SampledPlant& plant) {
   const Real T(problem.plant.sample_time);
-  const RealMatrix C = T * rows_of(plant.C, integrated_outputs(problem)), D = T * rows_of(plant.D, integrated_outputs(problem));
+  const RealMatrix C = T * rows_of(plant.C, integrated_outputs(problem)),
+                   D = T * rows_of(plant.D, integrated_outputs(problem));
   if (problem.regulator->input_rate.size() == 0) return {plant.A, plant.B, C, D};
   const Index nx = plant.A.rows(), nu = plant.B.cols();
-  return {above(beside(plant.A, plant.B), beside(zeros(nu, nx), identity(nu))), above(plant.B, identity(nu)), beside(C, D), D};
+  return {above(beside(plant.A, plant.B), beside(zeros(nu, nx), identity(nu))), above(plant.B, identity(nu)),
+          beside(C, D), D};
 }
 
 // X with X A = b, where A has all its rank.
@@ -29,7 +32,8 @@ std::optional<RealMatrix> solve_from_the_right(const RealMatrix& A, const RealMa
 
 }  // namespace
 
-std::optional<RealMatrix> state_share_of_integrals(const Problem& problem, const SampledPlant& plant, const RealMatrix& K) {
+std::optional<RealMatrix> state_share_of_integrals(const Problem& problem, const SampledPlant& plant,
+                                                   const RealMatrix& K) {
   const Integrated moves = integrated_plant(problem, plant);
   const Index nx = plant.A.rows(), nxi = moves.C.rows(), last = moves.A.rows() - nx;
   const RealMatrix Kx = beside(K.leftCols(nx), K.rightCols(last)), Kxi = K.middleCols(nx, nxi);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of ξ is the state's own share, and what becomes of ξ when an input is limited.
 #pragma once
 
@@ -14,7 +15,8 @@ namespace lqg::design {
 // K' = Kx on; what repeating it for ever tends to follows the slowest poles, which is worse (src/README.md says what was compared).
 //
 // Empty where a pass has no solution: the loop under K' has a pole at 1.
-std::optional<RealMatrix> state_share_of_integrals(const Problem& problem, const SampledPlant& plant, const RealMatrix& K);
+std::optional<RealMatrix> state_share_of_integrals(const Problem& problem, const SampledPlant& plant,
+                                                   const RealMatrix& K);
 
 // H = T D_i − Γ B, nξ × nu (of [B; I] with `input_rate`): with ξ + H (u − v) an input u in place of v leaves ξ + Γ x as it was.
 RealMatrix anti_windup(const Problem& problem, const SampledPlant& plant, const RealMatrix& Gamma);

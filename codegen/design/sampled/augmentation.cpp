@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/augmentation.hpp"
 
 #include "design/numeric/elimination.hpp"
@@ -32,11 +33,10 @@ SampledCost with_rate_weight(const SampledCost& cost, const RealMatrix& S) {
 
 RiccatiEquation continuous_equation(const Problem& problem, const SampledCost& weights) {
   const Plant& plant = problem.plant;
-  const RegulatedPlant dynamics = with_integrals(problem, {real(plant.A), real(plant.B)}, real(plant.C),
-                                                 real(plant.D), Real(0), Real(1));
-  const SampledCost cost = integrals_of(problem) > 0
-                               ? with_integral_weight(weights, real(problem.regulator->integral->Q))
-                               : weights;
+  const RegulatedPlant dynamics =
+      with_integrals(problem, {real(plant.A), real(plant.B)}, real(plant.C), real(plant.D), Real(0), Real(1));
+  const SampledCost cost =
+      integrals_of(problem) > 0 ? with_integral_weight(weights, real(problem.regulator->integral->Q)) : weights;
   const RealMatrix shifted = dynamics.A + decay_of(problem) * identity(dynamics.A.rows());
   return {shifted, dynamics.B, cost.Q, cost.R, cost.N};
 }
@@ -50,8 +50,8 @@ RealMatrix rows_of(const RealMatrix& from, const std::vector<int>& rows) {
 }
 
 RegulatedPlant regulated_plant(const Problem& problem, const SampledPlant& plant) {
-  const RegulatedPlant base = with_integrals(problem, {plant.A, plant.B}, plant.C, plant.D, Real(1),
-                                             Real(problem.plant.sample_time));
+  const RegulatedPlant base =
+      with_integrals(problem, {plant.A, plant.B}, plant.C, plant.D, Real(1), Real(problem.plant.sample_time));
   if (problem.regulator->input_rate.size() == 0) return base;
   const Index nz = base.A.rows(), nu = base.B.cols();
   return {above(beside(base.A, base.B), beside(zeros(nu, nz), identity(nu))), above(base.B, identity(nu))};
@@ -89,8 +89,8 @@ void check_set_points(const SampledPlant& plant, const std::vector<int>& outputs
   const Index nx = plant.A.rows(), nu = plant.B.cols(), held = static_cast<Index>(outputs.size());
   if (held > nu)
     return add_error(findings, key,
-                     std::to_string(nu) + (nu == 1 ? " input" : " inputs") + " cannot hold "
-                         + std::to_string(held) + " outputs: at most as many as there are inputs");
+                     std::to_string(nu) + (nu == 1 ? " input" : " inputs") + " cannot hold " + std::to_string(held) +
+                         " outputs: at most as many as there are inputs");
   const RealMatrix CD = beside(rows_of(plant.C, outputs), rows_of(plant.D, outputs));
   if (eliminated(CD).rank < held)
     return add_error(findings, key, "these outputs depend on each other: they have no set points of their own");
@@ -99,7 +99,8 @@ void check_set_points(const SampledPlant& plant, const std::vector<int>& outputs
   };
   if (rank_at(Real(1)) == nx + held) return;
   if (rank_at(sqrt(Real(3))) < nx + held)  // no zero is there but by chance
-    add_error(findings, key, "the inputs do not move these outputs independently: no constant input holds them at a set point");
+    add_error(findings, key,
+              "the inputs do not move these outputs independently: no constant input holds them at a set point");
   else
     add_error(findings, key,
               "the plant has a zero at z = 1 (s = 0) from its inputs to these outputs: no constant input holds "

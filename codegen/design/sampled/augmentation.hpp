@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the regulator regulates: the plant's state, and the integrals and the last input where the design has them.
 #pragma once
 

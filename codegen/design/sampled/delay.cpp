@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/delay.hpp"
 
 namespace lqg::design {

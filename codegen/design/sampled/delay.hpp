@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The time from sampling y to u taking effect, and the inputs that are on their way.
 #pragma once
 

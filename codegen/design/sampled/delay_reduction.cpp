@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/delay_reduction.hpp"
 
 namespace lqg::design {
@@ -58,8 +59,8 @@ std::optional<Prediction> without_whole_periods(const Problem& problem, const Sa
   const Index integrals = all.rows() - nx - on_their_way - kept;
   const RealMatrix inputs = all.middleRows(nx, on_their_way);
   const RealMatrix now = above(all.topRows(nx + left * nu), all.middleRows(nx + on_their_way, integrals));
-  result.predict = above(after_inputs(driven_by_input(problem, result.samples.plant), now, inputs, left),
-                         all.bottomRows(kept));
+  result.predict =
+      above(after_inputs(driven_by_input(problem, result.samples.plant), now, inputs, left), all.bottomRows(kept));
   result.is_exact = is_postponed(problem);
   return result;
 }

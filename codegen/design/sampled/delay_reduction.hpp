@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A delayed plant whose inputs in the near future are known is one with less delay, later.
 #pragma once
 
@@ -10,10 +11,10 @@ namespace lqg::design {
 // the one of the delayed plant:  K = K_sooner predict. (Without this the Riccati equation of the delayed plant has
 // R = 0 and its closed loop a chain of poles at 0.)
 struct Prediction {
-  Samples samples;      // of the plant with less delay
-  RealMatrix predict;   // its z from z of the delayed one
-  Index steps = 0;      // from here to that state
-  bool is_exact = true; // false: some weight is of u when it is decided, not postponed, and K is but a good start
+  Samples samples;       // of the plant with less delay
+  RealMatrix predict;    // its z from z of the delayed one
+  Index steps = 0;       // from here to that state
+  bool is_exact = true;  // false: some weight is of u when it is decided, not postponed, and K is but a good start
 };
 
 // Empty when the delay has no whole period before a part of one.

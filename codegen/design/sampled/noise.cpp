@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/noise.hpp"
 
 #include "design/numeric/linear_algebra.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The noise on states and outputs, from whichever keys gave it.
 #pragma once
 

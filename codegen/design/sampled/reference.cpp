@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/reference.hpp"
 
 #include <algorithm>
@@ -49,8 +50,8 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
   for (std::size_t i = 0; i < track.size(); ++i)
     for (std::size_t j = 0; j < outputs.size(); ++j)
       if (outputs[j] == track[i]) wanted(nx + static_cast<Index>(i), static_cast<Index>(j)) = 1;
-  const RealMatrix M = above(beside(plant.A - identity(nx), plant.B),
-                             beside(rows_of(plant.C, track), rows_of(plant.D, track)));
+  const RealMatrix M =
+      above(beside(plant.A - identity(nx), plant.B), beside(rows_of(plant.C, track), rows_of(plant.D, track)));
   const Eliminated all = eliminated(M, wanted);
   RealMatrix of_u = zeros(nx + nu, nx + nu), of_x = of_u;
   of_u.bottomRightCorner(nu, nu) = stated_weights(problem).R;
@@ -59,7 +60,8 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
   return SetPoint{point.topRows(nx), point.bottomRows(nu)};
 }
 
-RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const RealMatrix& Gamma, const SetPoint& set_point) {
+RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const RealMatrix& Gamma,
+                        const SetPoint& set_point) {
   const Index nx = set_point.Nx.rows();
   const bool gives_change = problem.regulator->input_rate.size() > 0;
   const RealMatrix rest = gives_change ? above(set_point.Nx, set_point.Nu) : set_point.Nx;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The feed-forward that makes outputs follow r without bias.
 #pragma once
 
@@ -19,7 +20,8 @@ std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& pl
 
 // u = −K [x̂ − Nx r; ξ + Γ Nx r; u[k−1] − Nu r] + Nu r:  Nbar = Nu + (K_x − Kξ Γ) Nx; of Δu:  (K' − Kξ Γ) [Nx; Nu], K' = [K_x K_u].
 // Γ of state_share_of_integrals, or empty: at the set point of r ξ rests at −Γ Nx r, where it comes by itself on the way there.
-RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const RealMatrix& Gamma, const SetPoint& set_point);
+RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const RealMatrix& Gamma,
+                        const SetPoint& set_point);
 
 // The outputs that are integrated, ξ by ξ, and those in r; none without a regulator.
 const std::vector<int>& integrated_outputs(const Problem& problem);

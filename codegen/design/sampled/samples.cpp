@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/samples.hpp"
 
 #include "design/equations/sampling.hpp"
@@ -18,8 +19,8 @@ bool cost_is_integral(const Problem& problem) {
 
 // Does the integral see w as an input that is held: noise of that kind, or the part of it that v tells.
 bool cost_sees_held_noise(const Problem& problem, const SampledNoise& noise) {
-  return has_noise(problem.estimator) && cost_is_integral(problem)
-         && (!noise_is_sampled(problem) || !noise.Swv.isZero(0));
+  return has_noise(problem.estimator) && cost_is_integral(problem) &&
+         (!noise_is_sampled(problem) || !noise.Swv.isZero(0));
 }
 
 // xᵀQx + uᵀRu + 2xᵀNu over z = [x; held] with u from row `at` on.
@@ -35,7 +36,7 @@ RealMatrix cost_density(const SampledCost& weights, Index held, Index at) {
 
 // The continuous plant whose held inputs are [old; new; w], one of the first two acting.
 struct Segments {
-  RealMatrix A, B, G;          // G is empty where w is not followed through the period
+  RealMatrix A, B, G;  // G is empty where w is not followed through the period
   std::optional<SampledCost> cost;
   RealMatrix noise;
 
@@ -156,8 +157,8 @@ Samples sample(const Problem& problem) { return sample(problem, delay_of(problem
 
 Samples sample(const Problem& problem, const Delay& delay) {
   const Plant& plant = problem.plant;
-  Samples samples = plant.domain == Domain::continuous ? continuous_samples(problem, delay)
-                                                       : discrete_samples(plant, delay);
+  Samples samples =
+      plant.domain == Domain::continuous ? continuous_samples(problem, delay) : discrete_samples(plant, delay);
   samples.own_states = plant.A.rows();
   add_outputs(plant, delay.samples, samples.plant);
   if (has_cost(problem.regulator) && !samples.cost) samples.cost = weights_of_samples(problem, delay.samples);

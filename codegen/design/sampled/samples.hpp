@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The problem at the sample instants.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/stages.hpp"
 
 namespace lqg::design {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A problem whose plant, weights and noise change at given steps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/sampled/weights.hpp"
 
 #include "design/numeric/linear_algebra.hpp"

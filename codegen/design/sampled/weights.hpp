@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The regulator's weights, from whichever keys gave them.
 #pragma once
 

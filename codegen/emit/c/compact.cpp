@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Calls of the library's loops over constant matrices.
 #include <algorithm>
 
@@ -18,7 +19,8 @@ bool needs_reset(const Controller& controller) {
 }
 
 // A body, the last line without its end, for a line of another.
-std::string lines(const char* text, const Controller& controller, const Words& words, const Conditions& conditions = {}) {
+std::string lines(const char* text, const Controller& controller, const Words& words,
+                  const Conditions& conditions = {}) {
   std::string out = write_body(text, controller, words, conditions);
   out.pop_back();
   return out;
@@ -35,10 +37,12 @@ std::string noises(const Controller& controller) {
 // What the library is told beside the outputs, and what it tells: a gate, and which outputs it has used.
 std::string watch(const Controller& controller, bool tells_heard) {
   const std::string heard = tells_heard ? "heard" : "NULL";
-  const char* const gate = "{NULL, {gate}, self->gated, NULL, NULL, self->widening, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW, ";
+  const char* const gate =
+      "{NULL, {gate}, self->gated, NULL, NULL, self->widening, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW, ";
   Words words = common_words(controller);
   words["gate"] = trace::literal(controller.gate.sigma, controller.target.is_double);
-  return controller.has.gate ? fill(gate, words) + heard + "}" : "{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, " + heard + "}";
+  return controller.has.gate ? fill(gate, words) + heard + "}"
+                             : "{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, " + heard + "}";
 }
 
 // The arguments of the filter's calls: its description, its state, and how long its scratch is.
@@ -50,18 +54,22 @@ Words filter_words(const Controller& controller) {
                                  : controller.size.nx > 1                 ? "self->U, self->d, "
                                                                           : "NULL, self->d, ";
   const char* const u_applied = controller.has.feedthrough ? "self->u_applied, " : "NULL, ";
-  Words words = {{"FILTER", upper(filter_name(controller.filter))},
-                 {"plant", plant},
-                 {"first_stage", fill(controller.has.stages ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", common)},
-                 {"kalman", controller.keeps.gain_row ? "&kalman" : plant},
-                 {"state", "self->x, " + covariance + u_applied + (controller.keeps.innovation ? "self->innovation" : "NULL")},
-                 {"u", controller.size.nu ? "u" : "NULL"},
-                 {"nq", noises(controller)}};
+  Words words = {
+      {"FILTER", upper(filter_name(controller.filter))},
+      {"plant", plant},
+      {"first_stage", fill(controller.has.stages ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", common)},
+      {"kalman", controller.keeps.gain_row ? "&kalman" : plant},
+      {"state", "self->x, " + covariance + u_applied + (controller.keeps.innovation ? "self->innovation" : "NULL")},
+      {"u", controller.size.nu ? "u" : "NULL"},
+      {"nq", noises(controller)}};
   if (controller.filter == step::Filter::steady)
-    words["variances"] = fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + {filter_row} * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
-  else words["variances"] = "";
+    words["variances"] =
+        fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + {filter_row} * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
+  else
+    words["variances"] = "";
   words["watch"] = watch(controller, false);
-  if (controller.keeps.gain_row) words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
+  if (controller.keeps.gain_row)
+    words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
   return words;
 }
 
@@ -71,7 +79,8 @@ std::string law_of_sample(const Controller& controller) {
   const auto size = [&](std::size_t matrix) { return std::to_string(gains[matrix].size()); };
   return lines(templates::compact_law_of_sample, controller,
                {{"K_size", size(0)}, {"Nbar_size", size(1)}, {"H_size", size(2)}},
-               {{"has_Nbar", controller.has.servo && gains[1].size() > 0}, {"has_H", controller.has.servo && gains[2].size() > 0}});
+               {{"has_Nbar", controller.has.servo && gains[1].size() > 0},
+                {"has_H", controller.has.servo && gains[2].size() > 0}});
 }
 
 // The call of the law, and the arguments of what keeps its memory.
@@ -85,7 +94,9 @@ Words law_words(const Controller& controller) {
   words["before"] = (integrates ? "self->xi, self->demand, " : "NULL, NULL, ") + last_input;
   words["r"] = controller.size.nr ? "self->r" : "NULL";
   words["x"] = controller.has.filter ? "self->x" : "x";
-  words["law"] = fill(controller.has.servo ? "lqg_servo_control({servo}, {x}, {r}, {before}, u)" : "lqg_lqr_control({lqr}, {x}, u)", words);
+  words["law"] = fill(
+      controller.has.servo ? "lqg_servo_control({servo}, {x}, {r}, {before}, u)" : "lqg_lqr_control({lqr}, {x}, u)",
+      words);
   if (has_table) words["law_of_sample"] = law_of_sample(controller);
   return words;
 }
@@ -110,11 +121,14 @@ std::string update_body(const Controller& controller) {
 // The update by one output, and r − y of it where it is integrated.
 std::string update_alone_body(const Controller& controller, int output) {
   Words words = filter_words(controller);
-  const std::string variances = controller.filter != step::Filter::steady ? "" : controller.has.gate ? words["variances"] : "NULL, ";
+  const std::string variances = controller.filter != step::Filter::steady ? ""
+                                : controller.has.gate                     ? words["variances"]
+                                                                          : "NULL, ";
   words["i"] = std::to_string(output);
   words["given"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
   words["y"] = controller.has.range ? "said" : words["given"];
-  words["watched"] = variances + (controller.has.gate ? "&watch" : "NULL") + (controller.filter == step::Filter::steady ? "" : ", work");
+  words["watched"] = variances + (controller.has.gate ? "&watch" : "NULL") +
+                     (controller.filter == step::Filter::steady ? "" : ", work");
   const TracedFunction observation = trace_observation(controller, output);
   words["observation"] = statements(observation);
   return write_body(templates::compact_update_alone, controller, words, {{"observes", !observation.stores.empty()}});
@@ -164,7 +178,8 @@ std::string options_check(const Controller& controller) {
            what + ": " + (wanted ? "define " : "do not define ") + option +
            " for the library and for this file, or run lqgen with other options.\"\n#endif\n";
   };
-  return check("LQG_REAL_DOUBLE", controller.target.is_double, controller.target.is_double ? "computes in double" : "computes in float") +
+  return check("LQG_REAL_DOUBLE", controller.target.is_double,
+               controller.target.is_double ? "computes in double" : "computes in float") +
          check("LQG_FUSED", controller.target.is_fused,
                controller.target.is_fused ? "uses fused multiply-adds" : "uses plain arithmetic");
 }
@@ -173,11 +188,15 @@ std::string options_check(const Controller& controller) {
 
 FunctionBodies compact_bodies(const Controller& controller) {
   FunctionBodies bodies;
-  bodies.includes = std::string(controller.target.is_fused || controller.size.ny > 1 || controller.size.nxi || controller.has.range ? "#include <math.h>\n" : "") +
-                    "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
+  bodies.includes =
+      std::string(controller.target.is_fused || controller.size.ny > 1 || controller.size.nxi || controller.has.range
+                      ? "#include <math.h>\n"
+                      : "") +
+      "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   bodies.resets = needs_reset(controller);
   if (controller.keeps.any) bodies.init = init_body(controller);
-  if (carries_covariance(controller)) bodies.recover = write_body(templates::compact_recover, controller, {}, {{"remembers", remembers(controller)}});
+  if (carries_covariance(controller))
+    bodies.recover = write_body(templates::compact_recover, controller, {}, {{"remembers", remembers(controller)}});
   if (controller.has.filter) {
     bodies.constants = kalman_constants(controller);
     bodies.update = update_body(controller);
@@ -189,7 +208,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
   if (controller.has.regulator) {
     bodies.constants += controller.has.servo ? servo_constants(controller) : lqr_constants(controller);
     bodies.control = controller.has.filter || !controller.keeps.any ? control_body(controller)
-                                                                        : act_body(controller, bodies.constants);
+                                                                    : act_body(controller, bodies.constants);
   }
   return bodies;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/compact_constants.hpp"
 
 #include <algorithm>
@@ -56,9 +57,9 @@ std::string fields(std::initializer_list<std::string> values) {
 std::string plant_fields(const Controller& controller, const design::SampledPlant& plant, const RealMatrix& C,
                          const RealMatrix& D, Tables& tables) {
   const std::string NAME = upper(controller.problem.name);
-  return "    {" + fields({NAME + "_NX", std::to_string(controller.size.nu), NAME + "_NY",
-                           tables.add("A", plant.A), tables.add("B", plant.B),
-                           tables.add("C", C), tables.add_unless_zero("D", D)}) +
+  return "    {" +
+         fields({NAME + "_NX", std::to_string(controller.size.nu), NAME + "_NY", tables.add("A", plant.A),
+                 tables.add("B", plant.B), tables.add("C", C), tables.add_unless_zero("D", D)}) +
          "},  /* nx, nu, ny, A, B, C, D */\n";
 }
 
@@ -85,8 +86,9 @@ void add_range(const Controller& controller, Tables& tables) {
 
 std::string bound_fields(const Controller& controller, Tables& tables) {
   const Eigen::VectorXd& limits = controller.bounds.innovation;
-  return "    " + fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
-                            numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables)}) +
+  return "    " +
+         fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
+                 numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables)}) +
          "  /* x_scale, innovation_limit */\n";
 }
 
@@ -109,9 +111,11 @@ RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
 std::string steady_fields(const Controller& controller, const design::SampledPlant& plant, Tables& tables) {
   std::string out = plant_fields(controller, plant, plant.C, plant.D, tables);
   if (controller.has.gate) tables.add("S", stacked(controller.filters, 2));
-  return out + "    " + fields({tables.add("L", stacked(controller.filters, 0)),
-                                controller.keeps.innovation ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
-                                initial_state(controller, tables)}) + ",  /* L, M, x0 */\n" + bound_fields(controller, tables);
+  return out + "    " +
+         fields({tables.add("L", stacked(controller.filters, 0)),
+                 controller.keeps.innovation ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
+                 initial_state(controller, tables)}) +
+         ",  /* L, M, x0 */\n" + bound_fields(controller, tables);
 }
 
 std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
@@ -119,10 +123,12 @@ std::string online_fields(const Controller& controller, const design::SampledPla
   const design::OnlineSolution& first = *controller.solution.online;
   const bool has_M = controller.keeps.innovation;
   std::string out = plant_fields(controller, plant, online.C, online.D, tables);
-  out += "    " + fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
+  out += "    " +
+         fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
          ",  /* E, V */\n";
   const auto add_rest = [&] {
-    out += "    " + fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
+    out += "    " +
+           fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
            ",  /* M, A_free */\n";
   };
   if (controller.filter == step::Filter::plain) {
@@ -131,12 +137,14 @@ std::string online_fields(const Controller& controller, const design::SampledPla
     return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(first.P0))}) +
            ",  /* x0, P0 */\n" + bound_fields(controller, tables);
   }
-  out += "    " + fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
+  out += "    " +
+         fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
          ",  /* nq, G, w */\n";
   add_rest();
-  return out + "    " + fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
-                                tables.add("D0", as_row(first.D0))}) + ",  /* x0, U0, d0 */\n" +
-         bound_fields(controller, tables);
+  return out + "    " +
+         fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
+                 tables.add("D0", as_row(first.D0))}) +
+         ",  /* x0, U0, d0 */\n" + bound_fields(controller, tables);
 }
 
 // The limits of the file; nothing is defined for those that no input has.
@@ -168,11 +176,12 @@ static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
 {
     return &{NAME}_KALMAN[{index}];
 }
-)", [&] {
-    Words words = common_words(controller);
-    words["index"] = index;
-    return words;
-  }());
+)",
+              [&] {
+                Words words = common_words(controller);
+                words["index"] = index;
+                return words;
+              }());
 }
 
 void add_gate(const Controller& controller, Tables& tables) {
@@ -211,17 +220,21 @@ std::string kalman_constants(const Controller& controller) {
   std::vector<std::string> descriptions;
   for (const std::size_t start : controller.stage_starts) {
     const design::SampledPlant& plant = plant_at(controller, start);
-    descriptions.push_back(controller.solution.online ? online_fields(controller, plant, online_at(controller, start), tables)
-                                                      : steady_fields(controller, plant, tables));
+    descriptions.push_back(controller.solution.online
+                               ? online_fields(controller, plant, online_at(controller, start), tables)
+                               : steady_fields(controller, plant, tables));
   }
   const Words words = common_words(controller);
   if (descriptions.size() == 1)
-    return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", words) + descriptions[0] + "};\n";
+    return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", words) + descriptions[0] +
+           "};\n";
   std::string all;
   for (const std::string& description : descriptions)
     all += "    {\n" + description + (&description == &descriptions.back() ? "    }\n" : "    },\n");
-  return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN[" + std::to_string(descriptions.size()) +
-                            "] = {\n", words) + all + "};\n" + stage_function(controller);
+  return tables.text +
+         fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN[" + std::to_string(descriptions.size()) + "] = {\n",
+              words) +
+         all + "};\n" + stage_function(controller);
 }
 
 std::string lqr_constants(const Controller& controller) {
@@ -236,25 +249,29 @@ std::string servo_constants(const Controller& controller) {
   Tables tables(controller, "SERVO");
   const bool is_double = controller.target.is_double;
   const std::string NAME = upper(controller.problem.name), SERVO = NAME + "_SERVO";
-  const std::string K = tables.add("K", stacked(controller.laws, 0)), Nbar = tables.add("NBAR", stacked(controller.laws, 1));
+  const std::string K = tables.add("K", stacked(controller.laws, 0)),
+                    Nbar = tables.add("NBAR", stacked(controller.laws, 1));
   const std::string H = tables.add("H", stacked(controller.laws, 2));
   const std::vector<controller::Place> places = controller::changing_places(controller.laws, is_double);
   if (std::any_of(places.begin(), places.end(), [](const controller::Place& place) { return place.matrix == 3; }))
     tables.add("H_INPUT", stacked(controller.laws, 3));  // set_input, which is no call of the library, reads it
-  const auto model = controller::model_of<double>(controller, [](const Real& value) { return design::to_double(value); });
+  const auto model =
+      controller::model_of<double>(controller, [](const Real& value) { return design::to_double(value); });
   const std::string output = index_array(SERVO + "_OUTPUT", model.integral, tables.text);
   const std::string wanted = index_array(SERVO + "_REFERENCE", model.wanted, tables.text);
   const auto [u_min, u_max] = limits_fields(controller, tables);
   const Eigen::VectorXd& error = controller.bounds.error;
   const std::string xi_scale = numbers("XI_SCALE", inverse_powers(controller.bounds.xi), tables);
   const std::string error_limit = numbers("ERROR_LIMIT", {error.data(), error.data() + error.size()}, tables);
-  const std::string u_step =
-      controller.has.rate_limit ? tables.add("U_STEP", limits_row(controller::rate_steps(controller), -1, is_double)) : "NULL";
+  const std::string u_step = controller.has.rate_limit
+                                 ? tables.add("U_STEP", limits_row(controller::rate_steps(controller), -1, is_double))
+                                 : "NULL";
   return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
          fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.size.nr), std::to_string(controller.size.nxi),
                  controller.has.input_change ? "1" : "0", NAME + "_SAMPLE_TIME"}) +
          ",  /* nx, nu, nr, nxi, gives_change, T */\n    " + fields({K, Nbar, H, "NULL", output, wanted}) +
-         ",  /* K, Nbar, H, H_input, output, reference */\n    " + fields({u_min, u_max, u_step, xi_scale, error_limit}) +
+         ",  /* K, Nbar, H, H_input, output, reference */\n    " +
+         fields({u_min, u_max, u_step, xi_scale, error_limit}) +
          "  /* u_min, u_max, u_step, xi_scale, error_limit */\n};\n";
 }
 

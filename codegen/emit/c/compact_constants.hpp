@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the library's loops find in flash.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What stands between the braces of the emitted functions, in either style.
 #pragma once
 
@@ -15,7 +16,7 @@ struct FunctionBodies {
   std::string options;    // of the compiler, for the functions
   std::string init, recover, weigh, update, control, predict;
   std::vector<std::string> updates_alone;  // of each output that can_update_alone
-  bool resets = false;    // they call NAME_reset, or NAME_recover where P is carried
+  bool resets = false;                     // they call NAME_reset, or NAME_recover where P is carried
 };
 
 // What predict does to the counters at its end.

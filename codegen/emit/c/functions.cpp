@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/functions.hpp"
 
 #include "emit/c/linear_functions.hpp"
@@ -12,7 +13,9 @@ namespace {
 bool is_steady(const Controller& controller) { return controller.filter == step::Filter::steady; }
 
 std::string init_function(const Controller& controller, const FunctionBodies& bodies) {
-  std::string begin = !controller.has.filter ? "As at the start" : is_steady(controller) ? "x̂ = x0" : "x̂ = x0, its covariance P0";
+  std::string begin = !controller.has.filter  ? "As at the start"
+                      : is_steady(controller) ? "x̂ = x0"
+                                              : "x̂ = x0, its covariance P0";
   if (controller.size.nxi) begin += ", ξ = 0";
   if (controller.size.nr) begin += ", r = 0";
   return write_function(templates::init, controller, {{"begin", begin}, {"body", bodies.init}});
@@ -21,8 +24,9 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
 // What stays after a reset.
 std::string what_stays(const Controller& controller) {
   std::string out;
-  for (const auto& [stays, what] : {std::pair(controller.size.nr > 0, "r"), std::pair(controller.keeps.sample, "the time"),
-                                    std::pair(controller.has.filter, "what was counted")})
+  for (const auto& [stays, what] :
+       {std::pair(controller.size.nr > 0, "r"), std::pair(controller.keeps.sample, "the time"),
+        std::pair(controller.has.filter, "what was counted")})
     if (stays) out += std::string(out.empty() ? ", but for " : " and ") + what;
   return out;
 }
@@ -45,7 +49,8 @@ std::string recover_function(const Controller& controller, const FunctionBodies&
 
 std::string weigh_function(const Controller& controller, const FunctionBodies& bodies) {
   if (bodies.weigh.empty()) return "";
-  return write_function(templates::weigh, controller, {{"gate", decimal(controller.gate.sigma)}, {"body", bodies.weigh}});
+  return write_function(templates::weigh, controller,
+                        {{"gate", decimal(controller.gate.sigma)}, {"body", bodies.weigh}});
 }
 
 // What an update or a prediction may say of P.
@@ -56,13 +61,15 @@ std::string covariance_status(const Controller& controller) {
 // What happens to an output that cannot be used, and what an update may say.
 Words update_words(const Controller& controller) {
   const std::string sigma = decimal(controller.gate.sigma);
-  return {{"unusable", controller.has.gate ? "that is not finite, absurd or more than " + sigma + " σ off" : "that is not finite or absurd"},
+  return {{"unusable", controller.has.gate ? "that is not finite, absurd or more than " + sigma + " σ off"
+                                           : "that is not finite or absurd"},
           {"left_out", is_steady(controller) ? "is taken as having come as expected" : "is left out of this sample"},
           {"gated", controller.has.gate ? " LQG_OUTPUT_GATED," : ""},
           {"not_positive", controller.filter == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : ""},
           {"covariance_reset", covariance_status(controller)},
           {"gain", is_steady(controller) ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P"},
-          {"law", controller.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)"}};
+          {"law",
+           controller.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)"}};
 }
 
 std::string update_function(const Controller& controller, const FunctionBodies& bodies) {
@@ -97,7 +104,8 @@ std::string update_alone_functions(const Controller& controller, const FunctionB
 
 std::string innovation_function(const Controller& controller) {
   if (controller.has.stages) return "";
-  const std::string variance = is_steady(controller) ? " and the steady variance of each" : " and the variance of each, C P Cᵀ + V";
+  const std::string variance =
+      is_steady(controller) ? " and the steady variance of each" : " and the variance of each, C P Cᵀ + V";
   return write_function(templates::innovation, controller,
                         {{"law", controller.has.feedthrough ? "y − C x̂ − D u" : "y − C x̂"},
                          {"variance", controller.has.variance ? variance : ""},
@@ -123,12 +131,13 @@ std::string partial_update_function(const Controller& controller) {
 }
 
 std::string predict_function(const Controller& controller, const FunctionBodies& bodies) {
-  return write_function(templates::predict, controller,
-                        {{"input", controller.size.nu ? " + B u" : ""},
-                         {"covariance", is_steady(controller) ? "" : ",  P ← A P Aᵀ + G W Gᵀ"},
-                         {"covariance_reset", covariance_status(controller)},
-                         {"integral", controller.size.nxi ? ",  ξ ← ξ + H (u − what control asked for) + T (r − y)" : ""},
-                         {"body", bodies.predict}});
+  return write_function(
+      templates::predict, controller,
+      {{"input", controller.size.nu ? " + B u" : ""},
+       {"covariance", is_steady(controller) ? "" : ",  P ← A P Aᵀ + G W Gᵀ"},
+       {"covariance_reset", covariance_status(controller)},
+       {"integral", controller.size.nxi ? ",  ξ ← ξ + H (u − what control asked for) + T (r − y)" : ""},
+       {"body", bodies.predict}});
 }
 
 std::string control_function(const Controller& controller, const FunctionBodies& bodies) {
@@ -148,7 +157,7 @@ std::string control_function(const Controller& controller, const FunctionBodies&
 
 std::string step_function(const Controller& controller) {
   const bool acts = controller.has.regulator, is_predictor = controller.is_predictor;
-  const std::string order = !acts        ? "update and predict"
+  const std::string order = !acts          ? "update and predict"
                             : is_predictor ? "control, update and predict, for an actuator that applies u as it is"
                                            : "update, control and predict, for an actuator that applies u as it is";
   return write_function(templates::step, controller, {{"order", order}},
@@ -176,12 +185,12 @@ std::string set_state_function(const Controller& controller) {
 std::string set_input_function(const Controller& controller) {
   if (!can_set_input(controller)) return "";
   const TracedFunction traced = trace_set_input(controller);
-  return write_function(
-      templates::set_input, controller,
-      {{"delayed", controller.size.delayed ? ", and so are those on their way" : ""},
-       {"integral", controller.size.nxi ? ".\n * ξ becomes such that control goes on there" : ""},
-       {"when", controller.size.nxi && controller.has.filter ? ": to be called before control" : ""},
-       {"body", controller.has.filter ? body(controller, traced, {"self", "u"}) : body(controller, traced, {"self", "x", "u"})}});
+  return write_function(templates::set_input, controller,
+                        {{"delayed", controller.size.delayed ? ", and so are those on their way" : ""},
+                         {"integral", controller.size.nxi ? ".\n * ξ becomes such that control goes on there" : ""},
+                         {"when", controller.size.nxi && controller.has.filter ? ": to be called before control" : ""},
+                         {"body", controller.has.filter ? body(controller, traced, {"self", "u"})
+                                                        : body(controller, traced, {"self", "x", "u"})}});
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The emitted functions, each under its contract.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/header.hpp"
 
 #include "emit/c/functions.hpp"
@@ -25,8 +26,11 @@ std::string handshake(const Controller& controller) {
 #if LQG_HEADER_FORMAT != {format}
 #error "{name}.h was made by lqgen {version}, which this TinyLQG does not know: run the lqgen of this TinyLQG on {file} again."
 #endif
-)", {{"format", header_format()}, {"name", controller.problem.name}, {"version", version()},
-     {"file", controller.source.file}});
+)",
+              {{"format", header_format()},
+               {"name", controller.problem.name},
+               {"version", version()},
+               {"file", controller.source.file}});
 }
 
 // Some compilers' double is float, avr-gcc's by default.
@@ -36,7 +40,8 @@ std::string width_of_double(const Controller& controller) {
 #if defined __SIZEOF_DOUBLE__ && __SIZEOF_DOUBLE__ < 8
 #error "{name}.h computes in double, which has less than 64 bits here: run lqgen with --real float."
 #endif
-)", {{"name", controller.problem.name}});
+)",
+              {{"name", controller.problem.name}});
 }
 
 // A macro, because it is a list that any array may begin with.
@@ -58,8 +63,9 @@ std::string recovery(const Controller& controller) {
     lasting += (lasting.empty() ? "" : ", ") + controller.problem.plant.states[static_cast<std::size_t>(state)].name;
   std::string out;
   if (recovery.samples)
-    out = fill("#define {NAME}_RECOVERY_SAMPLES {samples}  /* after a fault has ended its effect is below the noise */\n",
-               {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
+    out =
+        fill("#define {NAME}_RECOVERY_SAMPLES {samples}  /* after a fault has ended its effect is below the noise */\n",
+             {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
   else if (controller.has.filter)
     out = "/* For no number of samples is it certain that a fault is forgotten: not every error dies out. */\n";
   if (!lasting.empty())
@@ -77,7 +83,8 @@ std::string dimensions(const Controller& controller) {
   if (!controller.bounds.x.empty()) out += bounds(controller);
   out += recovery(controller);
   return out + fill("#define {NAME}_SAMPLE_TIME ", words) +
-         trace::literal(controller.problem.plant.sample_time, controller.target.is_double) + "  /* s between two samples */\n";
+         trace::literal(controller.problem.plant.sample_time, controller.target.is_double) +
+         "  /* s between two samples */\n";
 }
 
 std::string index_enum(const Controller& controller, const char* kind, const std::vector<design::Signal>& signals) {
@@ -98,16 +105,19 @@ std::string state_type(const Controller& controller) {
     fields += "    " + declaration(field);
     fields += field.comment.empty() ? ";\n" : ";  /* " + field.comment + " */\n";
   }
-  return fill("\n/* The whole state of the controller: no pointers inside, may be copied. Begin it with {name}_init. */\n"
-              "typedef struct {\n" + fill(fields, common_words(controller)) + "} {name}_t;\n", common_words(controller));
+  return fill(
+      "\n/* The whole state of the controller: no pointers inside, may be copied. Begin it with {name}_init. */\n"
+      "typedef struct {\n" +
+          fill(fields, common_words(controller)) + "} {name}_t;\n",
+      common_words(controller));
 }
 
 }  // namespace
 
 std::string header(const Controller& controller) {
-  const FunctionBodies bodies = controller.linear                              ? straight_line_bodies(controller)
-                        : controller.style == design::Style::compact ? compact_bodies(controller)
-                                                                     : unrolled_bodies(controller);
+  const FunctionBodies bodies = controller.linear                            ? straight_line_bodies(controller)
+                                : controller.style == design::Style::compact ? compact_bodies(controller)
+                                                                             : unrolled_bodies(controller);
   const design::Plant& plant = controller.problem.plant;
   const std::string guard = upper(controller.problem.name) + "_H";
   std::string out = preamble(controller) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME.h: types, names, constants and functions of one controller.
 #pragma once
 

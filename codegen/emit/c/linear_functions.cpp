@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/linear_functions.hpp"
 
 #include "emit/c/straight_line.hpp"

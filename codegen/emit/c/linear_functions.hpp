@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The emitted functions of a controller that keeps z, behind init and reset, each under its contract.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/preamble.hpp"
 
 #include "emit/text/description.hpp"
@@ -22,7 +23,8 @@ std::string comment_lines(const std::string& text) {
 
 std::string preamble(const Controller& controller) {
   const design::Problem& problem = controller.problem;
-  return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" + provenance(controller) +
+  return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" +
+         provenance(controller) +
          comment_lines(describe_plant(controller) + describe_regulator(controller) + describe_estimator(controller) +
                        describe_linear_form(controller) + describe_loop(controller) + describe_forms(controller) +
                        describe_cost(controller)) +

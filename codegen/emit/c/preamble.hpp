@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The comment at the top of every emitted file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/straight_line.hpp"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ struct Printed {
   bool reads(const std::string& beginning) const {
     const std::vector<trace::Node>& nodes = function.graph->nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (nodes[i].op == trace::Op::input && printer.needs(static_cast<int>(i)) && nodes[i].text.rfind(beginning, 0) == 0)
+      if (nodes[i].op == trace::Op::input && printer.needs(static_cast<int>(i)) &&
+          nodes[i].text.rfind(beginning, 0) == 0)
         return true;
     return false;
   }
@@ -60,16 +62,17 @@ std::string status(const Controller& controller, const Printed& printed) {
   if (function.finite < 0 && function.is_void) return "";
   if (function.finite < 0) return "    return " + raised + ";\n";
   if (!function.recovery.empty())
-    return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery + ";\n    return " +
-           raised + ";\n";
+    return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery +
+           ";\n    return " + raised + ";\n";
   return fill(R"({status}
 {unless_sound}
         return {name}_{recover}(self, status);
     return status;
-)", {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
-     {"unless_sound", unless_sound(controller, printed)},
-     {"recover", function.checks_covariance ? "recover" : "reset"},
-     {"name", controller.problem.name}});
+)",
+              {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
+               {"unless_sound", unless_sound(controller, printed)},
+               {"recover", function.checks_covariance ? "recover" : "reset"},
+               {"name", controller.problem.name}});
 }
 
 // The rows of the tables that a body reads.
@@ -81,13 +84,16 @@ std::string rows(const Controller& controller, const Printed& printed) {
   for (std::size_t k = 0; k < std::size(names) && controller.style == design::Style::compact; ++k)
     if (printed.reads(std::string(names[k]) + "["))
       out += fill("    const {real} *const {matrix} = {NAME}_SERVO_{MATRIX} + {law_row} * {size};\n",
-                  {{"matrix", names[k]}, {"MATRIX", upper(names[k])}, {"size", std::to_string(controller.laws.front()[k].size())}});
+                  {{"matrix", names[k]},
+                   {"MATRIX", upper(names[k])},
+                   {"size", std::to_string(controller.laws.front()[k].size())}});
   return fill(out, common_words(controller));
 }
 
 bool needs_self(const Printed& printed, const std::string& rows, const std::string& last) {
   const TracedFunction& function = printed.function;
-  return printed.reads("self->") || printed.writes("self->") || !rows.empty() || !last.empty() || function.finite >= 0;  // then it calls a function of its own
+  return printed.reads("self->") || printed.writes("self->") || !rows.empty() || !last.empty() ||
+         function.finite >= 0;  // then it calls a function of its own
 }
 
 }  // namespace
@@ -101,9 +107,9 @@ std::string body(const Controller& controller, const TracedFunction& function,
     const bool is_used = parameter == "self" ? needs_self(printed, tables, last) : printed.reads(parameter + "[");
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
-  return "    LQG_STRICT_BODY\n" + unused + tables + (!function.asked.empty() ? "    lqg_status status = LQG_OK;\n" : "") +
-         printed.printer.statements(function.stores) +
-         (end.empty() ? "" : "\n") + end;
+  return "    LQG_STRICT_BODY\n" + unused + tables +
+         (!function.asked.empty() ? "    lqg_status status = LQG_OK;\n" : "") +
+         printed.printer.statements(function.stores) + (end.empty() ? "" : "\n") + end;
 }
 
 std::string recover_body(const Controller& controller) {
@@ -141,7 +147,8 @@ std::string collect_lost(const TracedFunction& function) {
   const Printed printed(function);
   std::string out = printed.printer.statements({});
   for (std::size_t i = 0; i < function.lost.size(); ++i)
-    out += "    lost |= " + printed.printer.expression(function.lost[i]) + " ? 1ul << " + std::to_string(i) + " : 0ul;\n";
+    out +=
+        "    lost |= " + printed.printer.expression(function.lost[i]) + " ? 1ul << " + std::to_string(i) + " : 0ul;\n";
   return out;
 }
 
@@ -157,10 +164,11 @@ std::string initial_state(const Controller& controller) {
   for (const Field& field : fields) {
     const std::vector<double> zeros(static_cast<std::size_t>(field.count), 0);
     const bool is_number = field.kind == controller::Kind::counter || field.kind == controller::Kind::total;
-    const std::string value = is_number                      ? "0"
-                              : field.kind == controller::Kind::counters ? "{0}"
-                                                             : initializer(field.initial.empty() ? zeros : field.initial,
-                                                                           controller.target.is_double);
+    const std::string value =
+        is_number ? "0"
+        : field.kind == controller::Kind::counters
+            ? "{0}"
+            : initializer(field.initial.empty() ? zeros : field.initial, controller.target.is_double);
     values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "\n" : ",\n");
   }
   return write_body(templates::initial_state, controller, {{"values", values}});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Traced functions as the bodies of C functions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/c/templates.hpp"
 
 #include "emit/text/wording.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The emitted functions as they stand in templates/*.c.in: with {words} to fill in, and lines that only some
 // controllers have behind a mark, "//? condition".
 #pragma once
@@ -9,14 +10,14 @@ namespace lqg::emit {
 
 namespace templates {
 
-extern const char init[], reset[], recover[], weigh[], update[], update_alone[], partial_update[], innovation[], control[], predict[], step[],
-    covariance[], covariance_in_loops[], set_state[], set_input[];
+extern const char init[], reset[], recover[], weigh[], update[], update_alone[], partial_update[], innovation[],
+    control[], predict[], step[], covariance[], covariance_in_loops[], set_state[], set_input[];
 extern const char linear_filter_form[], linear_predictor_form[], linear_state[];
 
 // Bodies, and parts of them.
 extern const char initial_state[], counters[], recover_body[], weigh_body[];
-extern const char compact_init[], compact_update[], compact_update_alone[], compact_predict[], compact_control[], compact_act[], compact_recover[],
-    compact_filter_of_sample[], compact_law_of_sample[];
+extern const char compact_init[], compact_update[], compact_update_alone[], compact_predict[], compact_control[],
+    compact_act[], compact_recover[], compact_filter_of_sample[], compact_law_of_sample[];
 
 }  // namespace templates
 

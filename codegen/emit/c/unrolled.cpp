@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Straight-line code of this plant's structure.
 #include "controller/gains.hpp"
 #include "emit/c/function_bodies.hpp"
@@ -18,10 +19,12 @@ std::string table(const Controller& controller, const std::string& name, const s
     std::vector<double> numbers;
     for (const controller::Place& place : places)
       numbers.push_back(rounded_to_target(row[place.matrix](place.i, place.j), controller.target.is_double));
-    values += trace::wrap("    " + initializer(numbers, controller.target.is_double), 5) + (&row == &gains.back() ? "\n" : ",\n");
+    values += trace::wrap("    " + initializer(numbers, controller.target.is_double), 5) +
+              (&row == &gains.back() ? "\n" : ",\n");
   }
   return fill("static const {real} {NAME}_" + name + "[" + std::to_string(gains.size()) + "][" +
-              std::to_string(places.size()) + "] = {\n" + values + "};\n", common_words(controller));
+                  std::to_string(places.size()) + "] = {\n" + values + "};\n",
+              common_words(controller));
 }
 
 }  // namespace
@@ -37,9 +40,10 @@ FunctionBodies unrolled_bodies(const Controller& controller) {
   if (controller.has.filter) {
     bodies.update = body(controller, traced.update, {"self", "y"});
     bodies.predict = controller.size.nu ? body(controller, traced.predict, {"self", "u"}, advance)
-                                     : body(controller, traced.predict, {"self"}, advance);
+                                        : body(controller, traced.predict, {"self"}, advance);
     if (controller.has.regulator) bodies.control = body(controller, traced.control, {"self"});
-    for (const TracedFunction& update : traced.updates_alone) bodies.updates_alone.push_back(body(controller, update, {"self"}));
+    for (const TracedFunction& update : traced.updates_alone)
+      bodies.updates_alone.push_back(body(controller, update, {"self"}));
     if (controller.size.ny == 1) bodies.updates_alone = {only_update_body(controller)};
   } else if (controller.keeps.any) {
     bodies.control = body(controller, traced.control, {"self", "x"}, advance);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/code_cost.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the emitted code costs the target.
 #pragma once
 

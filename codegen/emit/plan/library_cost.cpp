@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/library_cost.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the C library and this library's loops cost a Cortex-M4F, as arm-none-eabi-gcc 12.2 compiles them at -O2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/plan.hpp"
 
 #include "emit/plan/code_cost.hpp"
@@ -31,7 +32,8 @@ void choose_style(Controller& controller) {
 void check_flash(const Controller& controller, design::Findings& findings) {
   const design::Code& code = controller.problem.code;
   if (controller.cost.flash <= code.flash) return;
-  findings.push_back({code.style == design::Style::automatic ? design::Severity::error : design::Severity::note, "code.flash",
+  findings.push_back({code.style == design::Style::automatic ? design::Severity::error : design::Severity::note,
+                      "code.flash",
                       "expected at least " + std::to_string(controller.cost.flash) +
                           " bytes, which the controller takes, found " + std::to_string(code.flash)});
 }

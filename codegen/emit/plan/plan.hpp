@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The choice among what the target can have: which numbers the controller keeps, straight-line code or the library's loops.
 #pragma once
 

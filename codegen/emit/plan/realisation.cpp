@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/realisation.hpp"
 
 #include "controller/numbers.hpp"
@@ -12,7 +13,8 @@ namespace {
 using design::Realisation;
 
 std::string obstacle(const Controller& controller) {
-  if (controller.problem.code.style == design::Style::compact) return "the library's loops, style = \"compact\", are of x̂";
+  if (controller.problem.code.style == design::Style::compact)
+    return "the library's loops, style = \"compact\", are of x̂";
   return design::no_linear_form(controller.problem, controller.solution);
 }
 
@@ -68,7 +70,8 @@ std::optional<Controller> in_chosen_form(Controller controller, design::Findings
   forms.folded = cost_of(controller, folded);
   forms.modal = cost_of(controller, modal);
   if (wanted == Realisation::folded && !folded.form) return refuse("\"physical\"", folded.obstacle, findings);
-  if (wanted == Realisation::modal && !modal.form) return refuse("\"folded\" or \"physical\"", modal.obstacle, findings);
+  if (wanted == Realisation::modal && !modal.form)
+    return refuse("\"folded\" or \"physical\"", modal.obstacle, findings);
 
   forms.physical = cost_of_physical(controller);
   forms.chosen = wanted == Realisation::cheapest ? cheapest(forms) : wanted;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which numbers the controller keeps.
 #pragma once
 

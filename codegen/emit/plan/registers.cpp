@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/registers.hpp"
 
 #include <algorithm>
@@ -133,10 +134,7 @@ class Order {
 class Registers {
  public:
   Registers(const Listing& listing, const Order& order, long number, Traffic& traffic)
-      : listing_(listing),
-        order_(order),
-        number_(static_cast<std::size_t>(number)),
-        traffic_(traffic),
+      : listing_(listing), order_(order), number_(static_cast<std::size_t>(number)), traffic_(traffic),
         values_(listing.nodes.size()) {
     for (std::size_t t = 0; t < order.steps.size(); ++t)
       for (const int operand : order.steps[t].operands) value(operand).uses.push_back(static_cast<long>(t));

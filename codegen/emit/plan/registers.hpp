@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a compiler fits the values of straight-line code into the registers of the target: what it loads, keeps and spills.
 #pragma once
 
@@ -12,27 +13,27 @@ struct Listing {
   const std::vector<trace::Node>& nodes;
   std::vector<bool> needed, declared;  // of each node: the results need it, it has a statement of its own
   std::vector<trace::Store> stores;
-  std::vector<int> ends;               // what is computed behind the last statement: statuses, tests, the answer
+  std::vector<int> ends;  // what is computed behind the last statement: statuses, tests, the answer
   bool is_fused = false;
-  bool asks = false;                   // it calls NAME_weigh, which may write to *self: all inputs are loaded before
-  bool answers = false;                // it is NAME_weigh …
-  bool is_alone = false;               // … of one output only
-  bool merges_products = false;        // behind the first question products and sums become one instruction each
+  bool asks = false;             // it calls NAME_weigh, which may write to *self: all inputs are loaded before
+  bool answers = false;          // it is NAME_weigh …
+  bool is_alone = false;         // … of one output only
+  bool merges_products = false;  // behind the first question products and sums become one instruction each
 };
 
 // Counts of a function, none of them in bytes.
 struct Traffic {
   long operations = 0, comparisons = 0;
-  long fused = 0;            // of the operations: a product and a sum in one
+  long fused = 0;  // of the operations: a product and a sum in one
   long selections = 0, status_selections = 0, questions = 0;
-  long moves = 0;            // an addend is needed after the fused instruction that overwrites it
+  long moves = 0;                  // an addend is needed after the fused instruction that overwrites it
   long inputs = 0, of_tables = 0;  // which are loaded first; which are read where they are needed
   long loads = 0, stores = 0;
   long reloads = 0, spills = 0;
   long constant_loads = 0, immediates = 0;
-  long pool = 0;             // constants that stand behind the code, those that are out of reach once more
-  long slots = 0;            // of the stack, for spilled values
-  long registers = 0;        // the most in use at once
+  long pool = 0;       // constants that stand behind the code, those that are out of reach once more
+  long slots = 0;      // of the stack, for spilled values
+  long registers = 0;  // the most in use at once
 };
 
 // With this many registers, values that wait longest for their next use spilled first.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sizes that the figures of a controller are made of, in bytes or numbers.
 #pragma once
 

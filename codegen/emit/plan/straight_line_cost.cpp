@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/straight_line_cost.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What straight-line code costs a Cortex-M4F, as arm-none-eabi-gcc 12.2 compiles it at -O2.
 #pragma once
 

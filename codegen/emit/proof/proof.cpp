@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/proof/proof.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME_proof.h: NAME.h for a prover that computes with intervals, and what else it has to know.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which entries of a covariance are ever different from 0.
 #include "emit/recorded/symbols.hpp"
 #include "step/loop.hpp"
@@ -26,8 +27,10 @@ void grow(std::vector<bool>& pattern, const Controller& controller, bool predict
   const SymbolicModel model = symbolic_model(controller);
   SymbolicState state = load_state(model, pattern);
   TraceListener listener(controller, function);
-  if (predicts) step::predict(model, state, load(*function.graph, "u", "u", model.nu), listener);
-  else step::update(model, state, load(*function.graph, "y", "y", model.ny), listener);
+  if (predicts)
+    step::predict(model, state, load(*function.graph, "u", "u", model.nu), listener);
+  else
+    step::update(model, state, load(*function.graph, "y", "y", model.ny), listener);
   for (std::size_t k = 0; k < pattern.size(); ++k) {
     const Expr& entry = !state.P.empty() ? state.P[k] : k < state.U.size() ? state.U[k] : state.D[k - state.U.size()];
     if (!trace::is_zero(entry)) pattern[k] = true;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/recorded/linear_traced.hpp"
 
 #include "controller/linear_model_of.hpp"
@@ -50,19 +51,21 @@ TracedFunction trace_control(const Controller& controller) {
 }
 
 TracedFunction trace_control_fault(const Controller& controller) {
-  return trace_step(controller, keeps_outputs(controller), [](Function& into, const Model& model, State& state, TraceListener& listener) {
-    const Symbols u = step::control(model, state, state.y, listener);
-    store_all(into, "self->y", state.y);
-    store_all(into, "u", u);
-  });
+  return trace_step(controller, keeps_outputs(controller),
+                    [](Function& into, const Model& model, State& state, TraceListener& listener) {
+                      const Symbols u = step::control(model, state, state.y, listener);
+                      store_all(into, "self->y", state.y);
+                      store_all(into, "u", u);
+                    });
 }
 
 TracedFunction trace_advance(const Controller& controller) {
-  return trace_step(controller, keeps_outputs(controller), [&](Function& into, const Model& model, State& state, TraceListener& listener) {
-    const Symbols y = controller.is_predictor ? load_outputs(controller) : state.y;
-    into.finite = step::advance(model, state, y, listener).node;
-    store_all(into, "self->z", state.z);
-  });
+  return trace_step(controller, keeps_outputs(controller),
+                    [&](Function& into, const Model& model, State& state, TraceListener& listener) {
+                      const Symbols y = controller.is_predictor ? load_outputs(controller) : state.y;
+                      into.finite = step::advance(model, state, y, listener).node;
+                      store_all(into, "self->z", state.z);
+                    });
 }
 
 TracedFunction trace_hear(const Controller& controller) {
@@ -72,10 +75,11 @@ TracedFunction trace_hear(const Controller& controller) {
 }
 
 TracedFunction trace_estimate(const Controller& controller) {
-  return trace_step(controller, keeps_outputs(controller), [](Function& into, const Model& model, State& state, TraceListener& listener) {
-    into.is_void = true;
-    store_all(into, "x", step::estimate(model, state, listener));
-  });
+  return trace_step(controller, keeps_outputs(controller),
+                    [](Function& into, const Model& model, State& state, TraceListener& listener) {
+                      into.is_void = true;
+                      store_all(into, "x", step::estimate(model, state, listener));
+                    });
 }
 
 TracedFunction trace_set_z(const Controller& controller) {

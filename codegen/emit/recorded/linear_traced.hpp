@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The step of a controller that keeps z, recorded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/recorded/symbols.hpp"
 
 #include "controller/gains.hpp"
@@ -48,7 +49,8 @@ void read_row(const Controller& controller, const std::vector<Gains>& rows, cons
   int at = 0;
   for (const auto& [matrix, i, j] : controller::changing_places(rows, controller.target.is_double)) {
     step::Matrix<Expr>& gain = *matrices[matrix];
-    const std::string entry = compact ? element(names[matrix], i * static_cast<int>(gain.cols()) + j) : element(table, at++);
+    const std::string entry =
+        compact ? element(names[matrix], i * static_cast<int>(gain.cols()) + j) : element(table, at++);
     gain(i, j) = Expr::of(trace::graph().input(entry, names[matrix] + index_suffix(i, j, controller.size.nx)));
   }
 }
@@ -57,10 +59,10 @@ void read_row(const Controller& controller, const std::vector<Gains>& rows, cons
 
 SymbolicModel symbolic_model(const Controller& controller) {
   const bool is_double = controller.target.is_double;
-  SymbolicModel model = controller::model_of<Expr>(controller, [&](const design::Real& value) {
-    return Expr(rounded_to_target(value, is_double));
-  });
-  read_row(controller, controller.laws, "law", {"K", "Nbar", "H", "H_input"}, {&model.K, &model.Nbar, &model.H, &model.H_input});
+  SymbolicModel model = controller::model_of<Expr>(
+      controller, [&](const design::Real& value) { return Expr(rounded_to_target(value, is_double)); });
+  read_row(controller, controller.laws, "law", {"K", "Nbar", "H", "H_input"},
+           {&model.K, &model.Nbar, &model.H, &model.H_input});
   step::Matrix<Expr> variance = model.variance;
   read_row(controller, controller.filters, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance});
   if (controller.has.gate) model.variance = variance;
@@ -70,11 +72,14 @@ SymbolicModel symbolic_model(const Controller& controller) {
 SymbolicModel model_of_outputs(const Controller& controller) {
   SymbolicModel model = symbolic_model(controller);
   controller::take_outputs_as_they_are(
-      controller, [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.target.is_double)); }, model);
-  if (!controller.solution.online && controller.style == design::Style::compact && controller.has.gate && controller.keeps.gain_row)
+      controller,
+      [&](const design::Real& value) { return Expr(rounded_to_target(value, controller.target.is_double)); }, model);
+  if (!controller.solution.online && controller.style == design::Style::compact && controller.has.gate &&
+      controller.keeps.gain_row)
     for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
       model.variance(i) = Expr::of(trace::graph().input(
-          fill("{NAME}_KALMAN_S[{filter_row} * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]", "variance"));
+          fill("{NAME}_KALMAN_S[{filter_row} * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]",
+          "variance"));
   return model;
 }
 

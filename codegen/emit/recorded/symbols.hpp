@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The model and the state of a controller as symbols: numbers of the target, members of self, entries of tables.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/recorded/trace_listener.hpp"
 
 namespace lqg::emit {
@@ -33,7 +34,8 @@ Condition TraceListener::accept(const Condition& usable, step::Event reason) {
   return accept_or(usable, function_.graph->flag(status_name(reason)));
 }
 
-Condition TraceListener::accept(const Condition& usable, const Condition& finite, step::Event if_finite, step::Event if_not) {
+Condition TraceListener::accept(const Condition& usable, const Condition& finite, step::Event if_finite,
+                                step::Event if_not) {
   const int one = function_.graph->flag(status_name(if_finite)), other = function_.graph->flag(status_name(if_not));
   return accept_or(usable, choice(finite, one, other));
 }
@@ -49,7 +51,8 @@ void TraceListener::gate(const Condition& gated, int) {
   function_.gates.push_back(gated.node);
 }
 
-Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu, const trace::Expr& variance) {
+Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu,
+                                   const trace::Expr& variance) {
   const std::string call = controller_.problem.name + "_weigh(self, &status, " + std::to_string(output);
   function_.asked.push_back(
       function_.graph->ask(expected.node, call, nu.node, variance.node, controller_.bounds.innovation(output)));
@@ -71,8 +74,8 @@ Condition TraceListener::accept_or(const Condition& usable, int fault) {
 
 TracedFunction new_function(const Controller& controller) {
   TracedFunction function;
-  function.graph = std::make_shared<trace::Graph>(trace::Target{
-      controller.target.is_double, controller.target.is_fused, controller.target.is_prover});
+  function.graph = std::make_shared<trace::Graph>(
+      trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover});
   return function;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a step that runs over symbols to a TracedFunction: who listens to it, what it loads and stores.
 #pragma once
 
@@ -12,7 +13,8 @@ using Symbols = step::Vector<trace::Expr>;
 // Hears the names and equations of a step and keeps them in the graph.
 class TraceListener {
  public:
-  TraceListener(const Controller& controller, TracedFunction& function) : controller_(controller), function_(function) {}
+  TraceListener(const Controller& controller, TracedFunction& function)
+      : controller_(controller), function_(function) {}
 
   void section(const std::string& equation, int output = -1);
   template <class Value>  // Expr or Condition
@@ -28,12 +30,14 @@ class TraceListener {
   void gate(const trace::Condition& gated, int output);
   // NAME_weigh answers where the innovation is not as expected.
   template <class Variance, class Otherwise>
-  trace::Condition weigh(const trace::Condition& expected, int output, const trace::Expr& nu, Variance variance, Otherwise) {
+  trace::Condition weigh(const trace::Condition& expected, int output, const trace::Expr& nu, Variance variance,
+                         Otherwise) {
     return ask_weigh(expected, output, nu, trace::Expr(variance()));
   }
 
  private:
-  trace::Condition ask_weigh(const trace::Condition& expected, int output, const trace::Expr& nu, const trace::Expr& variance);
+  trace::Condition ask_weigh(const trace::Condition& expected, int output, const trace::Expr& nu,
+                             const trace::Expr& variance);
   int flag_ok() { return function_.graph->flag("LQG_OK"); }
   int choice(const trace::Condition& condition, int yes, int no);
   trace::Condition accept_or(const trace::Condition& usable, int fault);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/recorded/traced.hpp"
 
 #include "emit/recorded/symbols.hpp"
@@ -37,7 +38,8 @@ TracedFunction trace_update(const Controller& controller, const std::vector<bool
 
 // y_OUTPUT
 Expr load_output(const Controller& controller, int output) {
-  return Expr::of(trace::graph().input("y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name, "y"));
+  return Expr::of(
+      trace::graph().input("y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name, "y"));
 }
 
 TracedFunction trace_update_alone(const Controller& controller, const std::vector<bool>& pattern, int output) {
@@ -59,8 +61,10 @@ TracedFunction trace_control(const Controller& controller) {
   State state = load_state(model, {});
   TraceListener listener(controller, function);
   Symbols u;
-  if (controller.has.filter || !controller.has.servo) u = step::control(model, state, listener);
-  else function.finite = step::act(model, state, u, listener).node;
+  if (controller.has.filter || !controller.has.servo)
+    u = step::control(model, state, listener);
+  else
+    function.finite = step::act(model, state, u, listener).node;
   for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
   state.x.resize(0);  // it is only read
   store_state(function, state, {});
@@ -152,9 +156,10 @@ TracedFunction trace_covariance(const Controller& controller) {
 }
 
 TracedFunction trace_begin_covariance(const Controller& controller) {
-  return trace_step(controller, covariance_pattern(controller), [](const Model& model, State& state, TraceListener& listener) {
-    return step::begin_covariance_anew(model, state, listener);
-  });
+  return trace_step(controller, covariance_pattern(controller),
+                    [](const Model& model, State& state, TraceListener& listener) {
+                      return step::begin_covariance_anew(model, state, listener);
+                    });
 }
 
 TracedFunction trace_observation(const Controller& controller, int output) {
@@ -163,7 +168,8 @@ TracedFunction trace_observation(const Controller& controller, int output) {
   const Model model = symbolic_model(controller);
   State state = load_state(model, {});
   TraceListener listener(controller, function);
-  step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "y")), trace::is_less(Expr(0), Expr(1)), output, listener);
+  step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "y")), trace::is_less(Expr(0), Expr(1)),
+                      output, listener);
   store_state(function, state, {});
   return function;
 }
@@ -174,7 +180,7 @@ TracedFunction trace_lost_outputs(const Controller& controller) {
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
   for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "nu", "nu", model.ny),
-                                                              load(*function.graph, "there", "y", model.ny), listener))
+                                                         load(*function.graph, "there", "y", model.ny), listener))
     function.lost.push_back(lost.node);
   return function;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The controller's step, recorded: the very templates that are the host reference, run over symbols.
 #pragma once
 
@@ -14,16 +15,17 @@ namespace lqg::emit {
 struct TracedFunction {
   std::shared_ptr<trace::Graph> graph;
   std::vector<trace::Store> stores;
-  std::vector<int> statuses;  // joined by |
-  int finite = -1;  // condition; −1: cannot become infinite
-  std::string recovery;  // the call that answers where it is not finite; empty: NAME_reset or NAME_recover
-  std::string faults;  // a bit of the status with which it is not finite either
+  std::vector<int> statuses;       // joined by |
+  int finite = -1;                 // condition; −1: cannot become infinite
+  std::string recovery;            // the call that answers where it is not finite; empty: NAME_reset or NAME_recover
+  std::string faults;              // a bit of the status with which it is not finite either
   bool checks_covariance = false;  // P may be at fault, not x̂: NAME_recover
   bool is_void = false;
   int answer = -1;  // the condition that it returns, in place of a status
-  std::vector<int> asked;  // the questions to NAME_weigh, which add to the status and count even where nothing else needs their answers
+  std::vector<int>
+      asked;  // the questions to NAME_weigh, which add to the status and count even where nothing else needs their answers
   std::vector<int> gates;  // the conditions that the gate left the output out
-  std::vector<int> lost;  // output by output, the condition that a partial update leaves it out
+  std::vector<int> lost;   // output by output, the condition that a partial update leaves it out
 
   std::vector<int> results() const;
 };

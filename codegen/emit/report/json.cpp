@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/report/json.hpp"
 
 #include <algorithm>
@@ -95,9 +96,7 @@ Json noise(const design::SampledNoise& noise) {
   return {{"W", rows(noise.W)}, {"V", rows(noise.V)}, {"cross", rows(noise.Swv)}};
 }
 
-Json cost(const design::SampledCost& cost) {
-  return {{"Q", rows(cost.Q)}, {"R", rows(cost.R)}, {"N", rows(cost.N)}};
-}
+Json cost(const design::SampledCost& cost) { return {{"Q", rows(cost.Q)}, {"R", rows(cost.R)}, {"N", rows(cost.N)}}; }
 
 Json lqr(const Controller& controller) {
   const design::RegulatorSolution& regulator = *controller.solution.regulator;
@@ -208,8 +207,14 @@ Json realisation(const Controller& controller) {
 }
 
 Json compensator(const design::LinearForm& form) {
-  Json out = {{"A", rows(form.A)}, {"B", rows(form.B)}, {"C", rows(form.C)}, {"D", rows(form.D)}, {"T", rows(form.T)},
-              {"expected", rows(form.expected)}, {"estimate", rows(form.estimate)}, {"heard", rows(form.heard)},
+  Json out = {{"A", rows(form.A)},
+              {"B", rows(form.B)},
+              {"C", rows(form.C)},
+              {"D", rows(form.D)},
+              {"T", rows(form.T)},
+              {"expected", rows(form.expected)},
+              {"estimate", rows(form.estimate)},
+              {"heard", rows(form.heard)},
               {"of_state", rows(form.of_state)}};
   add(out, "keep", form.keep);
   out["z0"] = rows(form.z0);
@@ -251,8 +256,10 @@ std::string json(const Controller& controller) {
               {"lqgen", version()},
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
-  if (solution.estimator && solution.estimator->noise.V.size() > 0) out["noise"] = noise(solution.estimator->noise);
-  else if (solution.noise) out["noise"] = noise(*solution.noise);
+  if (solution.estimator && solution.estimator->noise.V.size() > 0)
+    out["noise"] = noise(solution.estimator->noise);
+  else if (solution.noise)
+    out["noise"] = noise(*solution.noise);
   if (solution.regulator) {
     const design::RegulatorSolution& regulator = *solution.regulator;
     if (regulator.cost.R.size() > 0) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME.json: the design for other programs, every number so that it reads back exactly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/report/report.hpp"
 
 #include <cmath>
@@ -25,8 +26,7 @@ std::string with_unit(const std::optional<double>& value, const char* unit) {
 
 std::string names(const std::vector<design::Signal>& signals) {
   std::string out;
-  for (const design::Signal& signal : signals)
-    out += (out.empty() ? "" : ", ") + name_with_unit(signal);
+  for (const design::Signal& signal : signals) out += (out.empty() ? "" : ", ") + name_with_unit(signal);
   return out;
 }
 
@@ -35,7 +35,9 @@ std::string filter_in_words(const Controller& controller) {
     case step::Filter::none: return "";
     case step::Filter::plain: return "covariance carried on line";
     case step::Filter::ud: return "UD factors carried on line";
-    default: return controller.filters.size() > 1 ? "a schedule of " + std::to_string(controller.filters.size()) + " gains" : "constant gain";
+    default:
+      return controller.filters.size() > 1 ? "a schedule of " + std::to_string(controller.filters.size()) + " gains"
+                                           : "constant gain";
   }
 }
 
@@ -47,17 +49,20 @@ std::string overview(const Controller& controller) {
                      {"Outputs", controller.has.filter ? names(plant.outputs) : ""},
                      {"Law", controller.has.regulator ? "u = " + equation_of_law(controller) : ""},
                      {"Filter", filter_in_words(controller)},
-                     {"Form", !controller.has.filter ? "" : controller.is_predictor ? "predictor" : "filter"}};
+                     {"Form", !controller.has.filter    ? ""
+                              : controller.is_predictor ? "predictor"
+                                                        : "filter"}};
   const CodeCost& figures = controller.cost;
-  const Rows code = {{"Code", std::string(controller.target.is_double ? "double, " : "float, ") +
-                                  (controller.target.is_fused ? "fused, " : "plain, ") +
-                                  (controller.style == design::Style::compact ? "compact" : "unrolled")},
-                     {"Multiply-adds a sample", std::to_string(figures.multiply_adds)},
-                     {"RAM", std::to_string(figures.ram) + " bytes"},
-                     {"Flash, at most, by arm-none-eabi-gcc 12.2 at -O2 for a Cortex-M4F", std::to_string(figures.flash) + " bytes"},
-                     {"Stack, likewise", std::to_string(figures.stack) + " bytes"},
-                     {"Digits of the design", std::to_string(controller.solution.numerics.digits)},
-                     {"Condition", decimal(controller.solution.numerics.condition)}};
+  const Rows code = {
+      {"Code", std::string(controller.target.is_double ? "double, " : "float, ") +
+                   (controller.target.is_fused ? "fused, " : "plain, ") +
+                   (controller.style == design::Style::compact ? "compact" : "unrolled")},
+      {"Multiply-adds a sample", std::to_string(figures.multiply_adds)},
+      {"RAM", std::to_string(figures.ram) + " bytes"},
+      {"Flash, at most, by arm-none-eabi-gcc 12.2 at -O2 for a Cortex-M4F", std::to_string(figures.flash) + " bytes"},
+      {"Stack, likewise", std::to_string(figures.stack) + " bytes"},
+      {"Digits of the design", std::to_string(controller.solution.numerics.digits)},
+      {"Condition", decimal(controller.solution.numerics.condition)}};
   return "<div class=\"tables\">\n" + table(what) + table(code) + "</div>\n";
 }
 
@@ -67,8 +72,8 @@ std::string loop(const Controller& controller) {
   const auto row = [&](const char* what, const std::optional<double>& designed, const std::optional<double>& rounded,
                        const char* unit) {
     if (!designed) return std::string();
-    return std::string("<tr><td>") + what + "</td><td>" + with_unit(designed, unit) + "</td><td>" + with_unit(rounded, unit) +
-           "</td></tr>\n";
+    return std::string("<tr><td>") + what + "</td><td>" + with_unit(designed, unit) + "</td><td>" +
+           with_unit(rounded, unit) + "</td></tr>\n";
   };
   const design::RoundedLoop none, &target = loop.rounded ? *loop.rounded : none;
   const auto times = [&](const std::optional<double>& value, double factor) {
@@ -135,8 +140,8 @@ std::string pole_rows(const char* whose, const design::Poles& poles, double samp
   for (const std::complex<double>& pole : poles) {
     if (pole.imag() < 0) continue;  // stands with its conjugate
     out += std::string("<tr><td>") + whose + "</td><td>" + decimal(pole.real()) +
-           (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : "") + "</td><td>" + decimal(std::abs(pole)) + "</td><td>" +
-           in_s(pole, sample_time) + "</td><td>" + time_constant(pole, sample_time) + "</td><td>" +
+           (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : "") + "</td><td>" + decimal(std::abs(pole)) +
+           "</td><td>" + in_s(pole, sample_time) + "</td><td>" + time_constant(pole, sample_time) + "</td><td>" +
            frequency(pole, sample_time) + "</td></tr>\n";
   }
   return out;
@@ -146,29 +151,34 @@ std::string figure(const std::vector<Chart>& charts, const std::string& caption)
   if (charts.empty()) return "";
   std::string out = "<figure style=\"margin:0\">\n<div class=\"charts\">\n";
   for (const Chart& chart : charts) out += svg(chart);
-  return out + "</div>\n" + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") + "</figure>\n";
+  return out + "</div>\n" + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") +
+         "</figure>\n";
 }
 
 std::string poles(const Controller& controller) {
   std::string rows;
-  for (const auto& [owner, poles] : poles_to_show(controller)) rows += pole_rows(owner, *poles, controller.problem.plant.sample_time);
+  for (const auto& [owner, poles] : poles_to_show(controller))
+    rows += pole_rows(owner, *poles, controller.problem.plant.sample_time);
   if (rows.empty()) return "";
   std::vector<Chart> charts = {pole_chart(controller)};
   for (Chart& chart : nyquist_charts(controller)) charts.push_back(std::move(chart));
   const std::string caption = charts.size() > 1 ? "The dashed circle about −1 is what the disk margin keeps free." : "";
   return "<h2>Poles</h2>\n" + figure(charts, caption) +
          "<table>\n<tr><th></th><th>z</th><th>|z|</th><th>s = ln(z)/T, rad/s</th>"
-         "<th>damping</th><th>time constant</th><th>frequency</th></tr>\n" + rows + "</table>\n";
+         "<th>damping</th><th>time constant</th><th>frequency</th></tr>\n" +
+         rows + "</table>\n";
 }
 
 std::string runs(const Controller& controller) {
   std::string out;
   const Kick kick = kick_charts(controller);
   if (!kick.charts.empty())
-    out += "<h2>After a kick</h2>\n" + figure(kick.charts, "From the state that " + kick.words + " for one sample leaves; without noise.");
+    out += "<h2>After a kick</h2>\n" +
+           figure(kick.charts, "From the state that " + kick.words + " for one sample leaves; without noise.");
   const std::vector<Chart> noisy = noisy_charts(controller);
   if (!noisy.empty())
-    out += "<h2>At work</h2>\n" + figure(noisy, std::string("With the noises of the design") + (controller.size.nr ? " and r = 1." : "."));
+    out += "<h2>At work</h2>\n" +
+           figure(noisy, std::string("With the noises of the design") + (controller.size.nr ? " and r = 1." : "."));
   return out;
 }
 
@@ -226,9 +236,8 @@ std::string matrices(const Controller& controller) {
 }  // namespace
 
 std::string report(const Controller& controller) {
-  return page(controller.problem.name, heading(controller) + overview(controller) + loop(controller) +
-                                           rms(controller) + poles(controller) +
-                                           runs(controller) + matrices(controller) +
+  return page(controller.problem.name, heading(controller) + overview(controller) + loop(controller) + rms(controller) +
+                                           poles(controller) + runs(controller) + matrices(controller) +
                                            "<footer><p>This file is yours: use it under any licence.</p></footer>\n");
 }
 

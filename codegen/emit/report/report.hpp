@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME.html: what a person wants to see of a design, in one file without scripts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/report/report_charts.hpp"
 
 #include <algorithm>
@@ -35,8 +36,7 @@ int sample_count(const Controller& controller) {
 
 class SignalCharts {
  public:
-  SignalCharts(const Controller& controller, const simulate::Trajectory& run)
-      : controller_(controller), run_(run) {
+  SignalCharts(const Controller& controller, const simulate::Trajectory& run) : controller_(controller), run_(run) {
     for (int k = 0; k < samples(); ++k) time_.push_back(k * controller.problem.plant.sample_time);
   }
 
@@ -109,7 +109,8 @@ Eigen::VectorXd after(const design::SampledPlant& plant, const Eigen::VectorXd& 
 
 std::vector<NamedPoles> poles_to_show(const Controller& controller) {
   const design::Solution& solution = controller.solution;
-  if (solution.regulator && solution.estimator && !design::is_separated(controller.problem, design::final_plant(solution)))
+  if (solution.regulator && solution.estimator &&
+      !design::is_separated(controller.problem, design::final_plant(solution)))
     return {{"loop", &solution.loop.poles}};
   std::vector<NamedPoles> shown;
   if (solution.regulator) shown.push_back({"regulator", &solution.regulator->poles});
@@ -123,7 +124,8 @@ Chart pole_chart(const Controller& controller) {
   chart.is_square = true;
   chart.circles.push_back({0, 0, 1});
   int colour = 0;
-  for (const auto& [owner, poles] : poles_to_show(controller)) chart.curves.push_back(pole_curve(owner, colour++, *poles));
+  for (const auto& [owner, poles] : poles_to_show(controller))
+    chart.curves.push_back(pole_curve(owner, colour++, *poles));
   double reach = 1.1;
   for (const Curve& curve : chart.curves)
     for (std::size_t i = 0; i < curve.x.size(); ++i) reach = std::max(reach, 1.1 * std::hypot(curve.x[i], curve.y[i]));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the report draws of a design.
 #pragma once
 

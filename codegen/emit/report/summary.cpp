@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/report/summary.hpp"
 
 #include "emit/text/description.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The short table that lqgen prints on a terminal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/chart.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ struct Range {
 };
 
 // Around all finite values; something even where they are all the same.
-Range range_of(const std::vector<Curve>& curves, std::vector<double> Curve::*values) {
+Range range_of(const std::vector<Curve>& curves, std::vector<double> Curve::* values) {
   Range range = {INFINITY, -INFINITY};
   for (const Curve& curve : curves)
     for (const double value : curve.*values) {
@@ -37,7 +38,8 @@ Range range_of(const std::vector<Curve>& curves, std::vector<double> Curve::*val
     }
   if (!(range.low <= range.high)) return {0, 1};
   const double least = std::max(1e-12 * std::max(std::abs(range.low), std::abs(range.high)), 1e-300);
-  if (range.size() < least) return {range.low - std::max(least, std::abs(range.low)), range.high + std::max(least, std::abs(range.high))};
+  if (range.size() < least)
+    return {range.low - std::max(least, std::abs(range.low)), range.high + std::max(least, std::abs(range.high))};
   return range;
 }
 
@@ -57,9 +59,9 @@ class Picture {
         y_(chart.is_square ? Range{chart.y_low, chart.y_high} : range_of(chart.curves, &Curve::y)) {}
 
   std::string draw() const {
-    std::string out = "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height_) + "\" role=\"img\" aria-label=\"" +
-                      escaped(chart_.title) + "\">\n<text class=\"title\" x=\"" + coordinate(left) + "\" y=\"15\">" +
-                      escaped(chart_.title) + "</text>\n" + grid() + labels();
+    std::string out = "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height_) +
+                      "\" role=\"img\" aria-label=\"" + escaped(chart_.title) + "\">\n<text class=\"title\" x=\"" +
+                      coordinate(left) + "\" y=\"15\">" + escaped(chart_.title) + "</text>\n" + grid() + labels();
     for (const Circle& circle : chart_.circles) out += draw(circle);
     for (const Curve& curve : chart_.curves) out += draw(curve);
     return out + legend() + "</svg>\n";
@@ -70,8 +72,8 @@ class Picture {
   double at_y(double value) const { return height_ - bottom - (value - y_.low) / y_.size() * (height_ - top - bottom); }
 
   std::string line(const char* kind, double x1, double y1, double x2, double y2) const {
-    return std::string("<line class=\"") + kind + "\" x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) + "\" x2=\"" +
-           coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>\n";
+    return std::string("<line class=\"") + kind + "\" x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) +
+           "\" x2=\"" + coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>\n";
   }
 
   // Numbers at both axes; the lines through 0 are drawn stronger.
@@ -84,21 +86,21 @@ class Picture {
     };
     each_tick(x_, [&](double x, bool is_zero) {
       out += line(is_zero && chart_.is_square ? "zero" : "grid", at_x(x), top, at_x(x), height_ - bottom);
-      out += "<text class=\"tick\" text-anchor=\"middle\" x=\"" + coordinate(at_x(x)) + "\" y=\"" + coordinate(height_ - bottom + 13) +
-             "\">" + design::decimal(x) + "</text>\n";
+      out += "<text class=\"tick\" text-anchor=\"middle\" x=\"" + coordinate(at_x(x)) + "\" y=\"" +
+             coordinate(height_ - bottom + 13) + "\">" + design::decimal(x) + "</text>\n";
     });
     each_tick(y_, [&](double y, bool is_zero) {
       out += line(is_zero ? "zero" : "grid", left, at_y(y), width - right, at_y(y));
-      out += "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(left - 5) + "\" y=\"" + coordinate(at_y(y) + 4) + "\">" +
-             design::decimal(y) + "</text>\n";
+      out += "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(left - 5) + "\" y=\"" +
+             coordinate(at_y(y) + 4) + "\">" + design::decimal(y) + "</text>\n";
     });
     return out;
   }
 
   std::string labels() const {
-    return "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(width - right) + "\" y=\"" + coordinate(height_ - 6) + "\">" +
-           escaped(chart_.x_label) + "</text>\n<text class=\"tick\" x=\"4\" y=\"" + coordinate(top - 6) + "\">" +
-           escaped(chart_.y_label) + "</text>\n";
+    return "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(width - right) + "\" y=\"" +
+           coordinate(height_ - 6) + "\">" + escaped(chart_.x_label) + "</text>\n<text class=\"tick\" x=\"4\" y=\"" +
+           coordinate(top - 6) + "\">" + escaped(chart_.y_label) + "</text>\n";
   }
 
   std::string legend() const {
@@ -114,8 +116,8 @@ class Picture {
   }
 
   std::string draw(const Circle& circle) const {
-    return "<ellipse class=\"circle\" cx=\"" + coordinate(at_x(circle.x)) + "\" cy=\"" + coordinate(at_y(circle.y)) + "\" rx=\"" +
-           coordinate(circle.radius / x_.size() * (width - left - right)) + "\" ry=\"" +
+    return "<ellipse class=\"circle\" cx=\"" + coordinate(at_x(circle.x)) + "\" cy=\"" + coordinate(at_y(circle.y)) +
+           "\" rx=\"" + coordinate(circle.radius / x_.size() * (width - left - right)) + "\" ry=\"" +
            coordinate(circle.radius / y_.size() * (height_ - top - bottom)) + "\"/>\n";
   }
 
@@ -131,12 +133,14 @@ class Picture {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       const bool shown = shows(curve.x[i], curve.y[i]);
       const std::string x = coordinate(at_x(curve.x[i])), y = coordinate(at_y(curve.y[i]));
-      if (shown && pen_is_down && curve.mark == Mark::steps) path += "H" + x + "V" + y;
-      else if (shown) path += (pen_is_down ? "L" : "M") + x + " " + y;
+      if (shown && pen_is_down && curve.mark == Mark::steps)
+        path += "H" + x + "V" + y;
+      else if (shown)
+        path += (pen_is_down ? "L" : "M") + x + " " + y;
       pen_is_down = shown;
     }
-    return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dashes ? " dashes" : "") + "\" d=\"" + path +
-           "\"/>\n";
+    return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dashes ? " dashes" : "") +
+           "\" d=\"" + path + "\"/>\n";
   }
 
   std::string points(const Curve& curve) const {
@@ -147,7 +151,8 @@ class Picture {
       path += curve.mark == Mark::dots ? "M" + coordinate(x) + " " + coordinate(y) + "h0"
                                        : "M" + coordinate(x - 4) + " " + coordinate(y - 4) + "l8 8m0 -8l-8 8";
     }
-    return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dots ? " dots" : "") + "\" d=\"" + path + "\"/>\n";
+    return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dots ? " dots" : "") + "\" d=\"" +
+           path + "\"/>\n";
   }
 
   const Chart& chart_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Curves as SVG, for a page that needs neither a script nor a library.
 #pragma once
 
@@ -22,8 +23,8 @@ struct Circle {
 struct Chart {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
-  std::vector<Circle> circles;       // in the units of the axes, behind the curves
-  bool is_square = false;            // one scale for both axes, the range is that of x_low … y_high
+  std::vector<Circle> circles;                          // in the units of the axes, behind the curves
+  bool is_square = false;                               // one scale for both axes, the range is that of x_low … y_high
   double x_low = 0, x_high = 0, y_low = 0, y_high = 0;  // of a square chart; else made of the curves
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A pole of samples as people know it from the s plane.
 #pragma once
 

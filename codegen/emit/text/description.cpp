@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/description.hpp"
 
 #include <cmath>
@@ -91,7 +92,8 @@ std::string integrals(const Controller& controller) {
   std::string outputs;
   for (const int i : controller.integrated)
     outputs += (outputs.empty() ? "" : ", ") + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name;
-  return "  ξ⁺ = ξ + T (r − y) of " + outputs + "; ξ ← ξ + H (u − what the law asked for) with the u that was applied\n" +
+  return "  ξ⁺ = ξ + T (r − y) of " + outputs +
+         "; ξ ← ξ + H (u − what the law asked for) with the u that was applied\n" +
          matrix_lines("H", controller.laws.back()[2], controller.target.is_double);
 }
 
@@ -159,7 +161,7 @@ std::string describe_estimator(const Controller& controller) {
   const bool is_double = controller.target.is_double, is_observer = controller.problem.estimator->poles.has_value();
   std::string out = is_observer ? "\nObserver, " : "\nKalman filter, ";
   out += controller.is_predictor ? "predictor form (u[k] is made of the outputs up to y[k−1])"
-                                   : "filter form (u[k] is made of the outputs up to y[k])";
+                                 : "filter form (u[k] is made of the outputs up to y[k])";
   out += ",\n" + gain_in_words(controller) + "\n";
   if (!controller.solution.estimator || is_observer) return out + describe_gains(controller) + bounds(controller);
   const design::SampledNoise& noise = controller.solution.estimator->noise;
@@ -244,8 +246,9 @@ std::string form_cost(const char* name, const FormCost& cost) {
 std::string describe_forms(const Controller& controller) {
   if (!controller.forms) return "";
   const FormChoice& forms = *controller.forms;
-  std::string out = "\nForms of the controller, what a sample costs, and the error of u that rounding makes (rms, beside u):\n\n" +
-                    form_cost("physical  ", forms.physical);
+  std::string out =
+      "\nForms of the controller, what a sample costs, and the error of u that rounding makes (rms, beside u):\n\n" +
+      form_cost("physical  ", forms.physical);
   if (forms.folded) out += form_cost("folded    ", *forms.folded);
   if (forms.modal) out += form_cost("modal     ", *forms.modal);
   return out + "  of these it is the " + controller::name_of(forms.chosen) + " one\n";
@@ -255,7 +258,8 @@ std::string describe_linear_form(const Controller& controller) {
   if (!controller.linear) return "";
   const design::LinearForm& form = *controller.linear;
   const bool is_double = controller.target.is_double, predicts = controller.is_predictor;
-  std::string out = "\nThe same as one linear system, equal to it in " + std::to_string(static_cast<int>(chosen_form(*controller.forms).agreement)) +
+  std::string out = "\nThe same as one linear system, equal to it in " +
+                    std::to_string(static_cast<int>(chosen_form(*controller.forms).agreement)) +
                     " digits:\n\n  z⁺ = A z + B y,  u = C z" + (predicts ? "" : " + D y") + ",  x̂ = X z" +
                     (predicts ? "" : " + L y") + "\n\n";
   out += matrix_lines("A", form.A, is_double) + matrix_lines("B", form.B, is_double) +
@@ -266,12 +270,12 @@ std::string describe_linear_form(const Controller& controller) {
 
 std::string describe_cost(const Controller& controller) {
   const CodeCost& cost = controller.cost;
-  return "\nOne sample takes " + std::to_string(cost.multiply_adds) + " multiply-adds and " +
-         std::to_string(cost.ram) + " bytes of RAM. By arm-none-eabi-gcc 12.2 at -O2, for a\nCortex-M4F, at most " +
-         std::to_string(cost.flash) + " bytes of flash and " + std::to_string(cost.stack) + " bytes of stack.\nStyle: " +
-         (controller.style == design::Style::compact ? "compact" : "unrolled") + ". Arithmetic: " +
-         (controller.target.is_fused ? "fused" : "plain") + ". Digits of the design: " +
-         std::to_string(controller.solution.numerics.digits) + ".\n";
+  return "\nOne sample takes " + std::to_string(cost.multiply_adds) + " multiply-adds and " + std::to_string(cost.ram) +
+         " bytes of RAM. By arm-none-eabi-gcc 12.2 at -O2, for a\nCortex-M4F, at most " + std::to_string(cost.flash) +
+         " bytes of flash and " + std::to_string(cost.stack) +
+         " bytes of stack.\nStyle: " + (controller.style == design::Style::compact ? "compact" : "unrolled") +
+         ". Arithmetic: " + (controller.target.is_fused ? "fused" : "plain") +
+         ". Digits of the design: " + std::to_string(controller.solution.numerics.digits) + ".\n";
 }
 
 }  // namespace lqg::emit

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The design in words and numbers, for the header's first comment and for the terminal: lines, each part behind an empty one
 // and its heading; empty where the design has no such part.
 #pragma once
@@ -15,7 +16,7 @@ std::string describe_gains(const Controller& controller);      // of the filter,
 std::string describe_linear_form(const Controller& controller);
 std::string describe_loop(const Controller& controller);
 std::string describe_rms(const Controller& controller);
-std::string describe_poles(const Controller& controller);      // of the loop, in z and s
+std::string describe_poles(const Controller& controller);  // of the loop, in z and s
 std::string describe_forms(const Controller& controller);
 std::string describe_cost(const Controller& controller);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/files.hpp"
 
 #include <unistd.h>
@@ -83,8 +84,10 @@ void clean_up(const Folder& folder) {
     const std::string name = entry->path().filename().string();
     const std::optional<Temporary> found = parse_temporary(name);
     if (!found) continue;
-    if (folder.kind_of(name) == Folder::Kind::own) processes[found->process].add(name, *found);
-    else folder.remove(name);
+    if (folder.kind_of(name) == Folder::Kind::own)
+      processes[found->process].add(name, *found);
+    else
+      folder.remove(name);
   }
   for (const auto& [process, leftovers] : processes) leftovers.settle(folder);
 }

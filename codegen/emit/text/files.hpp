@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writing output files: all of them, or none.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/folder.hpp"
 
 #include <fcntl.h>
@@ -21,8 +22,10 @@ int sync_file(int file) { return ::fsync(file) == 0 || errno == EINVAL ? 0 : err
 int write_to(int file, const std::string& content) {
   for (std::size_t written = 0; written < content.size();) {
     const ssize_t count = ::write(file, content.data() + written, content.size() - written);
-    if (count > 0) written += static_cast<std::size_t>(count);
-    else if (errno != EINTR) return errno;
+    if (count > 0)
+      written += static_cast<std::size_t>(count);
+    else if (errno != EINTR)
+      return errno;
   }
   return sync_file(file);
 }

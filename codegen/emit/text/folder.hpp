@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A folder that one process at a time changes, by names within it: where its path leads later does not matter.
 #pragma once
 

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/html.hpp"
 
 namespace lqg::emit {
 
 namespace {
 
-constexpr const char* style = R"(:root { color-scheme: light dark; --ink: #1c2430; --paper: #fcfcfa; --faint: #667; --rule: #d8dade; --panel: #f1f2f0;
+constexpr const char* style =
+    R"(:root { color-scheme: light dark; --ink: #1c2430; --paper: #fcfcfa; --faint: #667; --rule: #d8dade; --panel: #f1f2f0;
   --curve-0: #1763a6; --curve-1: #d9730d; --curve-2: #2e8540; --curve-3: #a62b6f; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4e7ea; --paper: #14181d; --faint: #98a2ad; --rule: #333b44; --panel: #1c2229;
   --curve-0: #6cb2f0; --curve-1: #f0a050; --curve-2: #7bc98b; --curve-3: #e27bb1; } }

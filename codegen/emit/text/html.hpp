@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text that becomes HTML.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/sha256.hpp"
 
 #include <mbedtls/md.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SHA-256 (FIPS 180-4), by which an emitted file names the design file it came from.
 #pragma once
 

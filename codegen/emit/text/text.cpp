@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/text.hpp"
 
 #include <algorithm>

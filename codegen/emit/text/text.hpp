@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Strings with places to fill in; nothing of a design.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/text/wording.hpp"
 
 #include <algorithm>
@@ -12,10 +13,12 @@ namespace lqg::emit {
 std::vector<design::Signal> state_signals(const Controller& controller) {
   std::vector<design::Signal> signals = controller.problem.plant.states;
   const auto is_taken = [&](const std::string& name) {
-    return std::any_of(signals.begin(), signals.end(), [&](const design::Signal& signal) { return upper(signal.name) == upper(name); });
+    return std::any_of(signals.begin(), signals.end(),
+                       [&](const design::Signal& signal) { return upper(signal.name) == upper(name); });
   };
   for (int left = controller.size.delayed, nu = controller.size.nu; left > 0; --left) {
-    const design::Signal& input = controller.problem.plant.inputs[static_cast<std::size_t>((controller.size.delayed - left) % nu)];
+    const design::Signal& input =
+        controller.problem.plant.inputs[static_cast<std::size_t>((controller.size.delayed - left) % nu)];
     std::string name = input.name + "_delayed_" + std::to_string((left + nu - 1) / nu);
     while (is_taken(name)) name += "_samples";
     signals.push_back({name, input.unit});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A design's names, numbers and equations in words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/unit_test/calls_test.hpp"
 
 #include <algorithm>
@@ -38,10 +39,10 @@ const char* name_of(Call call) {
 }
 
 constexpr Call every_call[] = {
-    Call::init,    Call::step,    Call::update,   Call::update_alone,     Call::partial_without, Call::partial_alone,
-    Call::control, Call::predict, Call::advance,  Call::estimate,         Call::set_state,       Call::set_input,
-    Call::innovation, Call::covariance,
-    Call::write_r, Call::write_x, Call::write_xi, Call::write_covariance, Call::write_z};
+    Call::init,          Call::step,      Call::update,           Call::update_alone, Call::partial_without,
+    Call::partial_alone, Call::control,   Call::predict,          Call::advance,      Call::estimate,
+    Call::set_state,     Call::set_input, Call::innovation,       Call::covariance,   Call::write_r,
+    Call::write_x,       Call::write_xi,  Call::write_covariance, Call::write_z};
 
 std::string number_of(double value, bool is_double) {
   const std::string cast = is_double ? "(double)" : "(float)";
@@ -95,7 +96,8 @@ std::string update_alone_case(const Controller& controller) {
 std::string innovation_case(const Controller& controller) {
   if (!controller.has.variance)
     return given_outputs() + "            {name}_innovation(&self, given, found);\n" + found("{NAME}_NY");
-  return given_outputs() + "            {name}_innovation(&self, given, found, found + {NAME}_NY);\n" + found("2 * {NAME}_NY");
+  return given_outputs() + "            {name}_innovation(&self, given, found, found + {NAME}_NY);\n" +
+         found("2 * {NAME}_NY");
 }
 
 std::string set_input_case(const Controller& controller) {
@@ -114,7 +116,8 @@ std::string body_of(const Controller& controller, Call call) {
     case Call::step: return step_case(controller);
     case Call::update: return given_outputs() + answered("update(&self, given)");
     case Call::update_alone: return update_alone_case(controller);
-    case Call::partial_without: return given_outputs() + answered("partial_update(&self, given, ~(1ul << turns[k].entry))");
+    case Call::partial_without:
+      return given_outputs() + answered("partial_update(&self, given, ~(1ul << turns[k].entry))");
     case Call::partial_alone: return given_outputs() + answered("partial_update(&self, given, 1ul << turns[k].entry)");
     case Call::control: return control_case(controller);
     case Call::predict: return predict_case(controller);
@@ -141,10 +144,11 @@ std::string state_in_hash(const Controller& controller) {
     const std::string size = std::to_string(field.count);
     if (field.kind == controller::Kind::reals)
       reals += "        hash = hash_of(hash, self." + field.name + ", " + size + ");\n";
-    if (field.kind == controller::Kind::total) counts += "        hash = hash_of_count(hash, self." + field.name + ");\n";
+    if (field.kind == controller::Kind::total)
+      counts += "        hash = hash_of_count(hash, self." + field.name + ");\n";
     if (field.kind == controller::Kind::counters)
-      counts += "        for (int i = 0; i < " + size + "; i++)\n            hash = hash_of_count(hash, self." + field.name +
-                "[i]);\n";
+      counts += "        for (int i = 0; i < " + size + "; i++)\n            hash = hash_of_count(hash, self." +
+                field.name + "[i]);\n";
   }
   return reals + counts;
 }
@@ -169,14 +173,16 @@ std::string turns_as_data(const Controller& controller, const Calls& calls) {
   return "\n" + trace::wrap("enum {" + names + "};", 4) +
          "\n\n/* What is called, turn by turn: with that row of the tables, times `number`, or with `number` in place of one entry,\n"
          " * which is then not -1. A write is what a fault of the memory may leave. */\n"
-         "static const struct {\n    unsigned char call, row;\n    short entry;\n    {real} number;\n} turns[TURNS] = {\n" + data + "};\n";
+         "static const struct {\n    unsigned char call, row;\n    short entry;\n    {real} number;\n} turns[TURNS] = {\n" +
+         data + "};\n";
 }
 
 std::string calls_test(const Controller& controller) {
   std::string cases;
   for (const Call call : every_call)
     if (has_call(controller, call))
-      cases += std::string("        case ") + name_of(call) + ":\n" + body_of(controller, call) + "            break;\n";
+      cases +=
+          std::string("        case ") + name_of(call) + ":\n" + body_of(controller, call) + "            break;\n";
   const auto& size = controller.size;
   const int largest = std::max({size.nx, size.ny, size.nu, 1});
   const int results = std::max({largest, 2 * size.ny, triangle(controller)});
@@ -232,7 +238,8 @@ static void test_{name}_answers_every_call_as_the_host_does(void)
 {state}    }
     TEST_ASSERT_EQUAL_HEX32(HASH_OF_TURNS, hash);
 }
-)", words);
+)",
+              words);
 }
 
 }  // namespace lqg::emit

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The test that makes every call of the header, and holds what it answers against the host.
 #pragma once
 

@@ -1,11 +1,13 @@
+// SPDX-License-Identifier: MIT
 #include "emit/unit_test/linear_unit_test.hpp"
 
 namespace lqg::emit {
 
 std::string linear_sample(const Controller& controller, const std::string& look) {
   const bool predicts = controller.is_predictor;
-  return std::string("        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, ") + (predicts ? "u));\n" : "y_in[k], u));\n") +
-         look + "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_advance(&self" + (predicts ? ", y_in[k]));\n" : "));\n");
+  return std::string("        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_control(&self, ") +
+         (predicts ? "u));\n" : "y_in[k], u));\n") + look +
+         "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_advance(&self" + (predicts ? ", y_in[k]));\n" : "));\n");
 }
 
 std::string linear_estimate_check() {
@@ -19,7 +21,8 @@ std::string linear_hostile_sample(const Controller& controller) {
   return std::string("                status = {name}_control(&self, ") + (predicts ? "u);\n" : "y, u);\n") +
          R"(                for (int i = 0; i < {NAME}_NU; i++)
                     TEST_ASSERT_TRUE(u[i] - u[i] == {zero});
-                status |= {name}_advance(&self)" + (predicts ? ", y);\n" : ");\n") +
+                status |= {name}_advance(&self)" +
+         (predicts ? ", y);\n" : ");\n") +
          R"(                if (k % 3 == 1 && what < 3)
                     TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
                 if (what < 3)

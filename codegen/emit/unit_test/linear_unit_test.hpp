@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the emitted test of a controller that keeps z does otherwise.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/unit_test/unit_test.hpp"
 
 #include <cmath>
@@ -22,7 +23,8 @@ std::string row(const std::vector<double>& values, bool is_double) {
 
 // static const <real> name[samples][width] = { … };
 template <class Values>
-std::string table(const char* name, const std::vector<Sample>& samples, std::size_t every, bool is_double, Values values) {
+std::string table(const char* name, const std::vector<Sample>& samples, std::size_t every, bool is_double,
+                  Values values) {
   const std::size_t rows = (samples.size() + every - 1) / every;
   std::string out = "static const " + std::string(is_double ? "double " : "float ") + name + "[" +
                     std::to_string(rows) + "][" + std::to_string(values(samples.front()).size()) + "] = {\n";
@@ -43,21 +45,26 @@ std::string data(const Controller& controller, const Vectors& vectors) {
   if (controller.has.filter) {
     out += "/* What the sensors say. */\n" +
            table("y_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
-    out += std::string("\n/* What the reference says: the estimate ") + (controller.linear ? "that u is made of" : "after update") + " … */\n" +
+    out += std::string("\n/* What the reference says: the estimate ") +
+           (controller.linear ? "that u is made of" : "after update") + " … */\n" +
            table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
   } else {
-    out += "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
+    out +=
+        "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
   }
   if (controller.size.nr)
     out += "\n/* What the outputs should be. */\n" +
            table("r_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.r; });
   if (controller.size.nu)
-    out += std::string("\n/* … ") + (controller.has.regulator ? "the inputs, which are applied as they are … */\n" : "the inputs that act … */\n") +
-           table("u_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.u; });
+    out +=
+        std::string("\n/* … ") +
+        (controller.has.regulator ? "the inputs, which are applied as they are … */\n" : "the inputs that act … */\n") +
+        table("u_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.u; });
   if (!vectors.tolerance.P.empty())
-    out += "\n/* … and the covariance after update, lower triangle, in every " + std::to_string(samples_per_covariance) +
-           "th sample. */\n" + table("P_out", vectors.samples, samples_per_covariance, is_double,
-                                      [](const Sample& sample) { return sample.P; });
+    out += "\n/* … and the covariance after update, lower triangle, in every " +
+           std::to_string(samples_per_covariance) + "th sample. */\n" +
+           table("P_out", vectors.samples, samples_per_covariance, is_double,
+                 [](const Sample& sample) { return sample.P; });
   out += "\n/* How far from that the controller may be: " + decimal(Tolerances::margin) +
          " times the error that the host makes when it runs the same samples in " + (is_double ? "double" : "float") +
          ",\n * which is the precision times the conditioning of this filter. */\n";
@@ -73,10 +80,12 @@ std::string hash_of_state(const Controller& controller) {
   if (controller.filter == step::Filter::plain)
     out += "        hash = hash_of(hash, self.P, (int)(sizeof self.P / sizeof self.P[0]));\n";
   if (controller.filter == step::Filter::ud) {
-    if (controller.size.nx > 1) out += "        hash = hash_of(hash, self.U, (int)(sizeof self.U / sizeof self.U[0]));\n";
+    if (controller.size.nx > 1)
+      out += "        hash = hash_of(hash, self.U, (int)(sizeof self.U / sizeof self.U[0]));\n";
     out += "        hash = hash_of(hash, self.d, {NAME}_NX);\n";
   }
-  if (controller.size.nxi) out += "        hash = hash_of(hash, self.xi, " + std::to_string(controller.size.nxi) + ");\n";
+  if (controller.size.nxi)
+    out += "        hash = hash_of(hash, self.xi, " + std::to_string(controller.size.nxi) + ");\n";
   return out;
 }
 
@@ -84,10 +93,11 @@ std::string covariance_check(const Controller& controller) {
   const bool is_ud = controller.filter == step::Filter::ud;
   if (!is_ud && controller.filter != step::Filter::plain) return "";
   return std::string("        if (k % ") + std::to_string(samples_per_covariance) + " == 0) {\n" +
-         (is_ud ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
-                  "            {name}_covariance(&self, P);\n"
-                  "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
-                : "            assert_near(P_tolerance, P_out[k / {every}], self.P, (int)(sizeof self.P / sizeof self.P[0]));\n") +
+         (is_ud
+              ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
+                "            {name}_covariance(&self, P);\n"
+                "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
+              : "            assert_near(P_tolerance, P_out[k / {every}], self.P, (int)(sizeof self.P / sizeof self.P[0]));\n") +
          "        }\n";
 }
 
@@ -103,20 +113,25 @@ std::string sample(const Controller& controller, const std::string& after_update
   const std::string reference = controller.size.nr ? "        memcpy(self.r, r_in[k], sizeof self.r);\n" : "";
   const auto call = [&](const std::string& arguments) {
     const std::string called = "{name}_control(" + arguments + ")";
-    return counts_limited ? "        status = " + called + ";\n        TEST_ASSERT_EQUAL_HEX(LQG_OK, status{limited});\n"
+    return counts_limited ? "        status = " + called +
+                                ";\n        TEST_ASSERT_EQUAL_HEX(LQG_OK, status{limited});\n"
                                 "        limited += status != LQG_OK;\n"
                           : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, " + called + "{limited});\n";
   };
   if (!controller.has.filter)
-    return reference + call(std::string(controller.keeps.any ? "&self, " : "") + "x_in[k], u") + after_update + after_control;
+    return reference + call(std::string(controller.keeps.any ? "&self, " : "") + "x_in[k], u") + after_update +
+           after_control;
   const std::string update = "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_update(&self, y_in[k]){gated});\n";
   const std::string control = controller.has.regulator ? call("&self, u") : "";
-  const std::string predict = controller.size.nu ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
-                                              : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
-  const std::string recorded = is_told_what_acts(controller)
-                                   ? "        memcpy(self.u_applied, u_out[k], sizeof self.u_applied);  /* what acts on these outputs */\n" : "";
-  return reference + (controller.is_predictor ? control + recorded + update : update + control) + after_update + after_control +
-         predict;
+  const std::string predict = controller.size.nu
+                                  ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
+                                  : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
+  const std::string recorded =
+      is_told_what_acts(controller)
+          ? "        memcpy(self.u_applied, u_out[k], sizeof self.u_applied);  /* what acts on these outputs */\n"
+          : "";
+  return reference + (controller.is_predictor ? control + recorded + update : update + control) + after_update +
+         after_control + predict;
 }
 
 std::string begin(const Controller& controller) {
@@ -126,10 +141,11 @@ std::string begin(const Controller& controller) {
 }
 
 std::string reference_test(const Controller& controller) {
-  const std::string update = controller.linear ? linear_estimate_check()
-                             : controller.has.filter
-                                 ? "        assert_near(x_tolerance, x_out[k], self.x, {NAME}_NX);\n" + covariance_check(controller)
-                                 : "";
+  const std::string update =
+      controller.linear ? linear_estimate_check()
+      : controller.has.filter
+          ? "        assert_near(x_tolerance, x_out[k], self.x, {NAME}_NX);\n" + covariance_check(controller)
+          : "";
   const std::string control =
       controller.has.regulator ? "        assert_near(u_tolerance, u_out[k], u, {NAME}_NU);\n" : "";
   return "\nstatic void test_{name}_follows_the_reference_of_the_host(void)\n{\n" + begin(controller) +
@@ -139,10 +155,12 @@ std::string reference_test(const Controller& controller) {
 std::string bits_test(const Controller& controller) {
   const std::string control = controller.has.regulator ? "        hash = hash_of(hash, u, {NAME}_NU);\n" : "";
   const bool counts_limited = controller.has.regulator && controller.problem.limits.has_value();
-  return std::string("\nstatic void test_{name}_has_every_bit_of_the_host(void)\n{\n"
-                     "    uint32_t hash = 2166136261u;\n") +
+  return std::string(
+             "\nstatic void test_{name}_has_every_bit_of_the_host(void)\n{\n"
+             "    uint32_t hash = 2166136261u;\n") +
          (counts_limited ? "    lqg_status status;\n    int limited = 0;\n" : "") + begin(controller) +
-         "    for (int k = 0; k < SAMPLES; k++) {\n" + sample(controller, hash_of_state(controller), control, counts_limited) +
+         "    for (int k = 0; k < SAMPLES; k++) {\n" +
+         sample(controller, hash_of_state(controller), control, counts_limited) +
          "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n" +
          (counts_limited ? "    TEST_ASSERT_EQUAL_INT({samples_at_limits}, limited);\n" : "") + "}\n";
 }
@@ -154,14 +172,16 @@ std::string hostile_sample(const Controller& controller) {
   const std::string act = controller.has.regulator ? R"(                (void){name}_control(&self, u);
                 for (int i = 0; i < {NAME}_NU; i++)
                     TEST_ASSERT_TRUE(u[i] - u[i] == {zero}{within});
-)" : "";
-  const std::string recorded = is_told_what_acts(controller) ? "                memcpy(self.u_applied, u_out[k], sizeof self.u_applied);\n" : "";
+)"
+                                                   : "";
+  const std::string recorded =
+      is_told_what_acts(controller) ? "                memcpy(self.u_applied, u_out[k], sizeof self.u_applied);\n" : "";
   const std::string update = R"(                status = {name}_update(&self, y);
                 if (k % 3 == 1 && what < 5)
                     TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
 )";
-  return (controller.is_predictor ? act + recorded + update : update + act) + "                (void){name}_predict(&self" +
-         (controller.size.nu ? ", u_out[k]" : "") + R"();
+  return (controller.is_predictor ? act + recorded + update : update + act) +
+         "                (void){name}_predict(&self" + (controller.size.nu ? ", u_out[k]" : "") + R"();
                 for (int i = 0; i < {NAME}_NX; i++)
                     TEST_ASSERT_TRUE(self.x[i] > -bound[i] && self.x[i] < bound[i]);
 )";
@@ -196,16 +216,18 @@ static void test_{name}_stays_{stays}_whatever_a_sensor_says(void)
 {end}        }
     }
 }
-)", words);
+)",
+              words);
 }
 
 std::string main_function(const Controller& controller) {
-  return std::string("\nint main(void)\n{\n    UNITY_BEGIN();\n"
-                     "    RUN_TEST(test_{name}_follows_the_reference_of_the_host);\n"
-                     "{bits}") +
+  return std::string(
+             "\nint main(void)\n{\n    UNITY_BEGIN();\n"
+             "    RUN_TEST(test_{name}_follows_the_reference_of_the_host);\n"
+             "{bits}") +
          (controller.linear       ? "    RUN_TEST(test_{name}_stays_finite_whatever_a_sensor_says);\n"
           : controller.has.filter ? "    RUN_TEST(test_{name}_stays_within_its_bounds_whatever_a_sensor_says);\n"
-                                    : "") +
+                                  : "") +
          "    return UNITY_END();\n}\n";
 }
 
@@ -246,7 +268,9 @@ static uint32_t hash_of(uint32_t hash, const {real} values[], int count)
 // None where every number of the target is within the limit.
 std::string bound(const char* comparison, double limit, const Controller& controller) {
   const bool is_double = controller.target.is_double;
-  return std::isinf(is_double ? limit : static_cast<double>(static_cast<float>(limit))) ? "" : comparison + trace::literal(limit, is_double);
+  return std::isinf(is_double ? limit : static_cast<double>(static_cast<float>(limit)))
+             ? ""
+             : comparison + trace::literal(limit, is_double);
 }
 
 std::string hexadecimal(std::uint32_t value) {
@@ -276,12 +300,15 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["every"] = std::to_string(samples_per_covariance);
   words["samples_at_limits"] = std::to_string(vectors.limited);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
-  words["gated"] = !controller.has.gate ? "" : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE)" : " & ~LQG_OUTPUT_GATED";
+  words["gated"] = !controller.has.gate        ? ""
+                   : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE)"
+                                               : " & ~LQG_OUTPUT_GATED";
   words["huge"] = controller.target.is_double ? "1e308" : "3e38f";
   words["tiny"] = controller.target.is_double ? "5e-324" : "1e-45f";
   words["within"] = "";
   if (const auto& limits = controller.problem.limits; limits && limits->u_min.size() && controller.size.nu == 1)
-    words["within"] = bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
+    words["within"] =
+        bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
   words["bits"] =
       "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n    RUN_TEST(test_{name}_answers_every_call_as_the_host_does);\n";
@@ -301,10 +328,11 @@ std::string unit_test(const Controller& controller) {
       "\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n#include \"unity.h\"\n\n#include \"{name}.h\"\n\n"
       "#define SAMPLES {samples}\n#define HASH {hash}u  /* over every bit of all results, on the host */\n"
       "#define TURNS {turns}\n#define HASH_OF_TURNS {hash_of_turns}u\n\n" +
-      data(controller, vectors) + turns_as_data(controller, vectors.calls) + helpers() + reference_test(controller) + bits_test(controller) +
-      calls_test(controller) + fault_test(controller) + main_function(controller);
-  return "/* Test of " + controller.problem.name + ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" +
-         provenance(controller) + " */\n" + fill(text, test_words(controller, vectors));
+      data(controller, vectors) + turns_as_data(controller, vectors.calls) + helpers() + reference_test(controller) +
+      bits_test(controller) + calls_test(controller) + fault_test(controller) + main_function(controller);
+  return "/* Test of " + controller.problem.name +
+         ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" + provenance(controller) +
+         " */\n" + fill(text, test_words(controller, vectors));
 }
 
 }  // namespace lqg::emit

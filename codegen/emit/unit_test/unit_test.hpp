@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME_test.c: a Unity test that holds the emitted C against the host's reference.
 #pragma once
 

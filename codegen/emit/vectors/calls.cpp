@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/vectors/calls.hpp"
 
 #include <cmath>
@@ -81,7 +82,8 @@ class Script {
 
   static unsigned told(unsigned events) {
     unsigned out = 0;
-    for (std::size_t i = 0; i < told_events.size(); ++i) out |= (events >> static_cast<unsigned>(told_events[i]) & 1u) << i;
+    for (std::size_t i = 0; i < told_events.size(); ++i)
+      out |= (events >> static_cast<unsigned>(told_events[i]) & 1u) << i;
     return out;
   }
   // Beyond the output that is too much for the state come those that nobody believes.
@@ -164,7 +166,9 @@ class PhysicalScript {
  private:
   void add(Call call) { script_.add(whole(call)); }
   void add(Call call, int entry, double number) { script_.add(one(call, entry, number)); }
-  void search(const std::vector<Turn>& turns, std::size_t varied, double sign = 1) { script_.search(turns, varied, sign); }
+  void search(const std::vector<Turn>& turns, std::size_t varied, double sign = 1) {
+    script_.search(turns, varied, sign);
+  }
 
   Turn whole(Call call, double number = 1) { return {call, script_.next_row(), Turn::every_entry, number}; }
   Turn one(Call call, int entry, double number) { return {call, script_.next_row(), entry, number}; }
@@ -182,7 +186,8 @@ class PhysicalScript {
 
   // The output is missing for a while, by each path.
   void drop_out(int i) {
-    const double honest = handed_over({}, samples_[script_.next_row()].y, controller_.target)[static_cast<std::size_t>(i)];
+    const double honest =
+        handed_over({}, samples_[script_.next_row()].y, controller_.target)[static_cast<std::size_t>(i)];
     for (const double number : {nan, infinity, -infinity}) {
       add(Call::innovation, i, number);
       add(Call::update, i, number);
@@ -359,9 +364,12 @@ class FormScript {
 }  // namespace
 
 std::vector<double> handed_over(const Turn& turn, std::vector<double> row, const controller::Target& target) {
-  const auto round = [&](double value) { return target.is_double ? value : static_cast<double>(static_cast<float>(value)); };
+  const auto round = [&](double value) {
+    return target.is_double ? value : static_cast<double>(static_cast<float>(value));
+  };
   for (double& value : row) value = round(value);
-  if (turn.entry >= 0 && turn.entry < static_cast<int>(row.size())) row[static_cast<std::size_t>(turn.entry)] = turn.number;
+  if (turn.entry >= 0 && turn.entry < static_cast<int>(row.size()))
+    row[static_cast<std::size_t>(turn.entry)] = turn.number;
   if (turn.entry < 0)
     for (double& value : row) value = round(value * turn.number);  // the product of two floats is a double
   return row;
@@ -375,14 +383,20 @@ bool has_call(const Controller& controller, Call call) {
     case Call::step: return filter;
     case Call::control: return controller.has.regulator;
     case Call::set_state: return filter;
-    case Call::advance: case Call::estimate: case Call::write_z: return linear;
-    case Call::update: case Call::predict: case Call::write_x: return filter && !linear;
+    case Call::advance:
+    case Call::estimate:
+    case Call::write_z: return linear;
+    case Call::update:
+    case Call::predict:
+    case Call::write_x: return filter && !linear;
     case Call::update_alone: return filter && !linear;
-    case Call::partial_without: case Call::partial_alone:
+    case Call::partial_without:
+    case Call::partial_alone:
       return filter && !linear && controller.size.ny > 1 && controller.size.ny < bits_of_long && !controller.has.stages;
     case Call::innovation: return filter && !linear && !controller.has.stages;
     case Call::covariance: return controller.filter == step::Filter::ud;
-    case Call::write_covariance: return controller.filter == step::Filter::ud || controller.filter == step::Filter::plain;
+    case Call::write_covariance:
+      return controller.filter == step::Filter::ud || controller.filter == step::Filter::plain;
     case Call::set_input: return !linear && can_set_input(controller);
     case Call::write_r: return !linear && controller.size.nr > 0;
     case Call::write_xi: return !linear && controller.size.nxi > 0;

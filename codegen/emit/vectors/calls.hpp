@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the emitted test calls beside the samples of the loop: every function of the header, with outputs that are missing or
 // absurd, at the edge of every bound and limit, with states and inputs set by hand.
 #pragma once
@@ -13,10 +14,26 @@ namespace lqg::emit {
 struct Sample;
 
 enum class Call {
-  init, step, update, update_alone, partial_without, partial_alone, control, predict, advance, estimate, set_state, set_input,
-  innovation, covariance,
+  init,
+  step,
+  update,
+  update_alone,
+  partial_without,
+  partial_alone,
+  control,
+  predict,
+  advance,
+  estimate,
+  set_state,
+  set_input,
+  innovation,
+  covariance,
   // what a caller, or a fault of the memory, may have written into the state
-  write_r, write_x, write_covariance, write_xi, write_z
+  write_r,
+  write_x,
+  write_covariance,
+  write_xi,
+  write_z
 };
 
 // A call with a row of the samples: times `number`, or with `number` in place of one entry. An update by one output takes the
@@ -33,10 +50,10 @@ struct Turn {
 std::vector<double> handed_over(const Turn& turn, std::vector<double> row, const controller::Target& target);
 
 // What a status tells, in the order in which the test counts it.
-inline constexpr std::array told_events = {step::Event::output_not_finite,    step::Event::output_gated,
-                                    step::Event::innovation_not_positive, step::Event::input_limited,
-                                    step::Event::state_reset,          step::Event::reference_not_finite,
-                                    step::Event::covariance_reset};
+inline constexpr std::array told_events = {
+    step::Event::output_not_finite, step::Event::output_gated, step::Event::innovation_not_positive,
+    step::Event::input_limited,     step::Event::state_reset,  step::Event::reference_not_finite,
+    step::Event::covariance_reset};
 
 // Whether the header has what the turn calls.
 bool has_call(const Controller& controller, Call call);

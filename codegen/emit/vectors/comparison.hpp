@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the target's numbers are held against the reference: the hash of all bits, errors and tolerances.
 #pragma once
 
@@ -16,17 +17,23 @@ constexpr std::size_t sample_count = 200;
 constexpr std::uint64_t seed = 20260101;
 constexpr unsigned reference_digits = 40;  // of the reference of a controller in double
 
-inline std::vector<double> list_of(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
+inline std::vector<double> list_of(const Eigen::VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
 
 inline Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 template <class S>
-std::vector<double> list_of(const step::Vector<S>& values) { return list_of(simulate::as_doubles(values)); }
+std::vector<double> list_of(const step::Vector<S>& values) {
+  return list_of(simulate::as_doubles(values));
+}
 
 template <class S>
-step::Vector<S> numbers_of(const std::vector<double>& values) { return simulate::numbers_of<S>(vector_of(values)); }
+step::Vector<S> numbers_of(const std::vector<double>& values) {
+  return simulate::numbers_of<S>(vector_of(values));
+}
 
 class Hash {
  public:
@@ -73,8 +80,8 @@ class Errors {
   }
   // A result that came out exactly by luck may still be a rounding off: at least one ulp of the largest value counts.
   std::vector<double> tolerances(bool is_double) const {
-    const double unit = is_double ? std::numeric_limits<double>::epsilon()
-                                  : static_cast<double>(std::numeric_limits<float>::epsilon());
+    const double unit =
+        is_double ? std::numeric_limits<double>::epsilon() : static_cast<double>(std::numeric_limits<float>::epsilon());
     std::vector<double> out(errors_.size());
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = Tolerances::margin * std::max(errors_[i], unit * largest_[i]);
     return out;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/vectors/linear_vectors.hpp"
 
 #include "design/numeric/digits.hpp"
@@ -92,9 +93,11 @@ std::vector<Vector<S>> run_physical(const Controller& controller, const std::vec
 template <class Act>
 auto with_reference(const Controller& controller, Act act) {
   if (!controller.target.is_double)
-    return act(closed_loop(controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); })));
+    return act(closed_loop(
+        controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); })));
   const design::Digits digits(reference_digits);
-  return act(closed_loop(controller, EmittedController<Real>(controller, [](const Real& value) { return Real(value, reference_digits); })));
+  return act(closed_loop(controller, EmittedController<Real>(
+                                         controller, [](const Real& value) { return Real(value, reference_digits); })));
 }
 
 template <class S>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs of a controller that is one linear system beside the physical form that it stands for.
 #pragma once
 

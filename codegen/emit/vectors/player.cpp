@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/vectors/player.hpp"
 
 #include "emit/vectors/comparison.hpp"
@@ -16,7 +17,8 @@ template <class S>
 class PhysicalPlayer : public Player {
  public:
   PhysicalPlayer(const Controller& controller, const std::vector<Sample>& samples)
-      : controller_(controller), samples_(samples), emitted_(controller, simulate::constants_of<S>(controller.target)) {}
+      : controller_(controller), samples_(samples), emitted_(controller, simulate::constants_of<S>(controller.target)) {
+  }
 
   std::unique_ptr<Player> copy() const override { return std::make_unique<PhysicalPlayer>(*this); }
   Answer play(const Turn& turn) override {
@@ -30,11 +32,13 @@ class PhysicalPlayer : public Player {
     const step::State<S>& state = emitted_.state();
     if (controller_.has.filter) hash.add_all(list_of(state.x));
     hash.add_all(state.P), hash.add_all(state.U), hash.add_all(state.D);
-    for (const auto* values : {&state.u, &state.widening, &state.innovation, &state.r, &state.xi, &state.error, &state.demand})
+    for (const auto* values :
+         {&state.u, &state.widening, &state.innovation, &state.r, &state.xi, &state.error, &state.demand})
       hash.add_all(list_of(*values));
     if (controller_.has.filter) hash.add_count(emitted_.resets());
     if (carries_covariance(controller_)) hash.add_count(emitted_.covariance_resets());
-    for (std::size_t i = 0; controller_.has.gate && i < emitted_.gated().size(); ++i) hash.add_count(emitted_.gated()[i]);
+    for (std::size_t i = 0; controller_.has.gate && i < emitted_.gated().size(); ++i)
+      hash.add_count(emitted_.gated()[i]);
   }
 
   std::vector<std::pair<int, double>> variances() const override {
@@ -49,12 +53,12 @@ class PhysicalPlayer : public Player {
   }
 
  private:
-  Vector<S> given(const Turn& turn, std::vector<double> Sample::*row) const {
+  Vector<S> given(const Turn& turn, std::vector<double> Sample::* row) const {
     return numbers_of<S>(handed_over(turn, samples_[turn.row].*row, controller_.target));
   }
   Vector<S> given_input(const Turn& turn) const { return given(turn, &Sample::u); }
   // Of a regulator alone the samples hold states in place of outputs.
-  std::vector<double> Sample::*states() const { return controller_.has.filter ? &Sample::x : &Sample::y; }
+  std::vector<double> Sample::* states() const { return controller_.has.filter ? &Sample::x : &Sample::y; }
 
   unsigned call(const Turn& turn, Answer& answer) {
     switch (turn.call) {
@@ -79,7 +83,8 @@ class PhysicalPlayer : public Player {
     switch (turn.call) {
       case Call::innovation: return innovate(turn, answer);
       case Call::covariance:
-        for (const S& entry : step::covariance(emitted_.model(), state)) answer.results.push_back(simulate::as_double(entry));
+        for (const S& entry : step::covariance(emitted_.model(), state))
+          answer.results.push_back(simulate::as_double(entry));
         return;
       case Call::write_r: state.r = given(turn, &Sample::r); return;
       case Call::write_x: state.x = given(turn, states()); return;
@@ -92,8 +97,10 @@ class PhysicalPlayer : public Player {
   template <class Values>
   void write(const Turn& turn, Values& values) {
     const S number(turn.number);
-    if (turn.entry >= 0) values[static_cast<std::size_t>(turn.entry)] = number;
-    else for (auto& value : values) value = S(number * value);
+    if (turn.entry >= 0)
+      values[static_cast<std::size_t>(turn.entry)] = number;
+    else
+      for (auto& value : values) value = S(number * value);
   }
 
   void innovate(const Turn& turn, Answer& answer) {
@@ -110,7 +117,9 @@ class PhysicalPlayer : public Player {
     answer.results = list_of(u);
     const step::Model<S>& model = emitted_.model();
     for (Eigen::Index i = 0; i < u.size(); ++i) {
-      const auto is = [&](const Vector<S>& values, const S& value) { return values.size() && step::is_zero(S(u(i) - value)); };
+      const auto is = [&](const Vector<S>& values, const S& value) {
+        return values.size() && step::is_zero(S(u(i) - value));
+      };
       const S step = model.u_step.size() ? S(model.u_step(i)) : S(0);
       answer.at_limits.push_back(is(model.u_min, model.u_min.size() ? S(model.u_min(i)) : S(0)));
       answer.at_limits.push_back(is(model.u_max, model.u_max.size() ? S(model.u_max(i)) : S(0)));
@@ -140,7 +149,8 @@ template <class S>
 class FormPlayer : public Player {
  public:
   FormPlayer(const Controller& controller, const std::vector<Sample>& samples)
-      : controller_(controller), samples_(samples), emitted_(controller, simulate::constants_of<S>(controller.target)) {}
+      : controller_(controller), samples_(samples), emitted_(controller, simulate::constants_of<S>(controller.target)) {
+  }
 
   std::unique_ptr<Player> copy() const override { return std::make_unique<FormPlayer>(*this); }
   Answer play(const Turn& turn) override {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plays the turns of the emitted test with the simulated controller, in the target's precision.
 #pragma once
 

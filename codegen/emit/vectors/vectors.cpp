@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/vectors/vectors.hpp"
 
 #include <algorithm>
@@ -78,7 +79,8 @@ void add_outlier(std::size_t sample, std::vector<double>& y) {
 
 bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (!(std::abs(x(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound))) return false;
+    if (!(std::abs(x(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound)))
+      return false;
   return true;
 }
 
@@ -115,13 +117,14 @@ std::vector<Sample> closed_loop(const Controller& controller, EmittedController<
 template <class S>
 void record_reference(EmittedController<S> emitted, std::vector<Sample>& samples, std::vector<std::vector<double>>& u) {
   std::size_t k = 0;
-  replay(emitted, std::vector<Sample>(samples), [&](const EmittedController<S>& now, const Vector<S>& control, unsigned) {
-    samples[k].x = list_of(now.state().x);
-    samples[k].P = covariance(now);
-    if (now.model().filter == step::Filter::none) samples[k].u = list_of(control);
-    u.push_back(list_of(control));
-    ++k;
-  });
+  replay(emitted, std::vector<Sample>(samples),
+         [&](const EmittedController<S>& now, const Vector<S>& control, unsigned) {
+           samples[k].x = list_of(now.state().x);
+           samples[k].P = covariance(now);
+           if (now.model().filter == step::Filter::none) samples[k].u = list_of(control);
+           u.push_back(list_of(control));
+           ++k;
+         });
 }
 
 // Every bit of a sample in the order of the emitted test.
@@ -182,9 +185,11 @@ Vectors vectors_of(const Controller& controller, const EmittedController<Referen
 Vectors samples_of(const Controller& controller) {
   if (controller.linear) return linear_vectors(controller);
   if (!controller.target.is_double)
-    return vectors_of(controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); }));
+    return vectors_of(
+        controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); }));
   const design::Digits digits(reference_digits);
-  return vectors_of(controller, EmittedController<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }));
+  return vectors_of(
+      controller, EmittedController<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reference vectors: the host's own run of a noisy closed loop, and how far the target may be from it.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The Arduino library: a folder TinyLQG for the IDE's libraries folder, and the same as TinyLQG-VERSION.zip where there
 # is a zip. The IDE runs no generator, so the headers of the examples' controllers are made here.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The Debian package: lqgen, the C library, the design engine, the CMake package. What is in it says codegen/cmake/package.cmake.
 #
 #   make.sh <root of the source tree> <output folder>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The ESP-IDF component: the folder tinylqg, for a project's folder components, or packed by compote.
 #
 #   make.sh <root of the source tree> <output folder>

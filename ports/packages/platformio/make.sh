@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The PlatformIO library: its folder is what `pio pkg pack` packs, and what lib_deps may name.
 #
 #   make.sh <root of the source tree> <output folder>

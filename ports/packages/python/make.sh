@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The Python wheel: lqgen, the C library and the module tinylqg.
 #
 #   make.sh <root of the source tree> <output folder>

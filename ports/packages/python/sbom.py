@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the wheel has inside: an SBOM (CycloneDX 1.6) and the notice that the LGPL asks for.
 
     sbom.py <version of TinyLQG> <lqgen> <libraries> <folder>

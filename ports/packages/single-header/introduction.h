@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* TinyLQG @VERSION@ in one file: Kalman filter and LQR for microcontrollers, and the two together.
  *
  *     #include "tinylqg.h"              wherever it is needed

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The whole library in one file, tinylqg.h, and beside it lqg/*.h of one line each, which lead the emitted headers there.
 #
 #   make.sh <root of the source tree> <output folder>
@@ -19,8 +20,9 @@ check_names() {
 check_names "$root/include/lqg" "${public[@]}"
 check_names "$root/src" "${private[@]}"
 
-# A file without its includes of other files of the library.
-body_of() { sed '/^#include "/d' "$1"; }
+
+# A file without its licence, which stands at the end, and its includes of other files of the library.
+body_of() { sed "/SPDX-License-Identifier/d; /^#include \"/d" "$1"; }
 
 # The static functions of a file become lqg_static_FILE_NAME: in one file they are beside those of other files and of the
 # user. A name is what stands before a parenthesis, but not after . or ->, which is a member.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The Zephyr module: a folder for the manifest of west, or for ZEPHYR_EXTRA_MODULES.
 #
 #   make.sh <root of the source tree> <output folder>

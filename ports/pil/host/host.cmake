@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 include(${CMAKE_CURRENT_LIST_DIR}/../design.cmake)
 set(lqg_pil_host ${CMAKE_CURRENT_LIST_DIR})
 

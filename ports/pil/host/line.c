@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE /* cfmakeraw, speeds above 38400 baud */
 #include "line.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The line to the target: a serial port, or the standard input and output of a program that is the target. */
 #ifndef LINE_H
 #define LINE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Processor in the loop: the plant is here (plant.h), its controller runs on a target at the other end of a line.
  *
  *     pil [option…] --port DEVICE [--baud 115200]

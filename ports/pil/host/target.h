@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The target as the host sees it: requests and their answers. Whatever goes wrong is said on standard error. */
 #ifndef TARGET_H
 #define TARGET_H

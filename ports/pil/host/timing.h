@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What each sample took. */
 #ifndef TIMING_H
 #define TIMING_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The balancing robot without an operating system: SysTick, once a sample, runs the loop; what is left of the time goes to the
  * report. ROBOT_CLOCK is the processor's in Hz. */
 #include "../balancer.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* FreeRTOS for the balancing robot: two tasks, static memory, no timers. */
 #ifndef FREERTOS_CONFIG_H
 #define FREERTOS_CONFIG_H

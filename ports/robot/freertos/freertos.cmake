@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The robot as a task: the kernel's sources are compiled here with its own warnings, ours with all.
 cmake_path(GET CMAKE_CURRENT_LIST_DIR FILENAME folder)
 if(CMAKE_C_FLAGS MATCHES "fpv[45]")

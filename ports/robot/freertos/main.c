@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The balancing robot as two tasks of FreeRTOS: the loop, once a sample and before everything else, and the report. */
 #include "../balancer.h"
 #include "../hardware.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The robot on a Nucleo-F401RE. The sensor's x points forward, its y to the left, its z up. */
 #include "../hardware.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The MPU-6050, gyroscope and accelerometer, at I2C1: SCL on PB8, SDA on PB9, 381 kHz. */
 #ifndef MPU6050_H
 #define MPU6050_H

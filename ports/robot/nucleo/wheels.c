@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "wheels.h"
 
 #include "stm32f401.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Motors behind a TB6612FNG, and their encoders.
  *
  *     left:  A1, A2 of the encoder on PA0, PA1 (TIM2);  AIN1 PB10, AIN2 PB4, PWMA PA8

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A robot that is simulated on the processor that balances it, and what happens to it:
  *
  *     0.0 s   it lies on its face: no motor may turn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bad_designs.hpp"
 
 std::vector<BadDesign> wrong_together() {
@@ -55,7 +56,9 @@ std::vector<BadDesign> wrong_together() {
        {"34:9: limits.u_min: expected u_min < u_max, found inf and inf for input 0"}},
       {"limits without one", {{34, "", 35}}, {"33:1: limits: expected u_min, u_max or both, found neither"}},
       {"limits without a regulator", {{16, "", 20}}, {"33:1: limits: needs [lqr]"}},
-      {"anti-windup without an integral", {{20, "anti_windup = \"model\""}}, {"20:15: lqr.anti_windup: needs lqr.integral"}},
+      {"anti-windup without an integral",
+       {{20, "anti_windup = \"model\""}},
+       {"20:15: lqr.anti_windup: needs lqr.integral"}},
       {"regulator without B", {{8, ""}, {10, ""}, {13, ""}}, {"16:1: lqr: needs plant.B"}},
       {"inputs without B",
        {{8, ""}, {16, "", 20}, {33, "", 35}},

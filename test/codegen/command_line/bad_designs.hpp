@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Designs that lqgen has to refuse, and the words in which it does.
 #pragma once
 

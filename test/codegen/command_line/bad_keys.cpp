@@ -1,13 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "bad_designs.hpp"
 
 std::vector<BadDesign> wrong_keys() {
   return {
-      {"key misspelt",
-       {{6, "sampletime = 0.5"}},
-       {"6:1: plant.sampletime: unknown key, did you mean `sample_time`?"}},
-      {"letters swapped",
-       {{27, "gian = \"steady\""}},
-       {"27:1: kalman.gian: unknown key, did you mean `gain`?"}},
+      {"key misspelt", {{6, "sampletime = 0.5"}}, {"6:1: plant.sampletime: unknown key, did you mean `sample_time`?"}},
+      {"letters swapped", {{27, "gian = \"steady\""}}, {"27:1: kalman.gian: unknown key, did you mean `gain`?"}},
       {"capital missing", {{17, "q = [1, 0, 1, 0]"}}, {"17:1: lqr.q: unknown key, did you mean `Q`?"}},
       {"table misspelt", {{22, "[kalmann]"}}, {"22:1: kalmann: unknown key, did you mean `kalman`?"}},
       {"key in the wrong table",
@@ -34,7 +31,9 @@ std::vector<BadDesign> wrong_keys() {
       {"plant left out", {{4, "", 14}}, {"1:1: plant: missing"}},
       {"sample time left out", {{6, ""}}, {"4:1: plant.sample_time: missing"}},
       {"A left out", {{7, ""}}, {"4:1: plant.A: missing"}},
-      {"Q and R left out", {{17, "", 18}}, {"16:1: lqr.Q: missing: expected Q, Q_output or bryson", "16:1: lqr.R: missing"}},
+      {"Q and R left out",
+       {{17, "", 18}},
+       {"16:1: lqr.Q: missing: expected Q, Q_output or bryson", "16:1: lqr.R: missing"}},
       {"process noise left out", {{23, ""}}, {"22:1: kalman.process_noise: missing"}},
       {"measurement noise left out", {{24, ""}}, {"22:1: kalman.measurement_noise: missing"}},
       {"neither regulator nor estimator",
@@ -42,7 +41,8 @@ std::vector<BadDesign> wrong_keys() {
        {"1:1: lqr: expected [lqr], [kalman] or both, found neither", "…", "…"}},
 
       {"start of a stage left out", {{36, "[[stage]]\nB = [[0], [2], [0], [0]]"}}, {"36:1: stage[0].from: missing"}},
-      {"poles left out", {{22, "[observer]\nform = \"filter\"", 31}},
+      {"poles left out",
+       {{22, "[observer]\nform = \"filter\"", 31}},
        {"11:5: note: plant.G: not used without [kalman]", "22:1: observer.poles: missing: …"}},
       {"largest inputs left out",
        {{17, "bryson = { states = [1, 1, 1, 1] }", 18}},
@@ -50,8 +50,6 @@ std::vector<BadDesign> wrong_keys() {
       {"largest states and outputs left out",
        {{17, "bryson = { inputs = [1] }", 18}},
        {"17:10: lqr.bryson.states: missing: expected states or outputs"}},
-      {"outputs of the integral left out",
-       {{20, "integral = { Q = [1] }"}},
-       {"20:12: lqr.integral.outputs: missing"}},
+      {"outputs of the integral left out", {{20, "integral = { Q = [1] }"}}, {"20:12: lqr.integral.outputs: missing"}},
   };
 }

@@ -1,10 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "bad_designs.hpp"
 
 namespace {
 
 // Five lines of plant with its `A`, `B`, `C` in lines 5, 6, 7, and both tables below.
-std::string design(const std::string& domain, const std::string& A, const std::string& B,
-                   const std::string& C) {
+std::string design(const std::string& domain, const std::string& A, const std::string& B, const std::string& C) {
   return "name = \"base\"\n[plant]\ndomain = \"" + domain + "\"\nsample_time = 0.1\nA = " + A + "\nB = " + B +
          "\nC = " + C +
          "\nstates = [\"angle [rad]\", \"rate [rad/s]\"]\n[lqr]\nQ = [1, 1]\nR = [1]\n[kalman]\n"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A program run in a folder, and what it left behind.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // test_bad_designs LQGEN BASE.toml: every bad design is refused in its own words, with its own exit status,
 // each finding on a line of its own, and what an earlier run has written stays as it was, to the byte and to
 // the second.
@@ -30,8 +31,7 @@ std::string edited(const std::vector<Edit>& edits) {
   std::vector<std::string> lines = split(base, "\n");
   for (const Edit& edit : edits) {
     if (edit.line == 0) return edit.text;
-    for (int line = edit.line; line <= edit.last; ++line)
-      lines.at(static_cast<std::size_t>(line) - 1).clear();
+    for (int line = edit.line; line <= edit.last; ++line) lines.at(static_cast<std::size_t>(line) - 1).clear();
     lines.at(static_cast<std::size_t>(edit.line) - 1) = edit.text;
   }
   std::string text;

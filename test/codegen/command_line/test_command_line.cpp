@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // test_command_line LQGEN BASE.toml DOCUMENTS: options, files that cannot be read, places that cannot be written.
 // Whatever fails, what an earlier run has written stays as it was, and nothing half-written is left beside
 // it.
@@ -16,8 +17,8 @@ enum Status { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 
 std::string lqgen, base;
 fs::path documents_folder;  // with what lqgen prints
-fs::path folder;  // of the test that runs, with base.toml and the outputs of an earlier run in out/
-Snapshot before;  // of out/
+fs::path folder;            // of the test that runs, with base.toml and the outputs of an earlier run in out/
+Snapshot before;            // of out/
 
 void make_folder() {
   folder = fresh_folder("command_line");
@@ -26,8 +27,7 @@ void make_folder() {
   before = snapshot(folder / "out");
 }
 
-Outcome run_lqgen(std::vector<std::string> arguments,
-                  std::optional<unsigned long> largest_file = std::nullopt) {
+Outcome run_lqgen(std::vector<std::string> arguments, std::optional<unsigned long> largest_file = std::nullopt) {
   arguments.insert(arguments.begin(), lqgen);
   return run(arguments, folder, largest_file);
 }
@@ -74,8 +74,7 @@ void test_quiet_leaves_notes_out_and_errors_in() {
   TEST_ASSERT_EQUAL_STRING(note, run_lqgen({"noted.toml", "-o", "new"}).err.c_str());
   TEST_ASSERT_EQUAL_STRING("", run_lqgen({"noted.toml", "-o", "new", "--quiet"}).err.c_str());
   write_file(folder / "bad.toml", base + "size = 1\n");
-  expect_line(wrong, "bad.toml:42:1: code.size: unknown key",
-              run_lqgen({"bad.toml", "-o", "out", "--quiet"}));
+  expect_line(wrong, "bad.toml:42:1: code.size: unknown key", run_lqgen({"bad.toml", "-o", "out", "--quiet"}));
 }
 
 void test_command_line_that_is_wrong() {
@@ -106,7 +105,8 @@ void test_dash_reads_standard_input() {
   TEST_ASSERT_EQUAL_INT(written, run_lqgen({"base.toml", "-o", "named", "--only", "h", "--quiet"}).status);
   std::string piped = read_file(folder / "piped/base.h");
   const std::string name = "standard input";
-  for (std::size_t at = piped.find(name); at != piped.npos; at = piped.find(name)) piped.replace(at, name.size(), "base.toml");
+  for (std::size_t at = piped.find(name); at != piped.npos; at = piped.find(name))
+    piped.replace(at, name.size(), "base.toml");
   TEST_ASSERT_EQUAL_STRING(read_file(folder / "named/base.h").c_str(), piped.c_str());
   const Outcome bad = run({"/bin/sh", "-c", "echo | exec \"$0\" -", lqgen}, folder);
   TEST_ASSERT_EQUAL_INT(wrong, bad.status);
@@ -151,20 +151,19 @@ void test_design_file_whose_name_is_odd_and_whose_folder_is_worse() {
   TEST_ASSERT_EQUAL_STRING("", outcome.err.c_str());
   for (const char* name : {"base.h", "base_test.c", "base.json"})
     TEST_ASSERT_TRUE_MESSAGE(read_file(folder / "new" / name).find(odd.filename().string()) != std::string::npos, name);
-  TEST_ASSERT_TRUE(read_file(folder / "new/base.html").find("it's {name} &amp; &lt;b&gt; ?: ä*.toml") != std::string::npos);
+  TEST_ASSERT_TRUE(read_file(folder / "new/base.html").find("it's {name} &amp; &lt;b&gt; ?: ä*.toml") !=
+                   std::string::npos);
 }
 
 void test_design_that_is_not_there() {
   expect_line(unreadable, "none.toml: cannot be read: No such file or directory",
               run_lqgen({"none.toml", "-o", "out"}));
-  expect_line(unreadable, "a\\u000Ab: cannot be read: No such file or directory",
-              run_lqgen({"a\nb", "-o", "out"}));
+  expect_line(unreadable, "a\\u000Ab: cannot be read: No such file or directory", run_lqgen({"a\nb", "-o", "out"}));
 }
 
 void test_design_that_is_no_regular_file() {
   expect_line(unreadable, "out: cannot be read: it is a folder", run_lqgen({"out", "-o", "out"}));
-  expect_line(unreadable, "/dev/zero: cannot be read: it is not a regular file",
-              run_lqgen({"/dev/zero", "-o", "out"}));
+  expect_line(unreadable, "/dev/zero: cannot be read: it is not a regular file", run_lqgen({"/dev/zero", "-o", "out"}));
   TEST_ASSERT_EQUAL_INT(0, ::mkfifo((folder / "pipe").c_str(), 0600));
   expect_line(unreadable, "pipe: cannot be read: it is not a regular file", run_lqgen({"pipe", "-o", "out"}));
 }
@@ -172,8 +171,7 @@ void test_design_that_is_no_regular_file() {
 void test_design_that_may_not_be_read() {
   if (::geteuid() == 0) TEST_IGNORE_MESSAGE("root may read everything");
   fs::permissions(folder / "base.toml", fs::perms::none);
-  expect_line(unreadable, "base.toml: cannot be read: Permission denied",
-              run_lqgen({"base.toml", "-o", "out"}));
+  expect_line(unreadable, "base.toml: cannot be read: Permission denied", run_lqgen({"base.toml", "-o", "out"}));
 }
 
 void test_output_folder_that_is_a_file() {
@@ -209,8 +207,9 @@ std::string long_design() {
     C += std::string(comma) + (i == 0 ? "1" : "0");
     noise += std::string(comma) + "1";
   }
-  return "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [" + A + "]\nB = [" + B + "]\n"
-         + "C = [[" + C + "]]\n[lqr]\nQ_output = [1]\nR = [1]\n[kalman]\nprocess_noise = [" + noise + "]\nmeasurement_noise = [1]\n";
+  return "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [" + A + "]\nB = [" + B + "]\n" +
+         "C = [[" + C + "]]\n[lqr]\nQ_output = [1]\nR = [1]\n[kalman]\nprocess_noise = [" + noise +
+         "]\nmeasurement_noise = [1]\n";
 }
 
 // The design would take minutes.
@@ -272,11 +271,9 @@ void test_full_disk() {
   const std::string script =
       "mount -t tmpfs -o size=32k none full && cp -p out/* full && \"$0\" base.toml -o full; status=$?; "
       "cp -pR full/. after; exit $status";
-  const Outcome outcome =
-      run({"/bin/sh", "-c", "exec unshare -rm sh -c '" + script + "' '" + lqgen + "'"}, folder);
+  const Outcome outcome = run({"/bin/sh", "-c", "exec unshare -rm sh -c '" + script + "' '" + lqgen + "'"}, folder);
   expect_refusal(unreadable, outcome);
-  TEST_ASSERT_TRUE_MESSAGE(outcome.err.find("No space left on device") != std::string::npos,
-                           outcome.err.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(outcome.err.find("No space left on device") != std::string::npos, outcome.err.c_str());
   TEST_ASSERT_TRUE_MESSAGE(before == snapshot(folder / "after"), "outputs on the full disk were touched");
 }
 

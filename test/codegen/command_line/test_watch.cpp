@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lqgen says of long work where no terminal is, and how it ends when its time is up.
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -45,10 +46,11 @@ void test_each_stage_is_a_line_once() {
     Watch watch("a\nb.toml", false, std::nullopt, at_once);
     three_stages(watch);
   });
-  TEST_ASSERT_EQUAL_STRING("a\\u000Ab.toml: note: at work: sampling in 50 digits, step 3 of 9\n"
-                           "a\\u000Ab.toml: note: at work: eigenvalues in 50 digits, step 1\n"
-                           "a\\u000Ab.toml: note: at work: eigenvalues in 100 digits, step 1\n",
-                           outcome.err.c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "a\\u000Ab.toml: note: at work: sampling in 50 digits, step 3 of 9\n"
+      "a\\u000Ab.toml: note: at work: eigenvalues in 50 digits, step 1\n"
+      "a\\u000Ab.toml: note: at work: eigenvalues in 100 digits, step 1\n",
+      outcome.err.c_str());
 }
 
 void test_what_does_not_take_long_and_quiet_say_nothing() {
@@ -72,10 +74,11 @@ void test_limit_ends_the_program_where_it_is() {
     for (;;) ::pause();
   });
   TEST_ASSERT_EQUAL_INT(1, outcome.status);
-  TEST_ASSERT_EQUAL_STRING("a.toml: expected the design within 1 s (--time-limit), found it at work: eigenvalues in 100 "
-                           "digits, step 2; nothing was written: allow more time, or make the design smaller (states, "
-                           "delay, horizon)\n",
-                           outcome.err.c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "a.toml: expected the design within 1 s (--time-limit), found it at work: eigenvalues in 100 "
+      "digits, step 2; nothing was written: allow more time, or make the design smaller (states, "
+      "delay, horizon)\n",
+      outcome.err.c_str());
 }
 
 void test_limit_that_was_lifted_ends_nothing() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // CPU seconds of whole designs: `bench_design [states …]`, 12 and 50 when none are given.
 #include <cstdio>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "problems.hpp"
 
 #include <map>
@@ -31,8 +32,7 @@ MatrixXd Random::semidefinite(Index size, Index rank) {
   return factor * factor.transpose() / 16;
 }
 
-Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const MatrixXd& B,
-                   const MatrixXd& C) {
+Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const MatrixXd& B, const MatrixXd& C) {
   const Index nx = A.rows(), nu = B.cols(), ny = C.rows();
   const bool continuous = domain == Domain::continuous;
   Problem problem;
@@ -82,8 +82,7 @@ Problem two_mass() {
                       0.5, 0.02, -0.5, -0.02)
                          .finished();
   const MatrixXd B = (MatrixXd(4, 1) << 0, 1, 0, 0).finished();
-  Problem problem =
-      problem_of(Domain::continuous, 0.5, A, B, (MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished());
+  Problem problem = problem_of(Domain::continuous, 0.5, A, B, (MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished());
   problem.plant.G = B;
   problem.plant.states = {{"dy1", "m"}, {"v1", "m/s"}, {"dy2", "m"}, {"v2", "m/s"}};
   problem.regulator->Q = Eigen::Vector4d(1, 0, 1, 0).asDiagonal();
@@ -119,9 +118,8 @@ Problem random_problem(std::uint64_t seed) {
   const Index nx = 1 + static_cast<Index>(seed % 6), nu = 1 + static_cast<Index>(seed % 2);
   const Index ny = 1 + static_cast<Index>(seed / 2 % 3), nw = 1 + static_cast<Index>(seed % 3);
   const bool continuous = seed % 3 != 0;
-  Problem problem =
-      problem_of(continuous ? Domain::continuous : Domain::discrete, std::exp2(4 * random.uniform() - 3),
-                 1.5 * random.matrix(nx, nx), random.matrix(nx, nu), random.matrix(ny, nx));
+  Problem problem = problem_of(continuous ? Domain::continuous : Domain::discrete, std::exp2(4 * random.uniform() - 3),
+                               1.5 * random.matrix(nx, nx), random.matrix(nx, nu), random.matrix(ny, nx));
   problem.plant.D = random.matrix(ny, nu);
   problem.plant.G = random.matrix(nx, nw);
   const MatrixXd weight = random.semidefinite(nx + nu, nx + nu + 1);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Problems to design for: named ones and random ones, the same on every machine.
 #pragma once
 
@@ -26,8 +27,8 @@ class Random {
 };
 
 // A plant with regulator and estimator whose fields hold the defaults of the design file and unit weights.
-Problem problem_of(lqg::design::Domain domain, double sample_time, const Eigen::MatrixXd& A,
-                   const Eigen::MatrixXd& B, const Eigen::MatrixXd& C);
+Problem problem_of(lqg::design::Domain domain, double sample_time, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
+                   const Eigen::MatrixXd& C);
 
 Problem regulator_alone(Problem problem);
 

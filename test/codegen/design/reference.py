@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Makes the numbers of test_solve.cpp and test_augmentation.cpp: python3 reference.py, with mpmath (https://mpmath.org). Nothing here is
 # shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the stable
 # eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits; for the plant with a delay quadrature

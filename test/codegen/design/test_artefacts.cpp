@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Designs that hang on the rounding of their numbers: a plant that another program sampled, or that was turned, is
 // refused as the plant is that was meant, whatever the luck of its last digits. Designs that only look extreme pass.
 #include <cmath>
@@ -88,18 +89,22 @@ const MatrixXd unreached = MatrixXd::Zero(1, 1);
 void test_unstable_mode_that_no_input_reaches_in_turned_coordinates() {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed);
-    const Plain plant = turned(random, with_stable_ones(random, growing, unreached, 3), 3.0 * static_cast<double>(seed % 3));
+    const Plain plant =
+        turned(random, with_stable_ones(random, growing, unreached, 3), 3.0 * static_cast<double>(seed % 3));
     Problem problem = regulated(plant.A, plant.B);
     problem.code.real = seed % 2 ? Scalar::float64 : Scalar::float32;
-    expect_refusal(problem, "plant.B", {"z = 1.05", "x0, x1, x2, x3", "by the rounding", "move every number of A and B by", "e-1"});
+    expect_refusal(problem, "plant.B",
+                   {"z = 1.05", "x0, x1, x2, x3", "by the rounding", "move every number of A and B by", "e-1"});
   }
 }
 
 void test_unstable_mode_that_no_output_sees_in_turned_coordinates() {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed);
-    const Plain plant = turned(random, with_stable_ones(random, growing, unreached, 3), 3.0 * static_cast<double>(seed % 3));
-    expect_refusal(estimated(plant.A.transpose(), plant.B.transpose()), "plant.C", {"z = 1.05", "by the rounding", "no output sees it"});
+    const Plain plant =
+        turned(random, with_stable_ones(random, growing, unreached, 3), 3.0 * static_cast<double>(seed % 3));
+    expect_refusal(estimated(plant.A.transpose(), plant.B.transpose()), "plant.C",
+                   {"z = 1.05", "by the rounding", "no output sees it"});
   }
 }
 
@@ -153,7 +158,8 @@ void test_integral_of_a_rate_over_sixty_sample_times() {
   for (int i = 0; i < 60; ++i) {
     Problem problem = sampled_oscillator(sample_time_of(i), random, 4);
     problem.regulator->integral = Integral{{1}, MatrixXd::Identity(1, 1)};
-    expect_refusal(problem, "lqr.integral", {"zero at z = 1", "angle", "by the rounding", "move every number of A, B, C and D by"});
+    expect_refusal(problem, "lqr.integral",
+                   {"zero at z = 1", "angle", "by the rounding", "move every number of A, B, C and D by"});
     problem.regulator->integral.reset();
     problem.regulator->track = {1};
     expect_refusal(problem, "lqr.track", {"zero at z = 1", "by the rounding"});
@@ -231,7 +237,8 @@ void test_oscillation_without_weight_beside_the_circle() {
     problem.regulator->Q.setZero();
     expect_refusal(problem, "lqr.Q", {"limit", "no stabilising gain is optimal"});
     // (u + x1/2)² in the cost: u = −x1/2 is free, and what it makes of the plant goes round.
-    Problem crossed = regulated(sine(0.1 * i) + Eigen::Vector2d(1, 1) * Eigen::RowVector2d(0, 0.5), Eigen::Vector2d(1, 1));
+    Problem crossed =
+        regulated(sine(0.1 * i) + Eigen::Vector2d(1, 1) * Eigen::RowVector2d(0, 0.5), Eigen::Vector2d(1, 1));
     crossed.regulator->Q = Eigen::Vector2d(0, 0.25).asDiagonal();
     crossed.regulator->N = Eigen::Vector2d(0, 0.5);
     expect_refusal(crossed, "lqr.Q", {"limit", "no stabilising gain is optimal"});
@@ -308,8 +315,8 @@ void test_filter_whose_pole_is_one_as_a_double_is_refused() {
 }
 
 void test_double_is_not_advised_where_it_does_not_help() {
-  Problem problem = problem_of(Domain::continuous, 1e-9, MatrixXd::Constant(1, 1, -1e-9), MatrixXd::Ones(1, 1),
-                               MatrixXd::Ones(1, 1));
+  Problem problem =
+      problem_of(Domain::continuous, 1e-9, MatrixXd::Constant(1, 1, -1e-9), MatrixXd::Ones(1, 1), MatrixXd::Ones(1, 1));
   problem.code.real = Scalar::float32;
   expect_refusal(problem, "code.real", {"A becomes the identity in float", "double does not help"});
   problem.plant.A *= 1e7;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Delays, integrals, weights on Δu, decay, and noise from all of its keys: each against another way to the same number.
 #include <unity.h>
 
@@ -22,8 +23,8 @@ const double rounding = 1e-30;  // of 100 digits of which solving takes half, le
 Problem random_sampled_problem(std::uint64_t seed) {
   Random random(seed);
   const Index nx = 1 + static_cast<Index>(seed % 4), nu = 1 + static_cast<Index>(seed % 2);
-  Problem problem = problem_of(Domain::continuous, 0.3, random.matrix(nx, nx), random.matrix(nx, nu),
-                               random.matrix(1, nx));
+  Problem problem =
+      problem_of(Domain::continuous, 0.3, random.matrix(nx, nx), random.matrix(nx, nu), random.matrix(1, nx));
   const MatrixXd weight = random.semidefinite(nx + nu, nx + nu + 1);
   problem.regulator->Q = weight.topLeftCorner(nx, nx) + MatrixXd::Identity(nx, nx);
   problem.regulator->R = weight.bottomRightCorner(nu, nu) + MatrixXd::Identity(nu, nu);
@@ -45,11 +46,11 @@ void test_output_weight_is_the_weight_of_what_the_outputs_make_of_x_and_u() {
     const RealMatrix expected = transpose_congruence(CD, real(problem.regulator->Q_output));
     const Index nx = problem.plant.A.rows();
     expect_small(distance(found.Q, expected.topLeftCorner(nx, nx)), rounding, "Q");
-    expect_small(distance(found.N - real(problem.regulator->N), expected.topRightCorner(nx, found.R.rows())),
-                 rounding, "N");
-    expect_small(distance(found.R - real(problem.regulator->R),
-                          expected.bottomRightCorner(found.R.rows(), found.R.rows())),
-                 rounding, "R");
+    expect_small(distance(found.N - real(problem.regulator->N), expected.topRightCorner(nx, found.R.rows())), rounding,
+                 "N");
+    expect_small(
+        distance(found.R - real(problem.regulator->R), expected.bottomRightCorner(found.R.rows(), found.R.rows())),
+        rounding, "R");
   }
 }
 
@@ -132,8 +133,7 @@ void test_fractional_delay_is_the_sum_over_short_parts() {
       noise = congruence(small.plant.A, noise) + small.noise->W;
     }
     const SampledCost& found = *whole.cost;
-    const RealMatrix together =
-        above(beside(found.Q, found.N), beside(found.N.transpose(), found.R));
+    const RealMatrix together = above(beside(found.Q, found.N), beside(found.N.transpose(), found.R));
     expect_small(distance(whole.plant.A.topRows(nx), moved.topLeftCorner(nx, nx + nu)), rounding, "A");
     expect_small(distance(whole.plant.B.topRows(nx), moved.topRightCorner(nx, nu)), rounding, "B");
     expect_small(distance(together, cost), rounding, "the cost");
@@ -147,7 +147,8 @@ void test_delayed_law_solves_the_equation_of_the_whole_state() {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Problem problem = regulator_alone(random_sampled_problem(seed));
     problem.plant.delay = 0.15 * static_cast<double>(seed % 8);  // half periods
-    if (seed % 5 == 0) problem.regulator->input_rate = MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
+    if (seed % 5 == 0)
+      problem.regulator->input_rate = MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
     if (seed % 3 == 0) problem.regulator->cost = Cost::discrete;
     if (seed % 4 == 0) problem.regulator->decay = 1.1;
     const Solution found = solved(problem);
@@ -231,7 +232,8 @@ void test_integral_action_leaves_no_error_under_a_constant_disturbance() {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Problem problem = random_sampled_problem(seed);
     problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 2)};
-    if (seed % 2 == 0) problem.regulator->input_rate = MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
+    if (seed % 2 == 0)
+      problem.regulator->input_rate = MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
     if (seed % 3 == 0) problem.plant.delay = 0.4;
     if (seed % 4 == 0) problem.estimator->form = Form::predictor;
     const Solution found = solved(problem);
@@ -252,7 +254,8 @@ void test_cost_of_the_optimal_filter_is_that_of_any_controller() {
     const bool continuous = problem.plant.domain == Domain::continuous;
     if (continuous && problem.regulator->cost != Cost::continuous)
       problem.plant.delay = problem.plant.sample_time * 0.375 * static_cast<double>(seed % 4);
-    if (seed % 3 == 1 && problem.plant.D.isZero(0)) problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 2)};
+    if (seed % 3 == 1 && problem.plant.D.isZero(0))
+      problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 2)};
     const Solution found = solved(problem);
     const Digits scope(60);
     const Samples samples = sample(problem);

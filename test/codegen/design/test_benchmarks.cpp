@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The benchmark collections of Riccati equations, with the solutions that their makers know in closed form:
 // P. Benner, A. J. Laub, V. Mehrmann, "A collection of benchmark examples for the numerical solution of algebraic
 // Riccati equations", I: continuous-time case (CAREX), II: discrete-time case (DAREX), reports SPC 95_22 and 95_23, TU
@@ -87,8 +88,8 @@ void test_darex_1_1_dead_beat_with_R_zero() {
 // [Q N; Nᵀ R] is indefinite, and there is no minimum.
 void test_darex_1_2_has_no_minimum() {
   const Digits scope(digits);
-  RiccatiEquation e = equation(matrix(2, {0, 1, 0, -1}), matrix(2, {1, 0, 2, 1}), matrix(2, {-4, -4, -4, 7}),
-                               matrix(2, {9, 3, 3, 1}));
+  RiccatiEquation e =
+      equation(matrix(2, {0, 1, 0, -1}), matrix(2, {1, 0, 2, 1}), matrix(2, {-4, -4, -4, 7}), matrix(2, {9, 3, 3, 1}));
   e.Q /= Real(11);
   e.N = matrix(2, {3, 1, -1, 7});
   TEST_ASSERT_TRUE(solve_discrete_riccati(e, RealMatrix()).failure != RiccatiFailure::none);
@@ -199,10 +200,10 @@ void test_carex_2_4_hamiltonian_near_the_axis() {
   for (const double epsilon : {1.0, 1e-7, 1e-12}) {
     const auto x = [&](const Real& a) { return Real(a + sqrt(a * a + Real(epsilon) * Real(epsilon))); };
     const Real sum = x(2 + Real(epsilon)), difference = x(epsilon), diagonal_entry = 1 + Real(epsilon);
-    expect_continuous(equation(matrix(2, {diagonal_entry, 1, 1, diagonal_entry}), identity(2),
-                               Real(epsilon) * Real(epsilon) * identity(2), identity(2)),
-                      matrix(2, {(sum + difference) / 2, (sum - difference) / 2, (sum - difference) / 2,
-                                 (sum + difference) / 2}));
+    expect_continuous(
+        equation(matrix(2, {diagonal_entry, 1, 1, diagonal_entry}), identity(2),
+                 Real(epsilon) * Real(epsilon) * identity(2), identity(2)),
+        matrix(2, {(sum + difference) / 2, (sum - difference) / 2, (sum - difference) / 2, (sum + difference) / 2}));
   }
 }
 
@@ -235,7 +236,8 @@ void test_carex_3_2_circulant() {
     A(i, i) = -2;
     A(i, (i + 1) % n) = A((i + 1) % n, i) = 1;
   }
-  const RiccatiResult found = solve_continuous_riccati(equation(A, identity(n), identity(n), identity(n)), RealMatrix());
+  const RiccatiResult found =
+      solve_continuous_riccati(equation(A, identity(n), identity(n), identity(n)), RealMatrix());
   TEST_ASSERT_TRUE(found.failure == RiccatiFailure::none);
   const Real turn = 8 * atan(Real(1)) / static_cast<double>(n);
   for (Index k = 0; k <= n / 2; ++k) {

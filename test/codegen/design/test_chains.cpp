@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What delays cost: chains of them are folded, copies of them are one; the numbers are those of the full matrices.
 #include <unity.h>
 
@@ -51,9 +52,9 @@ ComplexMatrix direct_response(const OpenLoop& loop, const Real& angle) {
 
 void test_state_of_a_chain_is_its_source_some_samples_ago() {
   RealMatrix A = zeros(5, 5), B = zeros(5, 1);
-  A(0, 1) = A(1, 3) = 1;   // x0 ← x1 ← x3
-  A(2, 0) = 1;             // x2 ← x0
-  A(3, 3) = Real(1) / 2;   // a lag
+  A(0, 1) = A(1, 3) = 1;     // x0 ← x1 ← x3
+  A(2, 0) = 1;               // x2 ← x0
+  A(3, 3) = Real(1) / 2;     // a lag
   A(4, 2) = 1, B(4, 0) = 1;  // a delay of x2 and w: more than a delay
   const Chains chains = chains_of(A, B);
   TEST_ASSERT_TRUE((chains.source == std::vector<Index>{3, 3, 3, 3, 4}));
@@ -205,8 +206,8 @@ void test_copies_of_a_chain_are_one_state_each() {
   RealMatrix A = zeros(6, 6), B = zeros(6, 1);
   A(0, 0) = A(0, 2) = Real(1) / 2, A(0, 4) = Real(1) / 8, B(0, 0) = 1;
   A(1, 0) = Real(1) / 4, A(1, 1) = Real(1) / 3;
-  A(2, 3) = A(4, 5) = 1;               // two chains …
-  A(3, 1) = A(5, 1) = Real(2) / 3;     // … of the same signal
+  A(2, 3) = A(4, 5) = 1;            // two chains …
+  A(3, 1) = A(5, 1) = Real(2) / 3;  // … of the same signal
   const Merged merged = with_equal_states_merged(A, B);
   TEST_ASSERT_EQUAL(4, merged.A.rows());
   TEST_ASSERT_TRUE(merged.A(0, 2) == Real(1) / 2 + Real(1) / 8);

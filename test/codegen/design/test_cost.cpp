@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The long-run cost of the closed loop against the covariance of plant and controller together.
 #include <unity.h>
 
@@ -12,8 +13,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-const double rounding =
-    1e-15;  // the cost is a double: half a unit in its last place, and the comparison's own
+const double rounding = 1e-15;  // the cost is a double: half a unit in its last place, and the comparison's own
 
 // x and the controller's x̂⁻, driven by w and v: [x; x̂⁻]⁺ = A [x; x̂⁻] + B [w; v], [x; u] = C [x; x̂⁻] + D
 // [w; v].
@@ -28,9 +28,9 @@ Joint joint_loop(const Problem& problem, const Solution& s) {
   const RealMatrix L = problem.estimator->form == Form::filter ? f.L : zeros(nx, ny);
   const RealMatrix u_x = -multiply(K, multiply(L, C)), u_v = -multiply(K, L), u_estimate = -K - u_x;
   Joint joint;
-  joint.A = above(beside(A + multiply(B, u_x), multiply(B, u_estimate)),
-                  beside(multiply(B, u_x) + multiply(f.L_predictor, C),
-                         A + multiply(B, u_estimate) - multiply(f.L_predictor, C)));
+  joint.A = above(
+      beside(A + multiply(B, u_x), multiply(B, u_estimate)),
+      beside(multiply(B, u_x) + multiply(f.L_predictor, C), A + multiply(B, u_estimate) - multiply(f.L_predictor, C)));
   joint.B = above(beside(G, multiply(B, u_v)), beside(zeros(nx, nw), multiply(B, u_v) + f.L_predictor));
   joint.C = above(beside(identity(nx), zeros(nx, nx)), beside(u_x, u_estimate));
   joint.D = above(zeros(nx, nw + ny), beside(zeros(nu, nw), u_v));
@@ -161,8 +161,7 @@ void test_no_gain_near_the_optimal_one_costs_less() {
   const Joint joint = joint_loop(problem, found);
   const RealMatrix states = *solve_stein(joint.A.transpose(), congruence(joint.B, joint.noise));
   const RealMatrix outputs = congruence(joint.C, states) + congruence(joint.D, joint.noise);
-  TEST_ASSERT_TRUE(trace_of_product(together(best.regulator->cost), outputs)
-                   > *best.loop.cost_per_sample * (1 + 1e-6));
+  TEST_ASSERT_TRUE(trace_of_product(together(best.regulator->cost), outputs) > *best.loop.cost_per_sample * (1 + 1e-6));
 }
 
 }  // namespace

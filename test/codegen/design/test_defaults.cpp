@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a problem that is made in C++ may leave out.
 #include <unity.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Kalman filter: closed forms, duality, its own relations, and its form for the target.
 #include <unity.h>
 
@@ -67,8 +68,7 @@ void test_predictor_gain_is_the_gain_of_the_dual_regulator() {
     problem.estimator.reset();
     const Solution dual = solved(problem);
     const Digits scope(100);
-    expect_small(distance(dual.regulator->K.transpose(), filter.estimator->L_predictor), 1e-10,
-                 "the difference");
+    expect_small(distance(dual.regulator->K.transpose(), filter.estimator->L_predictor), 1e-10, "the difference");
   }
 }
 
@@ -122,15 +122,12 @@ void test_online_noise_is_factored_and_free_of_what_the_outputs_tell() {
     const RealMatrix V = o.V.asDiagonal(), GS = multiply(found.plant.G, noise.Swv);
     expect_small(distance(multiply(GS, o.E.transpose()), multiply(o.M, V)), rounding, "M");
     expect_small(
-        distance(congruence(found.plant.G, noise.W) - congruence(GS, *solve(noise.V, identity(V.rows()))),
-                 o.W),
+        distance(congruence(found.plant.G, noise.W) - congruence(GS, *solve(noise.V, identity(V.rows()))), o.W),
         rounding, "W");
-    expect_small(distance(found.plant.A - multiply(GS, *solve(noise.V, found.plant.C)), o.A_free), rounding,
-                 "A_free");
+    expect_small(distance(found.plant.A - multiply(GS, *solve(noise.V, found.plant.C)), o.A_free), rounding, "A_free");
     expect_small(distance(congruence(o.G, RealMatrix(o.w.asDiagonal())), o.W), rounding, "G diag(w) Gᵀ");
     for (Index q = 0; q < o.w.size(); ++q) TEST_ASSERT_TRUE(o.w(q) > 0);
-    expect_small(distance(congruence(o.U0, RealMatrix(o.D0.asDiagonal())), o.P0), rounding,
-                 "U0 diag(D0) U0ᵀ");
+    expect_small(distance(congruence(o.U0, RealMatrix(o.D0.asDiagonal())), o.P0), rounding, "U0 diag(D0) U0ᵀ");
   }
 }
 
@@ -147,8 +144,7 @@ void test_noise_of_rank_one_has_one_column() {
 RealMatrix recursion(const OnlineSolution& o, int steps) {
   RealMatrix P = o.P0;
   for (int k = 0; k < steps; ++k) {
-    const RealMatrix PCt = multiply(P, o.C.transpose()),
-                     S = congruence(o.C, P) + RealMatrix(o.V.asDiagonal());
+    const RealMatrix PCt = multiply(P, o.C.transpose()), S = congruence(o.C, P) + RealMatrix(o.V.asDiagonal());
     P = congruence(o.A_free, P - multiply(PCt, *solve(S, PCt.transpose()))) + o.W;
   }
   return P;
@@ -207,8 +203,10 @@ void test_continuous_gain_satisfies_its_equation() {
     const RealMatrix A = real(problem.plant.A), C = real(problem.plant.C), G = real(problem.plant.G);
     const RealMatrix &P = filter.P_continuous, &L = filter.L_continuous, drive = congruence(G, noise.W);
     const RealMatrix turned = multiply(A, P);
-    expect_small(distance(turned + turned.transpose() + drive, congruence(L, noise.V)), rounding, "A P + P Aᵀ + GWGᵀ − L V Lᵀ");
-    expect_small(distance(multiply(L, noise.V), multiply_transpose(P, C) + multiply(G, noise.Swv)), rounding, "L V − P Cᵀ − G Swv");
+    expect_small(distance(turned + turned.transpose() + drive, congruence(L, noise.V)), rounding,
+                 "A P + P Aᵀ + GWGᵀ − L V Lᵀ");
+    expect_small(distance(multiply(L, noise.V), multiply_transpose(P, C) + multiply(G, noise.Swv)), rounding,
+                 "L V − P Cᵀ − G Swv");
     for (const ComplexReal& pole : eigenvalues(A - multiply(L, C))) TEST_ASSERT_TRUE(pole.re < 0);
     ++tried;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Products, solving, eigenvalues and triangular factors in many digits.
 #include <cmath>
 
@@ -20,12 +21,10 @@ const double rounding = 1e-45;  // of 50 digits, with five to spare for sums and
 void test_products_of_a_transpose_agree_with_transposed_products() {
   const Digits scope(50);
   Random random(1);
-  const RealMatrix a = real(random.matrix(4, 3)), b = real(random.matrix(4, 5)),
-                   p = real(random.semidefinite(4, 4));
+  const RealMatrix a = real(random.matrix(4, 3)), b = real(random.matrix(4, 5)), p = real(random.semidefinite(4, 4));
   TEST_ASSERT_TRUE(is_zero(transpose_multiply(a, b) - multiply(a.transpose(), b)));
   TEST_ASSERT_TRUE(is_zero(multiply_transpose(a.transpose(), b.transpose()) - multiply(a.transpose(), b)));
-  expect_small(distance(transpose_congruence(a, p), multiply(a.transpose(), multiply(p, a))), rounding,
-               "aᵀpa");
+  expect_small(distance(transpose_congruence(a, p), multiply(a.transpose(), multiply(p, a))), rounding, "aᵀpa");
   const RealMatrix congruent = congruence(a.transpose(), p);
   expect_small(distance(congruent, multiply(a.transpose(), multiply(p, a))), rounding, "apaᵀ");
   TEST_ASSERT_TRUE(is_zero(congruent - congruent.transpose()));
@@ -51,8 +50,7 @@ void test_solve_of_a_hilbert_matrix_loses_no_more_than_its_condition() {
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) hilbert(i, j) = 1 / Real(i + j + 1);
   const RealMatrix ones = RealMatrix::Constant(n, 1, Real(1));
-  const double condition =
-      2e13;  // J. Todd, "The condition of the finite segments of the Hilbert matrix", 1954
+  const double condition = 2e13;  // J. Todd, "The condition of the finite segments of the Hilbert matrix", 1954
   expect_small(distance(*solve(hilbert, multiply(hilbert, ones)), ones), rounding * condition, "the error");
 }
 
@@ -94,8 +92,7 @@ void test_eigenvalues_of_random_matrices_have_their_characteristic_polynomial() 
   const Digits scope(50);
   for (std::uint64_t seed = 0; seed < 30; ++seed)
     expect_same_polynomial(
-        real(Random(seed).matrix(1 + static_cast<Index>(seed % 9), 1 + static_cast<Index>(seed % 9))),
-        rounding * 100);
+        real(Random(seed).matrix(1 + static_cast<Index>(seed % 9), 1 + static_cast<Index>(seed % 9))), rounding * 100);
 }
 
 // Shifts go in circles on a cyclic permutation: the exceptional ones must break it.
@@ -194,8 +191,7 @@ void test_unreached_pair_is_found_with_its_states() {
                          .finished();
   const std::vector<Mode> modes = unreached_modes(real(A), real(Eigen::Vector4d(0, 0, 1, 0))).modes;
   TEST_ASSERT_EQUAL(1, modes.size());
-  TEST_ASSERT_TRUE(abs(modes[0].value.re - Real(0.6)) < rounding
-                   && abs(modes[0].value.im - Real(0.8)) < rounding);
+  TEST_ASSERT_TRUE(abs(modes[0].value.re - Real(0.6)) < rounding && abs(modes[0].value.im - Real(0.8)) < rounding);
   TEST_ASSERT_EQUAL(2, modes[0].states.size());
   TEST_ASSERT_EQUAL(1, modes[0].states[0]);
   TEST_ASSERT_EQUAL(3, modes[0].states[1]);
@@ -225,8 +221,7 @@ void test_reached_dimension_is_exact() {
   TEST_ASSERT_EQUAL(1, reached_dimension(Eigen::Vector2d(1.5, 1.5).asDiagonal(), Eigen::Vector2d(0.1, 0.3)));
   TEST_ASSERT_EQUAL(0, reached_dimension(MatrixXd::Identity(3, 3), MatrixXd::Zero(3, 2)));
   // 0.1 + 0.2 and 0.3 differ in the last bit.
-  TEST_ASSERT_EQUAL(2,
-                    reached_dimension(Eigen::Vector2d(0.1 + 0.2, 0.3).asDiagonal(), Eigen::Vector2d(1, 1)));
+  TEST_ASSERT_EQUAL(2, reached_dimension(Eigen::Vector2d(0.1 + 0.2, 0.3).asDiagonal(), Eigen::Vector2d(1, 1)));
 }
 
 void test_reached_dimension_of_random_pairs() {
@@ -234,9 +229,8 @@ void test_reached_dimension_of_random_pairs() {
     Random random(seed);
     const Index n = 2 + static_cast<Index>(seed % 5);
     MatrixXd A = random.matrix(n, n), B = random.matrix(n, 1 + static_cast<Index>(seed % 2));
-    if (seed % 3 != 0)
-      A.bottomLeftCorner(1, n - 1).setZero();   // the last state feeds, and is fed by, nothing …
-    if (seed % 3 == 1) B.row(n - 1).setZero();  // … and no input
+    if (seed % 3 != 0) A.bottomLeftCorner(1, n - 1).setZero();  // the last state feeds, and is fed by, nothing …
+    if (seed % 3 == 1) B.row(n - 1).setZero();                  // … and no input
     TEST_ASSERT_EQUAL(rank_in_many_digits(A, B), reached_dimension(A, B));
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The controller as one linear system: equal to update, control and predict for any outputs, and refused where it is not
 // or where the target cannot bear it.
 #include <Eigen/LU>
@@ -69,7 +70,8 @@ void expect_equal_to_the_physical_form(const Problem& problem, const Solution& s
     }
     physical.sample(y);
     expect_small(largest_entry(multiply(form.C, z) + multiply(form.D, y) - physical.u), equal, "error of u");
-    expect_small(largest_entry(multiply(form.estimate, z) + multiply(form.heard, y) - physical.estimate), equal, "error of x̂");
+    expect_small(largest_entry(multiply(form.estimate, z) + multiply(form.heard, y) - physical.estimate), equal,
+                 "error of x̂");
     z = multiply(form.A, z) + multiply(form.B, y);
     expect_small(largest_entry(multiply(form.T, z).topRows(nx) - physical.x), equal, "error of T z");
     if (k % 11 == 5) {  // by hand
@@ -140,7 +142,8 @@ RealMatrix matrix_of(std::initializer_list<double> entries) {
 // Two inputs that are one: no row of C is the largest, and the first is taken whatever the digits are.
 void test_inputs_that_share_a_mode_evenly() {
   Problem problem = double_integrator(0.1);
-  problem = problem_of(Domain::continuous, 0.1, problem.plant.A, (Eigen::MatrixXd(2, 2) << 0, 0, 1, 1).finished(), problem.plant.C);
+  problem = problem_of(Domain::continuous, 0.1, problem.plant.A, (Eigen::MatrixXd(2, 2) << 0, 0, 1, 1).finished(),
+                       problem.plant.C);
   const LinearFormResult result = modal_form(problem, solved(problem));
   TEST_ASSERT_TRUE_MESSAGE(result.form.has_value(), result.obstacle.c_str());
   for (Index j = 0; j < 2; ++j) TEST_ASSERT_TRUE(to_double(result.form->C(0, j)) == to_double(result.form->C(1, j)));
@@ -175,7 +178,8 @@ Problem with_controller_poles(double p, double d) {
   const double l1 = ((F(0, 0) - l0) * F(1, 1) - (p * p - d * d)) / F(0, 1) - F(1, 0);
   const Eigen::Vector2d L(l0, -l1);
   const Eigen::Matrix2d left = A - L * Eigen::RowVector2d(1, 0);
-  const std::complex<double> root = std::sqrt(std::complex<double>(left.trace() * left.trace() / 4 - left.determinant()));
+  const std::complex<double> root =
+      std::sqrt(std::complex<double>(left.trace() * left.trace() / 4 - left.determinant()));
   const std::complex<double> middle(left.trace() / 2, 0);
   problem.estimator->W.resize(0, 0), problem.estimator->V.resize(0, 0), problem.estimator->Swv.resize(0, 0);
   problem.estimator->form = Form::predictor;
@@ -191,9 +195,11 @@ void test_poles_that_meet_are_refused_with_their_condition() {
   problem.code.real = Scalar::float32;
   const LinearFormResult refused = modal_form(problem, solution);
   TEST_ASSERT_FALSE(refused.form.has_value());
-  TEST_ASSERT_TRUE_MESSAGE(refused.obstacle.find("poles of the controller are so near each other that their modes cancel") == 0,
+  TEST_ASSERT_TRUE_MESSAGE(
+      refused.obstacle.find("poles of the controller are so near each other that their modes cancel") == 0,
+      refused.obstacle.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(refused.obstacle.find("in float at most 2896.31 will do") != std::string::npos,
                            refused.obstacle.c_str());
-  TEST_ASSERT_TRUE_MESSAGE(refused.obstacle.find("in float at most 2896.31 will do") != std::string::npos, refused.obstacle.c_str());
   TEST_ASSERT_TRUE(folded_form(problem, solution).form.has_value());
 }
 

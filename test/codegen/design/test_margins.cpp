@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The margins do what they promise: at them the loop oscillates, inside of them it is stable.
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -58,11 +59,9 @@ double rounding(double disk) { return 1e-8 + 1e-14 / disk; }
 void expect_gain_margin(const Loop& loop, double dB, double tolerance) {
   double worst = 0;
   for (Index i = 0; i < loop.B.cols(); ++i) {
-    for (const double sign : {-1.0, 1.0})
-      worst = std::max(worst, radius(loop, i, std::pow(10, sign * dB / 20)));
+    for (const double sign : {-1.0, 1.0}) worst = std::max(worst, radius(loop, i, std::pow(10, sign * dB / 20)));
     for (int k = -9; k <= 9; ++k)
-      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + tolerance,
-                               "unstable inside");
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::pow(10, 0.1 * k * dB / 20)) < 1 + tolerance, "unstable inside");
   }
   TEST_ASSERT_DOUBLE_WITHIN(tolerance, 1, worst);
 }
@@ -73,8 +72,7 @@ void expect_phase_margin(const Loop& loop, double degrees, double tolerance) {
   for (Index i = 0; i < loop.B.cols(); ++i) {
     worst = std::max(worst, radius(loop, i, std::polar(1.0, angle)));
     for (int k = 0; k <= 9; ++k)
-      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + tolerance,
-                               "unstable inside");
+      TEST_ASSERT_TRUE_MESSAGE(radius(loop, i, std::polar(1.0, 0.1 * k * angle)) < 1 + tolerance, "unstable inside");
   }
   TEST_ASSERT_DOUBLE_WITHIN(tolerance, 1, worst);
 }
@@ -151,8 +149,7 @@ void expect_closed_poles(const OpenLoop& loop, const Poles& poles) {
     expect_small(away(*nearest), 1e-10, "the distance to a pole");
     left.erase(nearest);
   }
-  for (const ComplexReal& kept : left)
-    expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
+  for (const ComplexReal& kept : left) expect_small(hypot(kept.re, kept.im), 1e-10, "the pole of a kept input");
 }
 
 // The loop's own poles must be those of the design, with D too: the controller knows what D u adds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Poles go where they are wanted, to all digits, by one input or several, by duality for the observer; what cannot
 // be placed is refused for its reason.
 #include <Eigen/Eigenvalues>

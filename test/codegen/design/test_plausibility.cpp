@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Designs that are formally right and of little use: each has a note at the key to look at, and designs that are as they
 // should be have none.
 #include <cmath>
@@ -62,9 +63,7 @@ void test_continuous_plant_that_is_declared_discrete() {
   expect_note(problem, "lqr", "gain margin");
 }
 
-void test_second_that_is_typed_for_a_millisecond() {
-  expect_note(servo(1), "lqr", "one sample later");
-}
+void test_second_that_is_typed_for_a_millisecond() { expect_note(servo(1), "lqr", "one sample later"); }
 
 void test_fast_oscillation_between_the_samples() {
   Problem problem = problem_of(Domain::continuous, 0.1, (MatrixXd(2, 2) << 0, 1, -1e4, -0.1).finished(),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers that other systems print in the examples of their manuals, in the digits that stand there.
 #include <cmath>
 
@@ -41,7 +42,7 @@ void test_kalman_of_matlab() {
 // Altair Compose, reference page `dlqr`.
 void test_dlqr_of_compose() {
   Problem problem = weighed(Domain::discrete, Cost::discrete, (MatrixXd(2, 2) << 9, 0.2, 0, 8).finished(),
-                                    (MatrixXd(2, 1) << 0, 1).finished(), MatrixXd::Zero(0, 2));
+                            (MatrixXd(2, 1) << 0, 1).finished(), MatrixXd::Zero(0, 2));
   problem.regulator->Q = (MatrixXd(2, 2) << 2, 1, 1, 2).finished();
   const Solution found = solved(problem);
   expect_printed((MatrixXd(1, 2) << 394.61003, 16.76761).finished(), 5, found.regulator->K);
@@ -52,13 +53,14 @@ void test_dlqr_of_compose() {
 // MATLAB, reference page `lqr`: pendulum on a cart.
 void test_lqr_of_matlab() {
   const MatrixXd A = (MatrixXd(4, 4) << 0, 1, 0, 0, 0, -0.1, 3, 0, 0, 0, 0, 1, 0, -0.5, 30, 0).finished();
-  Problem problem = weighed(Domain::continuous, Cost::continuous, A, (MatrixXd(4, 1) << 0, 2, 0, 5).finished(),
-                                    MatrixXd::Zero(0, 4));
+  Problem problem =
+      weighed(Domain::continuous, Cost::continuous, A, (MatrixXd(4, 1) << 0, 2, 0, 5).finished(), MatrixXd::Zero(0, 4));
   problem.regulator->Q = Eigen::Vector4d(1, 0, 1, 0).asDiagonal();
   const Solution found = solved(problem);
   expect_printed((MatrixXd(1, 4) << -1.0000, -1.7559, 16.9145, 3.2274).finished(), 4, found.regulator->K);
   const MatrixXd X = (MatrixXd(4, 4) << 1.5346, 1.2127, -3.2274, -0.6851, 1.2127, 1.5321, -4.5626, -0.9640, -3.2274,
-                      -4.5626, 26.5487, 5.2079, -0.6851, -0.9640, 5.2079, 1.0311).finished();
+                      -4.5626, 26.5487, 5.2079, -0.6851, -0.9640, 5.2079, 1.0311)
+                         .finished();
   expect_printed(X, 4, found.regulator->X);
 }
 
@@ -66,9 +68,8 @@ void test_lqr_of_matlab() {
 // lqry and Q_output weigh it.
 void test_lqry_of_the_tutorials() {
   const MatrixXd A = (MatrixXd(3, 3) << -0.313, 56.7, 0, -0.0139, -0.426, 0, 0, 56.7, 0).finished();
-  Problem problem = weighed(Domain::continuous, Cost::continuous, A,
-                                    (MatrixXd(3, 1) << 0.232, 0.0203, 0).finished(),
-                                    (MatrixXd(1, 3) << 0, 0, 1).finished());
+  Problem problem = weighed(Domain::continuous, Cost::continuous, A, (MatrixXd(3, 1) << 0.232, 0.0203, 0).finished(),
+                            (MatrixXd(1, 3) << 0, 0, 1).finished());
   problem.regulator->Q.resize(0, 0);
   problem.regulator->Q_output = MatrixXd::Constant(1, 1, 2);
   expect_printed((MatrixXd(1, 3) << -0.5034, 52.8645, 1.4142).finished(), 4, solved(problem).regulator->K);

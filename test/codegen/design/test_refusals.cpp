@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Impossible designs: each is refused for its reason, under its key, with the mode and the states that take
 // part.
 #include <cmath>
@@ -46,12 +47,12 @@ void test_unstable_mode_that_no_input_reaches() {
 }
 
 void test_stable_mode_that_no_input_reaches_is_no_reason() {
-  solved(regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(),
-                         Eigen::Vector2d(1, 0)));
+  solved(regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(), Eigen::Vector2d(1, 0)));
 }
 
 void test_stable_mode_that_no_input_makes_as_fast_as_asked_for() {
-  Problem problem = regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(), Eigen::Vector2d(1, 0));
+  Problem problem =
+      regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -0.5).asDiagonal(), Eigen::Vector2d(1, 0));
   problem.regulator->decay = 1.06;
   expect_refusal(problem, "lqr.decay", {"s = -0.5", "state x1", "slower than asked for"});
   problem.regulator->decay.reset();
@@ -68,9 +69,8 @@ void test_undamped_pair_that_no_input_reaches() {
 }
 
 void test_discrete_mode_on_the_circle_that_no_input_reaches() {
-  expect_refusal(
-      regulator_alone(Domain::discrete, 1, Eigen::Vector2d(0.5, -1).asDiagonal(), Eigen::Vector2d(1, 0)),
-      "plant.B", {"z = -1 (state x1)"});
+  expect_refusal(regulator_alone(Domain::discrete, 1, Eigen::Vector2d(0.5, -1).asDiagonal(), Eigen::Vector2d(1, 0)),
+                 "plant.B", {"z = -1 (state x1)"});
 }
 
 // Both integrators of the second chain: one eigenvalue, one line.
@@ -82,8 +82,8 @@ void test_defective_mode_that_no_input_reaches() {
 }
 
 void test_unstable_mode_that_no_output_sees() {
-  expect_refusal(estimator_alone(Domain::continuous, 0.1, unstable_second, Eigen::RowVector2d(1, 0)),
-                 "plant.C", {"s = 0.5", "state x1", "not detectable"});
+  expect_refusal(estimator_alone(Domain::continuous, 0.1, unstable_second, Eigen::RowVector2d(1, 0)), "plant.C",
+                 {"s = 0.5", "state x1", "not detectable"});
 }
 
 void test_position_that_is_not_measured() {
@@ -114,8 +114,7 @@ void test_discrete_oscillation_without_weight() {
 }
 
 void test_unstable_mode_without_weight_is_no_reason() {
-  Problem problem =
-      regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
+  Problem problem = regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
   problem.regulator->Q.setZero();
   TEST_ASSERT_TRUE(solved(problem).regulator->poles[0] == 0.5);
 }
@@ -135,20 +134,17 @@ void test_constant_bias_that_no_noise_drives() {
 
 // Half a turn a sample: both states only change their sign, and one input cannot turn them apart.
 void test_sample_time_that_hides_an_oscillation_from_its_input() {
-  Problem problem =
-      regulator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::Vector2d(0, 1));
+  Problem problem = regulator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::Vector2d(0, 1));
   expect_refusal(problem, "plant.sample_time", {"(z = -1;", "can be stabilised", "sample time"});
 }
 
 void test_sample_time_of_a_whole_turn_hides_an_oscillation_from_every_held_input() {
-  Problem problem =
-      regulator_alone(Domain::continuous, std::acos(-1.0), oscillator, MatrixXd::Identity(2, 2));
+  Problem problem = regulator_alone(Domain::continuous, std::acos(-1.0), oscillator, MatrixXd::Identity(2, 2));
   expect_refusal(problem, "plant.sample_time", {"(z = 1;"});
 }
 
 void test_sample_time_that_hides_an_oscillation_from_the_output() {
-  Problem problem =
-      estimator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::RowVector2d(1, 0));
+  Problem problem = estimator_alone(Domain::continuous, std::acos(-1.0) / 2, oscillator, Eigen::RowVector2d(1, 0));
   expect_refusal(problem, "plant.sample_time", {"(z = -1;", "can be seen"});
 }
 
@@ -174,8 +170,7 @@ void test_continuous_cost_needs_R() {
 }
 
 void test_discrete_plant_has_no_trajectory_between_its_samples() {
-  Problem problem =
-      regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
+  Problem problem = regulator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
   problem.regulator->cost = Cost::sampled;
   expect_refusal(problem, "lqr.cost", {"\"discrete\""});
   problem = estimator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 2), MatrixXd::Identity(1, 1));
@@ -203,8 +198,8 @@ void test_indefinite_weights_and_covariances() {
 
 // x⁺ = x + v + u/2, v⁺ = v + u.
 Problem discrete_integrators(double weight_x, double weight_v) {
-  Problem problem = regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 1, 1, 0, 1).finished(),
-                                    Eigen::Vector2d(0.5, 1));
+  Problem problem =
+      regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 1, 1, 0, 1).finished(), Eigen::Vector2d(0.5, 1));
   problem.regulator->Q = Eigen::Vector2d(weight_x, weight_v).asDiagonal();
   return problem;
 }
@@ -216,8 +211,8 @@ void test_weight_a_rounding_below_zero_on_a_mode_on_the_limit() {
 }
 
 void test_weight_a_rounding_below_zero_on_a_stable_mode_is_no_reason() {
-  Problem problem = regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -2).asDiagonal(),
-                                    Eigen::Vector2d(1, 1));
+  Problem problem =
+      regulator_alone(Domain::continuous, 0.1, Eigen::Vector2d(-1, -2).asDiagonal(), Eigen::Vector2d(1, 1));
   problem.regulator->Q = Eigen::Vector2d(-1e-17, 1).asDiagonal();
   solved(problem);
 }
@@ -230,7 +225,8 @@ void test_integrator_without_weight_under_free_inputs() {
 
 // P0 knows the difference of two growing modes; so it stays.
 void test_schedule_from_a_start_that_leaves_an_unstable_mode_certain() {
-  Problem problem = estimator_alone(Domain::discrete, 1, Eigen::Vector2d(1.5, 1.2).asDiagonal(), Eigen::RowVector2d(1, 1));
+  Problem problem =
+      estimator_alone(Domain::discrete, 1, Eigen::Vector2d(1.5, 1.2).asDiagonal(), Eigen::RowVector2d(1, 1));
   problem.estimator->W.setZero();
   problem.estimator->gain = Gain::schedule;
   problem.estimator->P0 = MatrixXd::Ones(2, 2);
@@ -248,7 +244,8 @@ void test_zero_on_the_circle_under_free_inputs() {
 
 // (x0 − x1)² of x⁺ = [x1; u]: u = x1 keeps it 0 for ever, and x where it is. The pole at 1 is one as a double with few digits.
 void test_pole_that_tends_to_exactly_one() {
-  Problem problem = regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 0, 1, 0, 0).finished(), Eigen::Vector2d(0, 1));
+  Problem problem =
+      regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 0, 1, 0, 0).finished(), Eigen::Vector2d(0, 1));
   problem.regulator->Q = (MatrixXd(2, 2) << 1, -1, -1, 1).finished();
   problem.regulator->R.setZero();
   expect_refusal(problem, "lqr.Q", {"tends to z = 1 ", "no stabilising gain is optimal"});
@@ -293,8 +290,7 @@ void test_weight_of_typed_digits_passes_when_they_are_many() {
 }
 
 void expect_overflow(double rate, lqg::design::Scalar real, const char* part) {
-  Problem problem =
-      regulator_alone(Domain::continuous, 1, MatrixXd::Constant(1, 1, rate), MatrixXd::Identity(1, 1));
+  Problem problem = regulator_alone(Domain::continuous, 1, MatrixXd::Constant(1, 1, rate), MatrixXd::Identity(1, 1));
   problem.code.real = real;
   Findings findings;
   TEST_ASSERT_FALSE(solve(problem, findings).has_value());
@@ -308,8 +304,7 @@ void test_sampled_plant_too_large_for_the_target() {
 }
 
 void test_variance_too_small_for_float() {
-  Problem problem =
-      estimator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 1), MatrixXd::Identity(1, 1));
+  Problem problem = estimator_alone(Domain::discrete, 1, MatrixXd::Constant(1, 1, 1), MatrixXd::Identity(1, 1));
   problem.estimator->V *= 1e-60;
   problem.estimator->gain = Gain::online;
   problem.code.real = lqg::design::Scalar::float32;

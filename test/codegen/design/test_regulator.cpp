@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The regulator of whole problems: gains with a closed form, all three kinds of cost, cross terms.
 #include <unity.h>
 
@@ -96,8 +97,7 @@ void test_X_is_the_cost_from_the_start() {
     const Solution found = solved(problem);
     const Digits scope(100);
     const RegulatorSolution& lqr = *found.regulator;
-    const RealMatrix closed = found.plant.A - multiply(found.plant.B, lqr.K),
-                     NK = multiply(lqr.cost.N, lqr.K);
+    const RealMatrix closed = found.plant.A - multiply(found.plant.B, lqr.K), NK = multiply(lqr.cost.N, lqr.K);
     const RealMatrix step = lqr.cost.Q - NK - NK.transpose() + transpose_congruence(lqr.K, lqr.cost.R);
     expect_small(distance(*solve_stein(closed, step), lqr.X), 1e-40, "the difference of the costs");
   }
@@ -105,8 +105,8 @@ void test_X_is_the_cost_from_the_start() {
 
 // A diagonal plant of two equal halves: what does not belong together has gains of exactly zero.
 void test_decoupled_halves_have_exact_zeros() {
-  Problem problem = problem_of(Domain::continuous, 0.5, -0.3 * MatrixXd::Identity(2, 2),
-                               MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2));
+  Problem problem = problem_of(Domain::continuous, 0.5, -0.3 * MatrixXd::Identity(2, 2), MatrixXd::Identity(2, 2),
+                               MatrixXd::Identity(2, 2));
   const double c = 0.6, s = 0.8;
   const MatrixXd turn = (MatrixXd(2, 2) << c, -s, s, c).finished();
   problem.plant.B = turn;
@@ -131,14 +131,16 @@ void test_poles_are_sorted_and_in_conjugate_pairs() {
 
 void expect_row(std::initializer_list<double> expected, const RealMatrix& found) {
   Index i = 0;
-  for (const double entry : expected) TEST_ASSERT_DOUBLE_WITHIN(1e-8 * std::abs(entry), entry, to_double(found(0, i++)));
+  for (const double entry : expected)
+    TEST_ASSERT_DOUBLE_WITHIN(1e-8 * std::abs(entry), entry, to_double(found(0, i++)));
   TEST_ASSERT_EQUAL(i, found.cols());
 }
 
 // Computed with numpy 2.4 and scipy 1.17, from c2d to the third pass: a Maxon RE25 at 1 kHz that turns to an angle.
 void test_share_of_the_state_in_the_integral_of_a_servo() {
-  Problem problem = regulator_alone(problem_of(Domain::continuous, 0.001, (MatrixXd(2, 2) << 0, 1, 0, -47.37).finished(),
-                                               Eigen::Vector2d(0, 2017), (MatrixXd(1, 2) << 1, 0).finished()));
+  Problem problem =
+      regulator_alone(problem_of(Domain::continuous, 0.001, (MatrixXd(2, 2) << 0, 1, 0, -47.37).finished(),
+                                 Eigen::Vector2d(0, 2017), (MatrixXd(1, 2) << 1, 0).finished()));
   problem.regulator->Q = Eigen::Vector2d(1 / (0.05 * 0.05), 1 / (50.0 * 50.0)).asDiagonal();
   problem.regulator->R = MatrixXd::Constant(1, 1, 1 / (20.0 * 20.0));
   problem.regulator->integral = Integral{{0}, MatrixXd::Constant(1, 1, 1e3)};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the design file requires of the loop, and what the target's numbers make of it.
 #include <cmath>
 #include <string>

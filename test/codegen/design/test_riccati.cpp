@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Riccati equations: what is returned solves the equation and stabilises, on the kinds of problems that catch
 // solvers.
 #include <unity.h>
@@ -35,8 +36,7 @@ RiccatiEquation random_equation(std::uint64_t seed, double size_of_A) {
 
 Real spectral_radius(const RealMatrix& A) {
   Real largest;
-  for (const ComplexReal& value : eigenvalues(A))
-    largest = std::max<Real>(largest, hypot(value.re, value.im));
+  for (const ComplexReal& value : eigenvalues(A)) largest = std::max<Real>(largest, hypot(value.re, value.im));
   return largest;
 }
 
@@ -51,8 +51,7 @@ void expect_solution(const RiccatiEquation& e, const RiccatiResult& found) {
   expect_small(distance(multiply(weight, found.K), AXB.transpose()), rounding, "the gain's residual");
   TEST_ASSERT_TRUE_MESSAGE(is_zero(X - X.transpose()), "X is not symmetric");
   TEST_ASSERT_TRUE_MESSAGE(least_scaled_eigenvalue(X) > -rounding, "X is not semidefinite");
-  TEST_ASSERT_TRUE_MESSAGE(spectral_radius(e.A - multiply(e.B, found.K)) < 1,
-                           "the closed loop is not stable");
+  TEST_ASSERT_TRUE_MESSAGE(spectral_radius(e.A - multiply(e.B, found.K)) < 1, "the closed loop is not stable");
   TEST_ASSERT_TRUE(found.condition >= 1);
 }
 
@@ -145,8 +144,7 @@ void test_closed_loop_pole_next_to_the_circle() {
 void test_R_of_zero_where_the_next_state_has_weight() {
   const Digits scope(50);
   const MatrixXd A = (MatrixXd(2, 2) << 1, 1, 0, 1).finished();
-  const RiccatiEquation e =
-      equation_of(A, Eigen::Vector2d(0, 1), MatrixXd::Identity(2, 2), MatrixXd::Zero(1, 1));
+  const RiccatiEquation e = equation_of(A, Eigen::Vector2d(0, 1), MatrixXd::Identity(2, 2), MatrixXd::Zero(1, 1));
   check(e);
 }
 
@@ -156,8 +154,8 @@ void test_first_example_of_the_discrete_collection() {
   const Digits scope(50);
   const MatrixXd A = (MatrixXd(2, 2) << 4, 3, -4.5, -3.5).finished();
   const MatrixXd Q = (MatrixXd(2, 2) << 9, 6, 6, 4).finished();
-  const RiccatiResult found = solve_discrete_riccati(
-      equation_of(A, Eigen::Vector2d(1, -1), Q, MatrixXd::Identity(1, 1)), RealMatrix());
+  const RiccatiResult found =
+      solve_discrete_riccati(equation_of(A, Eigen::Vector2d(1, -1), Q, MatrixXd::Identity(1, 1)), RealMatrix());
   expect_small(distance(found.X, real(Q) * ((1 + sqrt(Real(5))) / 2)), rounding, "the error of X");
 }
 
@@ -171,13 +169,12 @@ void check_continuous(const RiccatiEquation& e, const RealMatrix& exact_X) {
 void test_first_examples_of_the_continuous_collection() {
   const Digits scope(50);
   const MatrixXd integrators = (MatrixXd(2, 2) << 0, 1, 0, 0).finished();
-  check_continuous(equation_of(integrators, Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 2).asDiagonal(),
-                               MatrixXd::Identity(1, 1)),
-                   real((MatrixXd(2, 2) << 2, 1, 1, 2).finished()));
+  check_continuous(
+      equation_of(integrators, Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 2).asDiagonal(), MatrixXd::Identity(1, 1)),
+      real((MatrixXd(2, 2) << 2, 1, 1, 2).finished()));
   const MatrixXd A = (MatrixXd(2, 2) << 4, 3, -4.5, -3.5).finished();
   const MatrixXd Q = (MatrixXd(2, 2) << 9, 6, 6, 4).finished();
-  check_continuous(equation_of(A, Eigen::Vector2d(1, -1), Q, MatrixXd::Identity(1, 1)),
-                   real(Q) * (1 + sqrt(Real(2))));
+  check_continuous(equation_of(A, Eigen::Vector2d(1, -1), Q, MatrixXd::Identity(1, 1)), real(Q) * (1 + sqrt(Real(2))));
 }
 
 void test_continuous_unstable_mode_without_weight() {
@@ -208,8 +205,7 @@ void test_start_with_fewer_digits_is_taken_to_all_digits() {
   }
   const Digits scope(100);
   const RiccatiEquation e = random_equation(12, 2);
-  const RiccatiResult fine = solve_discrete_riccati(e, coarse.X),
-                      cold = solve_discrete_riccati(e, RealMatrix());
+  const RiccatiResult fine = solve_discrete_riccati(e, coarse.X), cold = solve_discrete_riccati(e, RealMatrix());
   expect_small(distance(fine.X, cold.X), 1e-85, "the difference of X");
 }
 
@@ -229,8 +225,7 @@ void test_undamped_mode_is_told_from_one_unstable_in_the_last_bit() {
 void test_undamped_mode_without_weight_has_no_solution() {
   const Digits scope(50);
   const MatrixXd A = (MatrixXd(2, 2) << 0, 1, -1, 0).finished();
-  const RiccatiEquation e =
-      equation_of(A, Eigen::Vector2d(0, 1), MatrixXd::Zero(2, 2), MatrixXd::Identity(1, 1));
+  const RiccatiEquation e = equation_of(A, Eigen::Vector2d(0, 1), MatrixXd::Zero(2, 2), MatrixXd::Identity(1, 1));
   TEST_ASSERT_FALSE(solve_discrete_riccati(e, RealMatrix()).failure == RiccatiFailure::none);
 }
 
@@ -243,8 +238,8 @@ void test_mode_that_no_input_reaches_has_no_solution() {
 
 void test_input_without_weight_and_effect_is_named() {
   const Digits scope(50);
-  RiccatiEquation e = equation_of(MatrixXd::Constant(1, 1, 0.5), Eigen::RowVector2d(1, 0),
-                                  MatrixXd::Identity(1, 1), MatrixXd::Identity(2, 2));
+  RiccatiEquation e = equation_of(MatrixXd::Constant(1, 1, 0.5), Eigen::RowVector2d(1, 0), MatrixXd::Identity(1, 1),
+                                  MatrixXd::Identity(2, 2));
   e.R(1, 1) = 0;
   const RiccatiFailure failure = solve_discrete_riccati(e, RealMatrix()).failure;
   TEST_ASSERT_TRUE(failure == RiccatiFailure::not_definite);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sampled plants, costs and noises against closed forms, to the last bit, and against numerical integration.
 #include <unity.h>
 
@@ -60,8 +61,7 @@ void test_double_integrator_with_a_period_of_a_thousand_seconds() { check_double
 void test_harmonic_oscillator_has_its_closed_form() {
   const double frequency = 3, T = 0.4;
   const Eigen::MatrixXd A = (Eigen::MatrixXd(2, 2) << 0, 1, -frequency * frequency, 0).finished();
-  const Solution found =
-      solved(problem_of(Domain::continuous, T, A, Eigen::Vector2d(0, 1), Eigen::RowVector2d(1, 0)));
+  const Solution found = solved(problem_of(Domain::continuous, T, A, Eigen::Vector2d(0, 1), Eigen::RowVector2d(1, 0)));
   const Digits scope(digits);
   const Real w = frequency, c = cos(w * T), s = sin(w * T);
   expect_rounded(matrix(2, 2, {c, s / w, -w * s, c}), found.plant.A, "A");
@@ -77,8 +77,7 @@ void check_stiff_pair(double sample_time) {
   const Digits scope(digits);
   const Real s = slow_rate, f = fast_rate, T = sample_time, slow = exp(s * T), fast = exp(f * T);
   expect_rounded(matrix(2, 2, {slow, (slow - fast) / (s - f), 0, fast}), found.plant.A, "A");
-  expect_rounded(matrix(2, 1, {((slow - 1) / s - (fast - 1) / f) / (s - f), (fast - 1) / f}), found.plant.B,
-                 "B");
+  expect_rounded(matrix(2, 1, {((slow - 1) / s - (fast - 1) / f) / (s - f), (fast - 1) / f}), found.plant.B, "B");
 }
 
 void test_stiff_plant_whose_fast_mode_has_died_out() { check_stiff_pair(1); }
@@ -88,8 +87,7 @@ void test_stiff_plant_sampled_within_its_fast_mode() { check_stiff_pair(1e-7); }
 // Mode −700 leaves 1e-304: far below the digits beside the other entries, and still a double.
 void test_tiny_entry_beside_large_ones_keeps_all_its_digits() {
   const Eigen::MatrixXd A = Eigen::Vector2d(-700, 1).asDiagonal();
-  const Solution found =
-      solved(problem_of(Domain::continuous, 1, A, Eigen::Vector2d(1, 1), Eigen::RowVector2d(1, 1)));
+  const Solution found = solved(problem_of(Domain::continuous, 1, A, Eigen::Vector2d(1, 1), Eigen::RowVector2d(1, 1)));
   const Digits scope(digits);
   expect_rounded(matrix(2, 2, {exp(Real(-700)), 0, 0, exp(Real(1))}), found.plant.A, "A");
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gains that change from step to step: finite horizons, stages, the transient of a filter; and the set point of r.
 #include <cmath>
 
@@ -45,8 +46,8 @@ Real cost_of_gains(const std::vector<SampledStage>& stages, const std::vector<Re
     const SampledStage& stage = stage_at(stages, static_cast<int>(k));
     const RiccatiEquation e = regulator_equation(stage.problem, stage.samples);
     const RealMatrix v = -multiply(gains[k], z);
-    cost += trace_of_product(z.transpose(), multiply(e.Q, z)) + trace_of_product(v.transpose(), multiply(e.R, v))
-            + 2 * trace_of_product(z.transpose(), multiply(e.N, v));
+    cost += trace_of_product(z.transpose(), multiply(e.Q, z)) + trace_of_product(v.transpose(), multiply(e.R, v)) +
+            2 * trace_of_product(z.transpose(), multiply(e.N, v));
     z = multiply(e.A, z) + multiply(e.B, v);
   }
   return cost + trace_of_product(z.transpose(), multiply(X_end, z));
@@ -115,8 +116,8 @@ void test_continuous_gains_of_an_integrator_are_hyperbolic_tangents() {
   const Solution found = solved(problem);
   const Digits scope(60);
   for (int k = 0; k < 6; ++k)
-    TEST_ASSERT_TRUE(to_double(found.regulator->K_schedule[static_cast<std::size_t>(k)](0, 0))
-                     == to_double(tanh(Real(0.25) * (6 - k))));
+    TEST_ASSERT_TRUE(to_double(found.regulator->K_schedule[static_cast<std::size_t>(k)](0, 0)) ==
+                     to_double(tanh(Real(0.25) * (6 - k))));
 }
 
 // One long period is many short ones; an unstable fast mode overflows nothing.
@@ -219,8 +220,8 @@ void test_scheduled_gains_of_a_constant_average_what_was_seen() {
   const Digits scope(60);
   TEST_ASSERT_EQUAL(20, found.estimator->L_schedule.size());
   for (int k = 0; k < 20; ++k)
-    TEST_ASSERT_TRUE(to_double(found.estimator->L_schedule[static_cast<std::size_t>(k)](0, 0))
-                     == to_double(1 / (k + 1 + Real(3) / 7)));
+    TEST_ASSERT_TRUE(to_double(found.estimator->L_schedule[static_cast<std::size_t>(k)](0, 0)) ==
+                     to_double(1 / (k + 1 + Real(3) / 7)));
   expect_rounded(found.estimator->L_schedule.back(), found.estimator->L, "L");
 }
 
@@ -261,8 +262,8 @@ void test_schedule_ends_where_the_gains_round_to_the_steady_ones() {
     bool differs = false;
     for (Index i = 0; i < table.back().size(); ++i) {
       const Real &a = table.back().data()[i], &b = found.estimator->L.data()[i];
-      differs = differs
-                || (real == lqg::design::Scalar::float32 ? to_float(a) != to_float(b) : to_double(a) != to_double(b));
+      differs =
+          differs || (real == lqg::design::Scalar::float32 ? to_float(a) != to_float(b) : to_double(a) != to_double(b));
     }
     TEST_ASSERT_TRUE(differs);
     problem.estimator->horizon = static_cast<int>(table.size()) + 1;
@@ -389,8 +390,9 @@ void test_tracked_outputs_come_to_rest_at_r() {
     for (Index j = 0; integrals > 0 && j < push.cols(); ++j)
       if (outputs[static_cast<std::size_t>(j)] == 1) push(states, j) += Real(problem.plant.sample_time);
     const RealMatrix at_rest = *solve(identity(nz) - plant.A + multiply(plant.B, lqr.K), push);
-    const RealMatrix u = seed % 5 == 0 ? RealMatrix(at_rest.bottomRows(2))
-                                       : RealMatrix(multiply(lqr.Nbar, identity(push.cols())) - multiply(lqr.K, at_rest));
+    const RealMatrix u = seed % 5 == 0
+                             ? RealMatrix(at_rest.bottomRows(2))
+                             : RealMatrix(multiply(lqr.Nbar, identity(push.cols())) - multiply(lqr.K, at_rest));
     const RealMatrix y = multiply(found.plant.C, at_rest.topRows(states)) + multiply(found.plant.D, u);
     for (const int output : problem.regulator->track)
       for (Index j = 0; j < y.cols(); ++j)
@@ -410,8 +412,7 @@ void test_set_point_that_needs_no_input_has_an_exact_zero() {
 // Two inputs that do the same: the one that costs a quarter does four fifths.
 void test_set_point_of_many_takes_the_least_input() {
   const MatrixXd one = MatrixXd::Constant(1, 1, 1);
-  Problem problem = regulator_alone(
-      problem_of(Domain::discrete, 1, 0.5 * one, MatrixXd::Constant(1, 2, 1), one));
+  Problem problem = regulator_alone(problem_of(Domain::discrete, 1, 0.5 * one, MatrixXd::Constant(1, 2, 1), one));
   problem.regulator->R = Eigen::Vector2d(1, 4).asDiagonal();
   problem.regulator->track = {0};
   const Solution found = solved(problem);
@@ -438,9 +439,9 @@ void test_set_point_takes_the_least_input_by_the_R_of_the_file() {
 
 // x and the sum of both states, of which the second has no input.
 void test_tracked_outputs_that_one_input_moves_together_are_refused() {
-  Problem problem = regulator_alone(problem_of(Domain::discrete, 1, Eigen::Vector2d(0.5, 0.25).asDiagonal(),
-                                               (MatrixXd(2, 2) << 1, 2, 0, 0).finished(),
-                                               (MatrixXd(2, 2) << 1, 0, 1, 1).finished()));
+  Problem problem =
+      regulator_alone(problem_of(Domain::discrete, 1, Eigen::Vector2d(0.5, 0.25).asDiagonal(),
+                                 (MatrixXd(2, 2) << 1, 2, 0, 0).finished(), (MatrixXd(2, 2) << 1, 0, 1, 1).finished()));
   problem.regulator->track = {0, 1};
   TEST_ASSERT_TRUE(is_refused(problem, "lqr.track", "the inputs do not move these outputs independently"));
 }

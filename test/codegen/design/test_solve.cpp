@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whole designs: numbers from an independent source to the last bit, digits as the problem wants them, the
 // same every time.
 #include <chrono>
@@ -20,8 +21,7 @@ namespace {
 void test_two_mass_agrees_with_an_independent_solver_to_the_last_bit() {
   const Solution found = solved(two_mass());
   const MatrixXd K =
-      (MatrixXd(1, 4) << 2.4226156789566144, 2.1417978292566491, -0.33327203942904532, 1.9239638074097958)
-          .finished();
+      (MatrixXd(1, 4) << 2.4226156789566144, 2.1417978292566491, -0.33327203942904532, 1.9239638074097958).finished();
   const MatrixXd L = (MatrixXd(4, 2) << 0.7008787708470462, 0.0350096186852598,  //
                       0.83040338046772444, -0.10583810842648636,                 //
                       0.0350096186852598, 0.2635524708484982,                    //
@@ -51,8 +51,7 @@ void test_same_problem_has_the_same_numbers_whatever_digits_are_in_force() {
   const Digits scope(17);
   const Solution second = solved(random_problem(5));
   TEST_ASSERT_EQUAL(17, Real::default_precision());
-  TEST_ASSERT_TRUE(same(first.regulator->X, second.regulator->X)
-                   && same(first.estimator->L, second.estimator->L));
+  TEST_ASSERT_TRUE(same(first.regulator->X, second.regulator->X) && same(first.estimator->L, second.estimator->L));
   TEST_ASSERT_TRUE(*first.loop.at_input.phase_deg == *second.loop.at_input.phase_deg);
   TEST_ASSERT_TRUE(*first.loop.at_input.disk == *second.loop.at_input.disk);
 }
@@ -134,8 +133,8 @@ void test_estimator_alone_and_regulator_alone() {
 
 // No input at all, and with discrete states nothing to sample.
 void test_estimator_of_a_plant_without_inputs() {
-  Problem problem = problem_of(Domain::discrete, 1, MatrixXd::Constant(1, 1, 1), MatrixXd::Zero(1, 0),
-                               MatrixXd::Identity(1, 1));
+  Problem problem =
+      problem_of(Domain::discrete, 1, MatrixXd::Constant(1, 1, 1), MatrixXd::Zero(1, 0), MatrixXd::Identity(1, 1));
   problem.regulator.reset();
   problem.estimator->gain = Gain::online;
   const Solution found = solved(problem);
@@ -144,8 +143,8 @@ void test_estimator_of_a_plant_without_inputs() {
 }
 
 void test_regulator_of_a_continuous_plant_without_outputs() {
-  Problem problem = problem_of(Domain::continuous, 0.1, MatrixXd::Constant(1, 1, 1), MatrixXd::Identity(1, 1),
-                               MatrixXd::Zero(0, 1));
+  Problem problem =
+      problem_of(Domain::continuous, 0.1, MatrixXd::Constant(1, 1, 1), MatrixXd::Identity(1, 1), MatrixXd::Zero(0, 1));
   problem.estimator.reset();
   TEST_ASSERT_EQUAL(0, solved(problem).plant.C.rows());
 }

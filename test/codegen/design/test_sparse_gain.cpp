@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gains with some entries kept at zero: a minimum over the entries that are left, found from unstable starts, too.
 #include <cmath>
 
@@ -59,8 +60,7 @@ void test_random_structures_end_in_a_minimum() {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
     const Index nx = 2 + static_cast<Index>(seed % 4), nu = 1 + static_cast<Index>(seed % 2);
-    const StructureProblem problem = {random_equation(random, nx, nu), identity(nx),
-                                      random_structure(random, nu, nx)};
+    const StructureProblem problem = {random_equation(random, nx, nu), identity(nx), random_structure(random, nu, nx)};
     const StructuredGain gain = structured_gain(problem, full_gain(problem), RealMatrix());
     if (gain.failure != StructureFailure::none) continue;
     ++found;
@@ -85,8 +85,7 @@ void test_decoupled_plants_lose_nothing() {
   MatrixXd A(2, 2), kept(2, 2);
   A << 1.2, 0, 0, 0.9;
   kept << 1, 0, 0, 1;
-  const StructureProblem problem = {
-      {real(A), identity(2), identity(2), identity(2), zeros(2, 2)}, identity(2), kept};
+  const StructureProblem problem = {{real(A), identity(2), identity(2), identity(2), zeros(2, 2)}, identity(2), kept};
   expect_small(distance(structured_gain(problem, full_gain(problem), RealMatrix()).K, full_gain(problem)), 1e-40,
                "the difference");
 }
@@ -97,8 +96,8 @@ void test_start_that_does_not_stabilise_is_led_to_one_that_does() {
   MatrixXd A(2, 2), kept(1, 2);
   A << 1.2, 1, 0, 0.5;
   kept << 1, 0;
-  const StructureProblem problem = {{real(A), real(Eigen::Vector2d(0, 1)), 100 * identity(2), identity(1), zeros(2, 1)},
-                                    identity(2), kept};
+  const StructureProblem problem = {
+      {real(A), real(Eigen::Vector2d(0, 1)), 100 * identity(2), identity(1), zeros(2, 1)}, identity(2), kept};
   const RealMatrix full = full_gain(problem);
   RealMatrix truncated = full;
   truncated(0, 1) = 0;
@@ -115,8 +114,7 @@ void test_unstable_mode_that_the_structure_cannot_move_is_named() {
   MatrixXd A(2, 2), kept(2, 2);
   A << 0.5, 0, 0, 1.5;
   kept << 1, 0, 1, 0;
-  const StructureProblem problem = {
-      {real(A), identity(2), identity(2), identity(2), zeros(2, 2)}, identity(2), kept};
+  const StructureProblem problem = {{real(A), identity(2), identity(2), identity(2), zeros(2, 2)}, identity(2), kept};
   TEST_ASSERT_TRUE(structured_gain(problem, full_gain(problem), RealMatrix()).failure == StructureFailure::no_start);
   const std::vector<ComplexReal> fixed = fixed_unstable_modes(problem);
   TEST_ASSERT_EQUAL(1, fixed.size());
@@ -144,8 +142,8 @@ void expect_covariance_of_gain(const Solution& found) {
   const SampledPlant& plant = found.plant;
   const EstimatorSolution& filter = *found.estimator;
   const RealMatrix told = multiply_transpose(multiply(plant.G, filter.noise.Swv), filter.L_predictor);
-  const RealMatrix drive = congruence(plant.G, filter.noise.W) + congruence(filter.L_predictor, filter.noise.V)
-                           - told - told.transpose();
+  const RealMatrix drive =
+      congruence(plant.G, filter.noise.W) + congruence(filter.L_predictor, filter.noise.V) - told - told.transpose();
   const RealMatrix closed = plant.A - multiply(filter.L_predictor, plant.C);
   const std::optional<RealMatrix> P = solve_stein(closed.transpose(), drive);
   TEST_ASSERT_TRUE_MESSAGE(P.has_value(), "the filter is not stable");

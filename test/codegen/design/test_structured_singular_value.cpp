@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The structured singular value against what it is by definition.
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ziv's test: what it lets pass, what it makes exact, and what it holds back.
 #include <cmath>
 #include <limits>
@@ -144,8 +145,7 @@ void test_poles_are_compared_with_their_nearest() {
   const Digits scope(100);
   const Real e = power_of_ten(-30);
   std::vector<ComplexReal> fine = {{Real(0.5), Real(0.25)}, {Real(0.5), Real(-0.25)}, {Real(0.75), Real(0)}};
-  const std::vector<ComplexReal> coarse = {
-      {0.75 + e, Real(0)}, {0.5 - e, 0.25 + e}, {Real(0.5), Real(-0.25)}};
+  const std::vector<ComplexReal> coarse = {{0.75 + e, Real(0)}, {0.5 - e, 0.25 + e}, {Real(0.5), Real(-0.25)}};
   TEST_ASSERT_TRUE(passes_ziv_test(coarse, fine));
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "design/solve.hpp"
 #include "emit/plan/plan.hpp"
 #include "design_text.hpp"
@@ -77,8 +78,10 @@ void add_estimator(Random& random, int nx, int ny, bool is_discrete, DesignText&
   const MatrixXd joint = 0.01 * random_weight(random, nw + ny);
   design.W = joint.topLeftCorner(nw, nw);
   design.V = joint.bottomRightCorner(ny, ny);
-  if (random.one_in(2)) design.V = MatrixXd(design.V.diagonal().asDiagonal());
-  else if (random.one_in(2)) design.Swv = joint.topRightCorner(nw, ny);
+  if (random.one_in(2))
+    design.V = MatrixXd(design.V.diagonal().asDiagonal());
+  else if (random.one_in(2))
+    design.Swv = joint.topRightCorner(nw, ny);
   if (!is_discrete && random.one_in(2)) design.noise = "discrete";
   design.gain = random.one_in(3) ? "steady" : "online";
   design.form = random.one_in(2) ? "filter" : "predictor";
@@ -101,12 +104,14 @@ void add_regulator(Random& random, int nx, int nu, bool is_discrete, DesignText&
 }  // namespace
 
 std::string toml(const DesignText& design) {
-  std::string out = word("name", design.name) + word("brief", design.brief) + "[plant]\n" + word("domain", design.domain) +
-                    "sample_time = " + number(design.sample_time) + "\n" + matrix("A", design.A) + matrix("B", design.B) +
-                    matrix("C", design.C) + matrix("D", design.D) + matrix("G", design.G) + names("states", design.states) +
-                    names("inputs", design.inputs) + names("outputs", design.outputs);
+  std::string out = word("name", design.name) + word("brief", design.brief) + "[plant]\n" +
+                    word("domain", design.domain) + "sample_time = " + number(design.sample_time) + "\n" +
+                    matrix("A", design.A) + matrix("B", design.B) + matrix("C", design.C) + matrix("D", design.D) +
+                    matrix("G", design.G) + names("states", design.states) + names("inputs", design.inputs) +
+                    names("outputs", design.outputs);
   if (design.Q.size())
-    out += "[lqr]\n" + matrix("Q", design.Q) + matrix("R", design.R) + matrix("N", design.N) + word("cost", design.cost);
+    out +=
+        "[lqr]\n" + matrix("Q", design.Q) + matrix("R", design.R) + matrix("N", design.N) + word("cost", design.cost);
   if (design.W.size())
     out += "[kalman]\n" + matrix("process_noise", design.W) + matrix("measurement_noise", design.V) +
            matrix("cross_noise", design.Swv) + matrix("initial_covariance", design.P0) +

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Design files for the tests, put together and solved.
 #pragma once
 
@@ -18,7 +19,7 @@ struct DesignText {
   std::string states, inputs, outputs;  // as in the file: ["position [m]", "speed [m/s]"]
   Eigen::MatrixXd Q, R, N;              // [lqr] when Q has entries
   std::string cost;
-  Eigen::MatrixXd W, V, Swv, P0, x0;    // [kalman] when W has entries
+  Eigen::MatrixXd W, V, Swv, P0, x0;  // [kalman] when W has entries
   std::string noise, gain, form, covariance;
   Eigen::VectorXd u_min, u_max;
   std::string real = "float", arithmetic = "plain", style = "unrolled";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emitted.hpp"
 
 #include <unity.h>
@@ -21,17 +22,19 @@ void expect_to_pass(const lqg::emit::Controller& controller, Language language, 
   const std::string sources = (folder / (name + "_test.c")).string() + " " + (folder / "alone.c").string();
   const std::string what = folder.string() + (language == Language::c ? " as C" : " as C++");
   expect_success(run(compiler + " -O1" + options(controller, folder) + " -o " + program + " " + sources + " -x none " +
-                     library(controller) + " " LQG_UNITY_LIBRARY " -lm"), what);
+                     library(controller) + " " LQG_UNITY_LIBRARY " -lm"),
+                 what);
   expect_success(run(program), what);
 }
 
 }  // namespace
 
 std::string options(const lqg::emit::Controller& controller, const fs::path& folder) {
-  std::string out = " -I" + folder.string() + " -I" LQG_INCLUDE_FOLDER " -isystem " LQG_UNITY_FOLDER
-                    " -DUNITY_INCLUDE_DOUBLE";
+  std::string out =
+      " -I" + folder.string() + " -I" LQG_INCLUDE_FOLDER " -isystem " LQG_UNITY_FOLDER " -DUNITY_INCLUDE_DOUBLE";
   if (controller.style == lqg::design::Style::unrolled) return out;
-  return out + (controller.target.is_double ? " -DLQG_REAL_DOUBLE" : "") + (controller.target.is_fused ? " -DLQG_FUSED" : "");
+  return out + (controller.target.is_double ? " -DLQG_REAL_DOUBLE" : "") +
+         (controller.target.is_fused ? " -DLQG_FUSED" : "");
 }
 
 std::string library(const lqg::emit::Controller& controller) {
@@ -57,8 +60,9 @@ std::string run_with_header(const lqg::emit::Controller& controller, const std::
   write(folder / (controller.problem.name + ".h"), lqg::emit::header(controller));
   write(folder / "program.c", text);
   const std::string program = (folder / "program").string();
-  expect_success(run(as_c + options(controller, folder) + " -o " + program + " " + program + ".c " + library(controller) +
-                     " -lm"), "program.c");
+  expect_success(
+      run(as_c + options(controller, folder) + " -o " + program + " " + program + ".c " + library(controller) + " -lm"),
+      "program.c");
   const Outcome outcome = run(program);
   expect_success(outcome, "program");
   return outcome.output;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Emitted files, compiled and run.
 #pragma once
 

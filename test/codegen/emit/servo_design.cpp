@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "emit/plan/plan.hpp"
 #include "servo_design.hpp"
 

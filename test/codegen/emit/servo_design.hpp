@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Controllers whose law has a memory, made by hand: their gains are simple numbers, not optimal ones.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bounds of a state: far from everything that a loop does, and kept by the emitted code.
 #include <cmath>
 #include <limits>
@@ -46,7 +47,8 @@ void test_bounds_are_far_from_what_a_filter_does_not_know() {
       TEST_ASSERT_TRUE(bound >= margin * std::abs(x0(i)));
       TEST_ASSERT_TRUE(bound >= margin * std::sqrt(controller.problem.estimator->P0(i, i)));
       if (controller.solution.estimator && controller.solution.estimator->P_prior.size())
-        TEST_ASSERT_TRUE(bound >= margin * std::sqrt(lqg::design::to_double(controller.solution.estimator->P_prior(i, i))));
+        TEST_ASSERT_TRUE(bound >=
+                         margin * std::sqrt(lqg::design::to_double(controller.solution.estimator->P_prior(i, i))));
     }
   }
 }
@@ -86,7 +88,8 @@ void test_a_diffuse_start_is_within_the_bounds() {
   double sum = 0;
   for (const int bound : bounds.x) sum += 1e30 / std::ldexp(1.0, 2 * bound);
   TEST_ASSERT_TRUE(sum < 1e-6);
-  for (const int bound : bounds.x) TEST_ASSERT_TRUE(std::ldexp(1.0, 2 * bound) < static_cast<double>(std::numeric_limits<float>::max()));
+  for (const int bound : bounds.x)
+    TEST_ASSERT_TRUE(std::ldexp(1.0, 2 * bound) < static_cast<double>(std::numeric_limits<float>::max()));
 }
 
 // Beyond that the filter would begin anew for ever: refused, with the state and what to do.
@@ -95,7 +98,8 @@ void test_a_start_beyond_the_squares_of_float_is_refused() {
   Controller controller = controller_of(design);
   controller.problem.estimator->P0(1, 1) = 1e37;
   lqg::design::Findings findings;
-  TEST_ASSERT_FALSE(lqg::emit::make_controller(controller.problem, controller.solution, controller.source, findings).has_value());
+  TEST_ASSERT_FALSE(
+      lqg::emit::make_controller(controller.problem, controller.solution, controller.source, findings).has_value());
   TEST_ASSERT_EQUAL_STRING("kalman.initial_covariance", findings.front().key.c_str());
   TEST_ASSERT_TRUE(findings.front().message.find("found 3.162e+18 for speed") != std::string::npos);
 }
@@ -113,9 +117,12 @@ std::string run_in_both_styles(Controller controller, const std::string& body) {
   std::string printed[2];
   for (const bool compact : {false, true}) {
     controller.style = compact ? lqg::design::Style::compact : lqg::design::Style::unrolled;
-    printed[compact] = run_with_header(controller, "#include <math.h>\n#include <stdio.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
+    printed[compact] = run_with_header(
+        controller,
+        "#include <math.h>\n#include <stdio.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
         "    static const float bound[LOOP_NX] = LOOP_X_BOUNDS;\n    static loop_t self;\n    float x[LOOP_NX], y[LOOP_NY] = {0}, u[LOOP_NU] = {0};\n\n"
-        "    (void)x, (void)y, (void)u, (void)bound;\n    loop_init(&self);\n" + body + "    return 0;\n}\n");
+        "    (void)x, (void)y, (void)u, (void)bound;\n    loop_init(&self);\n" +
+            body + "    return 0;\n}\n");
   }
   TEST_ASSERT_EQUAL_STRING(printed[0].c_str(), printed[1].c_str());
   return printed[0];

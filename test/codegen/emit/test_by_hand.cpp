@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is called between two samples: emitted code in both styles against the step, in every bit.
 #include <cstdio>
 
@@ -75,11 +76,13 @@ class Record {
     for (const S& value : values) add(value);
   }
   void add_status(unsigned events) {
-    const std::pair<Event, lqg_status> bits[] = {
-        {Event::output_not_finite, LQG_OUTPUT_NOT_FINITE}, {Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE},
-        {Event::input_limited, LQG_INPUT_LIMITED},         {Event::state_reset, LQG_STATE_RESET},
-        {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE}, {Event::output_gated, LQG_OUTPUT_GATED},
-        {Event::covariance_reset, LQG_COVARIANCE_RESET}};
+    const std::pair<Event, lqg_status> bits[] = {{Event::output_not_finite, LQG_OUTPUT_NOT_FINITE},
+                                                 {Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE},
+                                                 {Event::input_limited, LQG_INPUT_LIMITED},
+                                                 {Event::state_reset, LQG_STATE_RESET},
+                                                 {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE},
+                                                 {Event::output_gated, LQG_OUTPUT_GATED},
+                                                 {Event::covariance_reset, LQG_COVARIANCE_RESET}};
     lqg_status status = LQG_OK;
     for (const auto& [event, bit] : bits)
       if (events >> static_cast<unsigned>(event) & 1) status |= bit;
@@ -96,14 +99,17 @@ template <class S>
 class Host {
  public:
   explicit Host(const Controller& controller)
-      : controller_(controller), round_(lqg::simulate::constants_of<S>(controller.target)), emitted_(controller, round_) {}
+      : controller_(controller), round_(lqg::simulate::constants_of<S>(controller.target)),
+        emitted_(controller, round_) {}
 
   std::string run(const std::vector<Calls>& calls) {
     for (const Calls& call : calls) {
       emitted_.state().r = numbers(call.r);
       if (call.damaged >= 0) damage(static_cast<std::size_t>(call.damaged));
-      if (controller_.has.filter) use_filter(call);
-      else use_regulator(call);
+      if (controller_.has.filter)
+        use_filter(call);
+      else
+        use_regulator(call);
       add_state();
     }
     record_.add_status(0);
@@ -121,7 +127,8 @@ class Host {
     record_.add_status(emitted_.update(numbers(call.y)));
     record_.add_all(lqg::step::covariance(emitted_.model(), emitted_.state()));
     for (int i = 0; i < controller_.size.ny; ++i)
-      if (lqg::controller::can_update_alone(controller_, i)) record_.add_status(emitted_.update_alone(i, S(call.late_y(i))));
+      if (lqg::controller::can_update_alone(controller_, i))
+        record_.add_status(emitted_.update_alone(i, S(call.late_y(i))));
     add_state();  // before the updates and predictions behind it write over it
     set_state(call);
     if (lqg::controller::can_set_input(controller_)) set_input(call);
@@ -153,7 +160,8 @@ class Host {
     lqg::step::Listener listener;
     const Vector<S> nu = lqg::step::innovations(outputs, emitted_.state(), there, listener);
     const auto lost = lqg::step::lost_outputs(emitted_.model(), nu, there, listener);
-    for (int i = 0; i < there.size(); ++i) listener.raise(Event::output_not_finite, (used >> i & 1) && lost[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < there.size(); ++i)
+      listener.raise(Event::output_not_finite, (used >> i & 1) && lost[static_cast<std::size_t>(i)]);
     const unsigned not_finite = 1u << static_cast<unsigned>(Event::output_not_finite);
     return listener.events | (emitted_.update(there) & ~not_finite);
   }
@@ -175,14 +183,16 @@ class Host {
 
 std::string literals(const VectorXd& values, bool is_double) {
   std::string out;
-  for (const double value : values) out += (out.empty() ? "" : ", ") + (std::isnan(value) ? "NAN" : lqg::trace::literal(value, is_double));
+  for (const double value : values)
+    out += (out.empty() ? "" : ", ") + (std::isnan(value) ? "NAN" : lqg::trace::literal(value, is_double));
   return "{" + out + "}";
 }
 
 std::string show_state(const Controller& controller) {
   std::string out;
   for (const auto& field : lqg::controller::state_fields(controller))
-    if (field.kind == lqg::controller::Kind::reals && field.name != "r") out += "        SHOW(self." + field.name + ");\n";
+    if (field.kind == lqg::controller::Kind::reals && field.name != "r")
+      out += "        SHOW(self." + field.name + ");\n";
   return out;
 }
 
@@ -197,7 +207,8 @@ std::string in_c(const Controller& controller, const Calls& call) {
   array("r", call.r), array("x", call.x), array("u", call.u), array("y", call.y), array("late_y", call.late_y);
   if (controller.size.nr) out += "        memcpy(self.r, r, sizeof r);\n";
   if (call.damaged >= 0) {
-    const std::string number = (controller.filter == lqg::step::Filter::ud ? "self.d[" : "self.P[") + std::to_string(call.damaged) + "]";
+    const std::string number =
+        (controller.filter == lqg::step::Filter::ud ? "self.d[" : "self.P[") + std::to_string(call.damaged) + "]";
     out += "        " + number + " = -" + number + ";\n";
   }
   if (controller.has.filter) {
@@ -206,7 +217,8 @@ std::string in_c(const Controller& controller, const Calls& call) {
     if (controller.filter == lqg::step::Filter::plain) out += "        SHOW(self.P);\n";
     for (int i = 0; i < controller.size.ny; ++i)
       if (lqg::controller::can_update_alone(controller, i))
-        status("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name + "(&self, late_y[" + std::to_string(i) + "])");
+        status("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name + "(&self, late_y[" +
+               std::to_string(i) + "])");
     out += show_state(controller);
     status("set_state(&self, x)");
     if (lqg::controller::can_set_input(controller)) status("set_input(&self, u)");
@@ -222,8 +234,9 @@ std::string in_c(const Controller& controller, const Calls& call) {
 }
 
 std::string program(const Controller& controller, const std::vector<Calls>& calls) {
-  std::string out = std::string("#include <math.h>\n#include <stdio.h>\n#include <string.h>\n#include \"loop.h\"\n\ntypedef ") +
-                    (controller.target.is_double ? "double" : "float") + R"( real;
+  std::string out =
+      std::string("#include <math.h>\n#include <stdio.h>\n#include <string.h>\n#include \"loop.h\"\n\ntypedef ") +
+      (controller.target.is_double ? "double" : "float") + R"( real;
 
 static void show(const real v[], unsigned long count)
 {
@@ -248,14 +261,14 @@ int main(void)
   for (const Calls& call : calls) out += in_c(controller, call);
   const std::string resets = controller.has.filter ? "self.resets" : "0ul";
   const std::string covariance_resets = carries_covariance(controller) ? "self.covariance_resets" : "0ul";
-  return out + "    show_status(0);\n    printf(\"%lu %lu\", " + resets + ", " + covariance_resets + ");\n    return 0;\n}\n";
+  return out + "    show_status(0);\n    printf(\"%lu %lu\", " + resets + ", " + covariance_resets +
+         ");\n    return 0;\n}\n";
 }
 
 // Returns what both printed.
 std::string expect_the_bits_of_the_step(Controller controller, const std::vector<Calls>& calls) {
-  const std::string expected = lqg::simulate::with_scalar_of(controller.target, [&](auto zero) {
-    return Host<decltype(zero)>(controller).run(calls);
-  });
+  const std::string expected = lqg::simulate::with_scalar_of(
+      controller.target, [&](auto zero) { return Host<decltype(zero)>(controller).run(calls); });
   for (const auto style : {lqg::design::Style::unrolled, lqg::design::Style::compact}) {
     controller.style = style;
     TEST_ASSERT_EQUAL_STRING(expected.c_str(), run_with_header(controller, program(controller, calls)).c_str());
@@ -282,7 +295,8 @@ DesignText correlated(const char* gain, const char* covariance) {
 
 void test_filters_with_everything() {
   for (const char* arithmetic : {"plain", "fused"})
-    for (const auto& [gain, covariance] : {std::pair("steady", ""), std::pair("online", "ud"), std::pair("online", "plain")}) {
+    for (const auto& [gain, covariance] :
+         {std::pair("steady", ""), std::pair("online", "ud"), std::pair("online", "plain")}) {
       DesignText design = correlated(gain, covariance);
       design.arithmetic = arithmetic;
       expect_the_bits_of_the_step(changed(design, as_designed));
@@ -337,7 +351,8 @@ void integrate_both(Problem& problem, Solution& solution) {
 
 void test_integrals_of_outputs_that_are_updated_alone() {
   for (const char* arithmetic : {"plain", "fused"})
-    for (const auto& [gain, covariance] : {std::pair("steady", ""), std::pair("online", "ud"), std::pair("online", "plain")}) {
+    for (const auto& [gain, covariance] :
+         {std::pair("steady", ""), std::pair("online", "ud"), std::pair("online", "plain")}) {
       DesignText design = double_integrators(2);
       design.gain = gain, design.covariance = covariance, design.arithmetic = arithmetic;
       expect_the_bits_of_the_step(changed(design, integrate_both));

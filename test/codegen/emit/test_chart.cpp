@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Curves as SVG.
 #include <cmath>
 #include <string>
@@ -43,7 +44,8 @@ void test_a_line_goes_from_corner_to_corner_of_its_range() {
 
 void test_ticks_of_a_small_range_have_the_digits_that_they_need() {
   const std::string picture = svg(chart_of({0, 0.002}));
-  for (const char* tick : {">0<", ">0.0005<", ">0.001<", ">0.0015<", ">0.002<"}) TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
+  for (const char* tick : {">0<", ">0.0005<", ">0.001<", ">0.0015<", ">0.002<"})
+    TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
 }
 
 void test_steps_hold_a_value_until_the_next() {
@@ -59,7 +61,8 @@ void test_a_number_that_is_not_finite_interrupts_the_line() {
 }
 
 void test_curves_without_extent_are_drawn_all_the_same() {
-  for (const std::vector<double>& y : std::vector<std::vector<double>>{{}, {0}, {3, 3}, {1e-300, 1e-300}, {1e18, 1e18}, {NAN}})
+  for (const std::vector<double>& y :
+       std::vector<std::vector<double>>{{}, {0}, {3, 3}, {1e-300, 1e-300}, {1e18, 1e18}, {NAN}})
     expect_only_numbers(svg(chart_of(y)));
 }
 

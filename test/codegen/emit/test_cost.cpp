@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Flash and stack that are stated, without the compiler that they are stated for: how values fit into registers, and the shipped designs
 // against what that compiler once made. test/bench/estimates.sh compares with the compiler itself.
 #include <fstream>
@@ -84,7 +85,8 @@ std::string shipped(const char* name) {
 
 // Never less than compiled; at most 15 % more, and 24 bytes of which most are rounding.
 void expect_stated(const char* name, const char* what, long stated, long compiled) {
-  const std::string message = std::string(name) + ": " + what + " stated " + std::to_string(stated) + ", compiled " + std::to_string(compiled);
+  const std::string message =
+      std::string(name) + ": " + what + " stated " + std::to_string(stated) + ", compiled " + std::to_string(compiled);
   TEST_ASSERT_TRUE_MESSAGE(stated >= compiled && stated <= compiled + compiled * 15 / 100 + 24, message.c_str());
 }
 
@@ -93,9 +95,10 @@ void test_shipped_designs_are_stated_as_they_were_compiled() {
   constexpr struct {
     const char* name;
     long flash, stack;
-  } compiled[] = {{"balancing_robot", 3240, 84}, {"ball_and_beam", 692, 0},     {"dc_motor", 3836, 156},     {"double_integrator", 1096, 24},
-                {"oven", 1500, 36},            {"quadrotor", 2720, 80},      {"quarter_car", 14672, 420}, {"range_tracker", 3584, 36},
-                {"servo", 1148, 36},           {"two_mass", 1340, 36}};
+  } compiled[] = {{"balancing_robot", 3240, 84},   {"ball_and_beam", 692, 0},   {"dc_motor", 3836, 156},
+                  {"double_integrator", 1096, 24}, {"oven", 1500, 36},          {"quadrotor", 2720, 80},
+                  {"quarter_car", 14672, 420},     {"range_tracker", 3584, 36}, {"servo", 1148, 36},
+                  {"two_mass", 1340, 36}};
   for (const auto& design : compiled) {
     const lqg::emit::Controller controller = controller_of(shipped(design.name));
     expect_stated(design.name, "flash", controller.cost.flash, design.flash);

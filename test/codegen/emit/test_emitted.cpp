@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // End to end: a design file is parsed, solved and written, what was written is compiled with all warnings, and it runs.
 //
 // test_emitted [first seed] [seeds] tries other random designs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // All files are written, or none: whatever goes wrong, what was there stays to the byte and nothing is left behind.
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -27,8 +28,10 @@ std::map<std::string, std::string> contents() {
   std::map<std::string, std::string> found;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
-    if (entry.is_directory()) found[name + "/"] = "";
-    else found[name] = read(entry.path());
+    if (entry.is_directory())
+      found[name + "/"] = "";
+    else
+      found[name] = read(entry.path());
   }
   return found;
 }
@@ -145,7 +148,7 @@ void test_a_read_only_folder_stops_all() {
 }
 
 void test_old_and_new_files_come_back_when_a_later_one_fails() {
-  write(folder / "a.h", "old a");  // replaced, then put back
+  write(folder / "a.h", "old a");           // replaced, then put back
   fs::create_directory(folder / "c.json");  // b.c is new and goes again
   expect_refused(files, "c.json", "Is a directory");
 }

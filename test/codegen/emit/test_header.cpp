@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The header as a text: its parts and their order, its checks of what it is compiled with, the same bytes each time.
 #include <clocale>
 #include <locale>
@@ -32,7 +33,8 @@ void expect_order(const std::string& text, const std::vector<std::string>& parts
   std::size_t at = 0;
   for (const std::string& part : parts) {
     const std::size_t found = text.find(part, at);
-    if (found == std::string::npos) TEST_FAIL_MESSAGE((part + (text.find(part) == std::string::npos ? " is missing" : " is misplaced")).c_str());
+    if (found == std::string::npos)
+      TEST_FAIL_MESSAGE((part + (text.find(part) == std::string::npos ? " is missing" : " is misplaced")).c_str());
     at = found + part.size();
   }
 }
@@ -60,7 +62,8 @@ void test_a_file_name_that_looks_like_code_stays_text() {
     write(folder / "loop.h", lqg::emit::header(controller));
     write(folder / "loop_test.c", lqg::emit::unit_test(controller));
     for (const std::string& compiler : {as_c, as_cxx}) {
-      const Outcome outcome = run(compiler + " -fsyntax-only" + options(controller, folder) + " " + (folder / "loop_test.c").string());
+      const Outcome outcome =
+          run(compiler + " -fsyntax-only" + options(controller, folder) + " " + (folder / "loop_test.c").string());
       TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.c_str());
     }
   }
@@ -78,15 +81,47 @@ void test_nothing_of_a_template_is_left_in_a_header() {
 void test_header_has_its_parts_in_the_order_of_the_contract() {
   for (const Style style : {Style::unrolled, Style::compact}) {
     const Controller controller = controller_in(style);
-    std::vector<std::string> parts = {
-        "/* loop: a loop of the tests\n", "Made by lqgen " + lqg::emit::version() + " from loop.toml", controller.source.sha256,
-        "under any licence", "Plant, sampled every 0.1 s", "states   x[0] position [m], x[1] speed [m/s]",
-        "inputs   u[0] force [N]", "outputs  y[0] position [m]", " A = [", " B = [", " C = [", "Regulator", " K = [",
-        "poles of A − B K", "Kalman filter, filter form", " L = [", "poles of A − L_predictor C", "Closed loop",
-        "gain margin", "phase margin", "disk margin", "multiply-adds", "bytes of RAM", "flash", "stack", "*/\n#ifndef LOOP_H",
-        "#include \"lqg/", "#if LQG_HEADER_FORMAT != ", "#error", "run the lqgen", "#endif", "#define LOOP_NX 2", "#define LOOP_NU 1",
-        "#define LOOP_NY 1", "#define LOOP_SAMPLE_TIME 0.1f", "LOOP_X_POSITION = 0,", "LOOP_X_SPEED = 1", "LOOP_U_FORCE = 0",
-        "LOOP_Y_POSITION = 0", "float x[LOOP_NX];", "} loop_t;"};
+    std::vector<std::string> parts = {"/* loop: a loop of the tests\n",
+                                      "Made by lqgen " + lqg::emit::version() + " from loop.toml",
+                                      controller.source.sha256,
+                                      "under any licence",
+                                      "Plant, sampled every 0.1 s",
+                                      "states   x[0] position [m], x[1] speed [m/s]",
+                                      "inputs   u[0] force [N]",
+                                      "outputs  y[0] position [m]",
+                                      " A = [",
+                                      " B = [",
+                                      " C = [",
+                                      "Regulator",
+                                      " K = [",
+                                      "poles of A − B K",
+                                      "Kalman filter, filter form",
+                                      " L = [",
+                                      "poles of A − L_predictor C",
+                                      "Closed loop",
+                                      "gain margin",
+                                      "phase margin",
+                                      "disk margin",
+                                      "multiply-adds",
+                                      "bytes of RAM",
+                                      "flash",
+                                      "stack",
+                                      "*/\n#ifndef LOOP_H",
+                                      "#include \"lqg/",
+                                      "#if LQG_HEADER_FORMAT != ",
+                                      "#error",
+                                      "run the lqgen",
+                                      "#endif",
+                                      "#define LOOP_NX 2",
+                                      "#define LOOP_NU 1",
+                                      "#define LOOP_NY 1",
+                                      "#define LOOP_SAMPLE_TIME 0.1f",
+                                      "LOOP_X_POSITION = 0,",
+                                      "LOOP_X_SPEED = 1",
+                                      "LOOP_U_FORCE = 0",
+                                      "LOOP_Y_POSITION = 0",
+                                      "float x[LOOP_NX];",
+                                      "} loop_t;"};
     parts.insert(parts.end(), std::begin(functions), std::end(functions));
     parts.push_back("#endif\n");
     expect_order(lqg::emit::header(controller), parts);
@@ -96,14 +131,15 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
 // The comment above a function says its equation, its arguments and its status.
 void test_every_function_carries_its_contract() {
   const std::string text = lqg::emit::header(controller_in(Style::unrolled));
-  expect_order(text, {"/* x̂ = x0", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1], "/* u = −K x̂",
-                      "u  out:", "Status:", functions[2], "/* x̂ ← A x̂ + B u", "u  in:", "Status:", functions[3],
-                      "/* One sample: update, control and predict", functions[4]});
+  expect_order(text, {"/* x̂ = x0", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1],
+                      "/* u = −K x̂", "u  out:", "Status:", functions[2], "/* x̂ ← A x̂ + B u",
+                      "u  in:", "Status:", functions[3], "/* One sample: update, control and predict", functions[4]});
 }
 
 void test_step_makes_its_calls_in_the_order_of_the_form() {
   DesignText design = double_integrator();
-  const std::string update = "loop_update(self, y);", control = "loop_control(self, u);", predict = "loop_predict(self, u);";
+  const std::string update = "loop_update(self, y);", control = "loop_control(self, u);",
+                    predict = "loop_predict(self, u);";
   design.form = "filter";
   expect_order(lqg::emit::header(controller_of(design)), {functions[4], update, control, predict});
   design.form = "predictor";
@@ -127,8 +163,9 @@ void test_what_a_controller_does_not_have_is_not_written() {
 // An observer in predictor form on x⁺ = x + T v, v⁺ = v + T u, y = x. By hand: (z − 0.5)(z − 0.6) is the characteristic
 // polynomial of [1 − l₁  T; −l₂  1], so that l₁ = 2 − 1.1 and l₂ = (1 − 1.1 + 0.3)/T.
 void test_predictor_form_prints_the_gain_that_its_code_uses() {
-  const std::string plant = "name = \"loop\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\nA = [[1, 0.1], [0, 1]]\n"
-                            "B = [[0.005], [0.1]]\nC = [[1, 0]]\n[lqr]\nQ = [1, 1]\nR = [1]\n";
+  const std::string plant =
+      "name = \"loop\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\nA = [[1, 0.1], [0, 1]]\n"
+      "B = [[0.005], [0.1]]\nC = [[1, 0]]\n[lqr]\nQ = [1, 1]\nR = [1]\n";
   const Controller observer = controller_of(plant + "[observer]\npoles = [0.5, 0.6]\n");
   for (const std::string& text : {lqg::emit::header(observer), lqg::emit::summary(observer)}) {
     expect_order(text, {"  L_predictor = [ 0.9 ]\n", "[ 2.0 ]\n", "poles of A − L_predictor C: 0.6, 0.5"});
@@ -199,7 +236,8 @@ void test_the_same_design_gives_the_same_bytes_in_any_locale() {
 }
 
 // Writes the header; compiles a file that includes it with more options.
-Outcome compile(const Controller& controller, const std::string& more_options, const fs::path& include = LQG_INCLUDE_FOLDER) {
+Outcome compile(const Controller& controller, const std::string& more_options,
+                const fs::path& include = LQG_INCLUDE_FOLDER) {
   const fs::path folder = empty_folder("compile");
   write(folder / "loop.h", lqg::emit::header(controller));
   write(folder / "user.c", "#include \"loop.h\"\n");
@@ -237,8 +275,10 @@ void test_fast_math_is_refused() {
 
 void test_compact_refuses_the_options_of_another_library() {
   DesignText design = double_integrator();
-  expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_REAL_DOUBLE"), "loop.h computes in float: do not define LQG_REAL_DOUBLE");
-  expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_FUSED"), "loop.h uses plain arithmetic: do not define LQG_FUSED");
+  expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_REAL_DOUBLE"),
+                 "loop.h computes in float: do not define LQG_REAL_DOUBLE");
+  expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_FUSED"),
+                 "loop.h uses plain arithmetic: do not define LQG_FUSED");
   design.real = "double", design.arithmetic = "fused";
   const Controller controller = controller_in(Style::compact, design);
   TEST_ASSERT_TRUE(compile(controller, "").succeeded);
@@ -273,8 +313,8 @@ void test_contraction_around_the_header_changes_no_bit() {
   write(folder / "loop.h", lqg::emit::header(controller));
   write(folder / "loop_test.c", lqg::emit::unit_test(controller));
   const std::string program = (folder / "program").string();
-  const Outcome compiled = run(as_c + " -O3 " + fused + contract + options(controller, folder) + " -o " + program + " " +
-                               (folder / "loop_test.c").string() + " " LQG_UNITY_LIBRARY " -lm");
+  const Outcome compiled = run(as_c + " -O3 " + fused + contract + options(controller, folder) + " -o " + program +
+                               " " + (folder / "loop_test.c").string() + " " LQG_UNITY_LIBRARY " -lm");
   TEST_ASSERT_TRUE_MESSAGE(compiled.succeeded, compiled.output.c_str());
   const Outcome outcome = run(program);
   TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.c_str());
@@ -290,9 +330,13 @@ void test_ram_is_exactly_the_size_of_the_state() {
       design.gain = gain, design.real = real;
       const Controller controller = controller_of(design);
       const std::string counters = carries_covariance(controller) ? "4" : "3";  // two of them are of the outputs
-      const std::string size = run_with_header(controller, "#include <stddef.h>\n#include <stdio.h>\n#include \"loop.h\"\n"
-          "int main(void)\n{\n    const int real = (int)sizeof(" + std::string(real) + "), bytes = (int)offsetof(loop_t, resets) + 4 * " + counters + ";\n"
-          "    return printf(\"%d\", (bytes + real - 1) / real * real) < 0;\n}\n");
+      const std::string size =
+          run_with_header(controller,
+                          "#include <stddef.h>\n#include <stdio.h>\n#include \"loop.h\"\n"
+                          "int main(void)\n{\n    const int real = (int)sizeof(" +
+                              std::string(real) + "), bytes = (int)offsetof(loop_t, resets) + 4 * " + counters +
+                              ";\n"
+                              "    return printf(\"%d\", (bytes + real - 1) / real * real) < 0;\n}\n");
       TEST_ASSERT_EQUAL_STRING(std::to_string(controller.cost.ram).c_str(), size.c_str());
     }
 }

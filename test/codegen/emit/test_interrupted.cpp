@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is written when lqgen is killed at any moment, when two of them run at once, and when somebody has put links in the way.
 #include <fcntl.h>
 #include <sys/file.h>
@@ -112,7 +113,8 @@ int killed_at_every_point(const Contents& before) {
     if (!killed_at(stop, write_new)) break;
     const Contents seen = visible();
     const std::string where = "at stop " + std::to_string(stop);
-    TEST_ASSERT_TRUE_MESSAGE(is_part_of(seen, before) || is_part_of(seen, contents_of("new")), ("a mixed set " + where).c_str());
+    TEST_ASSERT_TRUE_MESSAGE(is_part_of(seen, before) || is_part_of(seen, contents_of("new")),
+                             ("a mixed set " + where).c_str());
     TEST_ASSERT_TRUE_MESSAGE(before.empty() || seen.count("a.h"), ("no a.h " + where).c_str());
     expect_whole_after_the_next_run(before, where);
   }
@@ -185,8 +187,8 @@ void test_temporary_files_of_another_user_do_not_become_outputs() {
 
 void test_files_that_only_look_like_temporary_ones_stay() {
   begin_with(nothing);
-  const char* const mine[] = {".a.h.lqgen-new-", ".a.h.lqgen-new-1x", ".a.h.lqgen-mine-1", "a.h.lqgen-new-1",
-                              ".lqgen-new-1", "a.h.old1"};
+  const char* const mine[] = {".a.h.lqgen-new-", ".a.h.lqgen-new-1x", ".a.h.lqgen-mine-1",
+                              "a.h.lqgen-new-1", ".lqgen-new-1",      "a.h.old1"};
   for (const char* name : mine) write(folder / name, "mine");
   write_new();
   for (const char* name : mine) TEST_ASSERT_TRUE_MESSAGE(read(folder / name) == "mine", name);

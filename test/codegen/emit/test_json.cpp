@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME.json: every number of the design, so that it reads back exactly.
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -27,7 +28,8 @@ void expect_matrix(const json& found, const RealMatrix& expected, const char* wh
     TEST_ASSERT_EQUAL_size_t_MESSAGE(expected.cols(), found[static_cast<std::size_t>(i)].size(), what);
     for (int j = 0; j < expected.cols(); ++j)
       TEST_ASSERT_TRUE_MESSAGE(found[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].get<double>() ==
-                                   nearest_double(expected(i, j)), what);
+                                   nearest_double(expected(i, j)),
+                               what);
   }
 }
 
@@ -80,7 +82,8 @@ void expect_observer(const json& found, const Controller& controller) {
     const json& rows = found["kalman"]["observer"][key];
     Eigen::MatrixXd out(rows.size(), rows[0].size());
     for (int i = 0; i < out.rows(); ++i)
-      for (int j = 0; j < out.cols(); ++j) out(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].get<double>();
+      for (int j = 0; j < out.cols(); ++j)
+        out(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].get<double>();
     return out;
   };
   const lqg::design::EstimatorSolution& filter = *controller.solution.estimator;
@@ -93,7 +96,8 @@ void expect_observer(const json& found, const Controller& controller) {
     Eigen::VectorXd u(B.cols()), y(C.rows());
     for (double& each : u) each = random.uniform();
     for (double& each : y) each = random.uniform();
-    const Eigen::VectorXd innovation = y - C * x, heard = controller.is_predictor ? x : Eigen::VectorXd(x + L * innovation);
+    const Eigen::VectorXd innovation = y - C * x,
+                          heard = controller.is_predictor ? x : Eigen::VectorXd(x + L * innovation);
     const Eigen::VectorXd both = (Eigen::VectorXd(u.size() + y.size()) << u, y).finished();
     const double size = 1e-9 * (1 + x.norm() + state.norm());
     TEST_ASSERT_DOUBLE_WITHIN(size, 0, (matrix("C") * state + matrix("D") * both - heard).norm());
@@ -144,7 +148,8 @@ void expect_all(const json& found, const Controller& controller) {
   for (std::size_t i = 0; i < controller.bounds.x.size(); ++i)
     TEST_ASSERT_TRUE(found["numerics"]["bounds"]["x"][i].get<double>() == std::ldexp(1.0, controller.bounds.x[i]));
   for (Eigen::Index i = 0; i < controller.bounds.innovation.size(); ++i)
-    TEST_ASSERT_TRUE(found["numerics"]["bounds"]["innovation"][static_cast<std::size_t>(i)].get<double>() == controller.bounds.innovation(i));
+    TEST_ASSERT_TRUE(found["numerics"]["bounds"]["innovation"][static_cast<std::size_t>(i)].get<double>() ==
+                     controller.bounds.innovation(i));
   TEST_ASSERT_EQUAL_INT(controller.cost.flash, found["code"]["flash"].get<long>());
   TEST_ASSERT_EQUAL_INT(controller.cost.ram, found["code"]["ram"].get<long>());
   TEST_ASSERT_EQUAL_INT(controller.cost.stack, found["code"]["stack"].get<long>());

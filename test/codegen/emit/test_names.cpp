@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // No two things that a header defines have one name, and none has that of a type or a header that the firmware may know: whatever
 // the design and its signals are called.
 #include <map>
@@ -47,8 +48,9 @@ style = "{style}"
 {code}
 )";
 
-const Values plain_names = {{"name", "loop"}, {"state", "place"}, {"input", "force"}, {"output", "y"}, {"delay", ""}, {"law", ""},
-                            {"filter", ""}, {"more", ""}, {"style", "unrolled"}, {"code", ""}};
+const Values plain_names = {{"name", "loop"},      {"state", "place"}, {"input", "force"}, {"output", "y"},
+                            {"delay", ""},         {"law", ""},        {"filter", ""},     {"more", ""},
+                            {"style", "unrolled"}, {"code", ""}};
 
 const std::string limits = "[limits]\nu_min = [-1]\nu_max = [1]\nu_rate = [3]";
 const std::string stage = "[[stage]]\nfrom = 3\nA = [[1, 0.1], [0, 0.8]]";
@@ -124,7 +126,8 @@ std::set<std::string> rivals(const std::string& letter) {
 }
 
 void test_no_two_things_of_a_header_have_one_name() {
-  for (const Values& variant : variants) expect_no_doubles(header_of(variant), variant.empty() ? "" : variant.begin()->second);
+  for (const Values& variant : variants)
+    expect_no_doubles(header_of(variant), variant.empty() ? "" : variant.begin()->second);
 }
 
 void test_a_signal_never_gets_the_name_of_something_else() {
@@ -148,11 +151,14 @@ void test_a_state_of_the_name_of_a_delayed_input_stays_apart_from_it() {
 
 // Those of C, and of POSIX.
 const char* const standard_headers[] = {
-    "assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "math", "setjmp", "signal",
-    "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio", "stdlib", "stdnoreturn", "string", "tgmath", "threads",
-    "time", "uchar", "wchar", "wctype", "aio", "cpio", "dirent", "dlfcn", "fcntl", "fmtmsg", "fnmatch", "ftw", "glob", "grp", "iconv",
-    "langinfo", "libgen", "monetary", "mqueue", "ndbm", "netdb", "nl_types", "poll", "pthread", "pwd", "regex", "sched", "search",
-    "semaphore", "spawn", "strings", "syslog", "tar", "termios", "ulimit", "unistd", "utime", "utmpx", "wordexp"};
+    "assert",   "complex", "ctype",    "errno",   "fenv",   "float",       "inttypes", "iso646",
+    "limits",   "locale",  "math",     "setjmp",  "signal", "stdalign",    "stdarg",   "stdatomic",
+    "stdbool",  "stddef",  "stdint",   "stdio",   "stdlib", "stdnoreturn", "string",   "tgmath",
+    "threads",  "time",    "uchar",    "wchar",   "wctype", "aio",         "cpio",     "dirent",
+    "dlfcn",    "fcntl",   "fmtmsg",   "fnmatch", "ftw",    "glob",        "grp",      "iconv",
+    "langinfo", "libgen",  "monetary", "mqueue",  "ndbm",   "netdb",       "nl_types", "poll",
+    "pthread",  "pwd",     "regex",    "sched",   "search", "semaphore",   "spawn",    "strings",
+    "syslog",   "tar",     "termios",  "ulimit",  "unistd", "utime",       "utmpx",    "wordexp"};
 
 void test_no_design_is_called_as_a_header_of_c_posix_or_unity() {
   for (const char* name : standard_headers) TEST_ASSERT_TRUE_MESSAGE(is_refused({{"name", name}}), name);
@@ -167,7 +173,8 @@ void test_no_design_has_the_type_of_a_standard_header() {
   for (const char* header : standard_headers)
     if (std::string(header) != "ndbm")  // of a library of its own
       text += std::string("#if __has_include(<") + header + ".h>)\n#include <" + header + ".h>\n#endif\n";
-  write(folder / "all.c", text + "#include <sys/types.h>\n#include <sys/stat.h>\n#include <sys/time.h>\n#include <sys/wait.h>\n");
+  write(folder / "all.c",
+        text + "#include <sys/types.h>\n#include <sys/stat.h>\n#include <sys/time.h>\n#include <sys/wait.h>\n");
   const Outcome outcome = run(LQG_C_COMPILER " -D_GNU_SOURCE -E -P " + (folder / "all.c").string());
   TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.substr(0, 2000).c_str());
   Names types;
@@ -192,7 +199,8 @@ void test_a_short_name_compiles_as_c_and_cxx() {
       write(path, header_of({{"name", name}, {"style", style}, {"filter", "gain = \"online\""}}));
       for (const std::string& compiler : {as_c, as_cxx}) {
         write(folder / "alone.c", "#include \"" + std::string(name) + ".h\"\n");
-        const Outcome outcome = run(compiler + " -fsyntax-only -I" LQG_INCLUDE_FOLDER " " + (folder / "alone.c").string());
+        const Outcome outcome =
+            run(compiler + " -fsyntax-only -I" LQG_INCLUDE_FOLDER " " + (folder / "alone.c").string());
         TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.substr(0, 2000).c_str());
       }
     }

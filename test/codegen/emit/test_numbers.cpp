@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers of every size in every key: a controller whose numbers are numbers of its target, or a refusal that names a key.
 #include <regex>
 #include <stdexcept>
@@ -45,9 +46,10 @@ style = "{style}"
 )";
 
 using Values = std::map<std::string, std::string>;
-const Values ordinary = {{"time", "0.1"}, {"coupling", "0.1"}, {"push", "0.1"}, {"shown", "1"}, {"state", "1"}, {"effort", "1"},
-                         {"law", ""}, {"drift", "1e-3"}, {"noise", "1e-2"}, {"start", "0.5"}, {"gain", "steady"}, {"gate", "4"},
-                         {"low", "-10"}, {"high", "10"}, {"rate", "100"}, {"real", "float"}, {"style", "unrolled"}};
+const Values ordinary = {
+    {"time", "0.1"}, {"coupling", "0.1"}, {"push", "0.1"},   {"shown", "1"},    {"state", "1"},       {"effort", "1"},
+    {"law", ""},     {"drift", "1e-3"},   {"noise", "1e-2"}, {"start", "0.5"},  {"gain", "steady"},   {"gate", "4"},
+    {"low", "-10"},  {"high", "10"},      {"rate", "100"},   {"real", "float"}, {"style", "unrolled"}};
 
 struct Result {
   std::optional<emit::Controller> controller;
@@ -63,7 +65,8 @@ Result designed(Values values) {
   if (!result.file.problem) return result;
   std::optional<design::Solution> solution = design::solve(*result.file.problem, result.findings);
   if (!solution || design::has_error(result.findings)) return result;
-  result.controller = emit::make_controller(*result.file.problem, *std::move(solution), {"sizes.toml", "0"}, result.findings);
+  result.controller =
+      emit::make_controller(*result.file.problem, *std::move(solution), {"sizes.toml", "0"}, result.findings);
   return result;
 }
 
@@ -90,8 +93,8 @@ void expect_numbers_or_a_refusal(const Values& values, const std::string& what) 
 }
 
 void test_no_size_of_a_number_becomes_a_literal_that_c_does_not_have() {
-  const char* const keys[] = {"time", "coupling", "push", "shown", "state", "effort", "drift",
-                              "noise", "start", "gate", "high", "rate"};
+  const char* const keys[] = {"time",  "coupling", "push",  "shown", "state", "effort",
+                              "drift", "noise",    "start", "gate",  "high",  "rate"};
   const char* const sizes[] = {"1e-300", "1e-46", "1e-25", "1e25", "1e39", "1e300"};
   int turn = 0;
   for (const char* key : keys)
@@ -123,11 +126,14 @@ void expect_finding(design::Severity severity, const std::string& key, const Val
       TEST_ASSERT_TRUE(input::locate(result.file, key).line > 1);
       return;
     }
-  TEST_FAIL_MESSAGE(("nothing is said of " + key + ", " + values.begin()->first + " = " + values.begin()->second).c_str());
+  TEST_FAIL_MESSAGE(
+      ("nothing is said of " + key + ", " + values.begin()->first + " = " + values.begin()->second).c_str());
 }
 
 void test_what_overflows_or_must_not_vanish_is_refused_at_its_line() {
-  const auto refused = [](const char* key, const Values& values) { expect_finding(design::Severity::error, key, values); };
+  const auto refused = [](const char* key, const Values& values) {
+    expect_finding(design::Severity::error, key, values);
+  };
   for (const char* time : {"1e39", "1e-46"}) refused("plant.sample_time", {{"time", time}, {"rate", "inf"}});
   for (const char* gate : {"1e300", "1e39", "1e20", "1e-30", "1e-46"}) refused("kalman.gate", {{"gate", gate}});
   for (const char* gate : {"1e300", "1e-300"}) refused("kalman.gate", {{"gate", gate}, {"real", "double"}});

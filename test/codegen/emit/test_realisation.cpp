@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Controllers that keep z: what is emitted passes its own test, does what the physical form does, in faults too, and the
 // numbers of NAME.json say the same.
 #include <Eigen/Core>
@@ -31,7 +32,8 @@ Controller in_form(const DesignText& design, const std::string& form) {
 // Two springs that pull at each other, both seen, one driven: every number of its forms is another one.
 DesignText two_springs(const char* form) {
   DesignText design;
-  design.A = (MatrixXd(4, 4) << 0.9, 0.1, 0.05, 0, -0.3, 0.8, 0, 0.1, 0.05, 0, 0.85, 0.12, 0, 0.1, -0.4, 0.7).finished();
+  design.A =
+      (MatrixXd(4, 4) << 0.9, 0.1, 0.05, 0, -0.3, 0.8, 0, 0.1, 0.05, 0, 0.85, 0.12, 0, 0.1, -0.4, 0.7).finished();
   design.B = (MatrixXd(4, 1) << 0.01, 0.2, 0, 0).finished();
   design.C = (MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished();
   design.D = (MatrixXd(2, 1) << 0, 0.1).finished();
@@ -109,7 +111,8 @@ void expect_compensator_to_be_the_design(const json& made) {
   const MatrixXd A = matrix(plant["A"]), B = matrix(plant["B"]), C = matrix(plant["C"]), D = matrix(plant["D"]);
   const MatrixXd K = matrix(made["lqr"]["K"]), L = matrix(made["kalman"]["L"]);
   const MatrixXd M = matrix(made["kalman"]["L_predictor"]) - A * L;
-  const MatrixXd Az = matrix(compensator["A"]), Bz = matrix(compensator["B"]), Cz = matrix(compensator["C"]), Dz = matrix(compensator["D"]);
+  const MatrixXd Az = matrix(compensator["A"]), Bz = matrix(compensator["B"]), Cz = matrix(compensator["C"]),
+                 Dz = matrix(compensator["D"]);
   const bool predicts = made["kalman"]["form"] == "predictor";
   Random random(7);
   VectorXd x = VectorXd::Zero(A.rows()), u = VectorXd::Zero(B.cols()), z = matrix(compensator["z0"]);
@@ -185,11 +188,12 @@ int main(void)
       const std::string physical = lqg::emit::header(controller_of(design));
       design.name = "form";
       std::string text = physical + "#include \"form.h\"\n" + program;
-      const std::string sample = std::string(form) == "filter"
-          ? "loop_update(&physical, y); loop_control(&physical, u); loop_predict(&physical, u);"
-            "status = form_control(&form, y, v); status |= form_advance(&form);"
-          : "loop_control(&physical, u); loop_update(&physical, y); loop_predict(&physical, u);"
-            "status = form_control(&form, v); status |= form_advance(&form, y);";
+      const std::string sample =
+          std::string(form) == "filter"
+              ? "loop_update(&physical, y); loop_control(&physical, u); loop_predict(&physical, u);"
+                "status = form_control(&form, y, v); status |= form_advance(&form);"
+              : "loop_control(&physical, u); loop_update(&physical, y); loop_predict(&physical, u);"
+                "status = form_control(&form, v); status |= form_advance(&form, y);";
       text.replace(text.find("CALL_BOTH"), 9, sample);
       double worst = 1, largest = 0;
       unsigned missing = 0;
@@ -233,8 +237,9 @@ int main(void)
       DesignText design = two_springs(form);
       design.name = "form";
       std::string text = program;
-      text.replace(text.find("CONTROL"), 7,
-                   std::string(form) == "filter" ? "status |= form_control(&form, missing, u) & ~LQG_OUTPUT_NOT_FINITE;" : "");
+      text.replace(
+          text.find("CONTROL"), 7,
+          std::string(form) == "filter" ? "status |= form_control(&form, missing, u) & ~LQG_OUTPUT_NOT_FINITE;" : "");
       TEST_ASSERT_EQUAL_STRING("0 16", run_with_header(in_form(design, realisation), text).c_str());
     }
 }

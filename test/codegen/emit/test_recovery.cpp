@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In how many samples a controller is back to normal: against the closed forms of plants of one state.
 #include <cmath>
 
@@ -41,7 +42,8 @@ long two_digits_up(double samples) {
 
 // From 1 to 2⁸⁰; without a gate there is the reset.
 long samples_of_gate(const Controller& controller) {
-  return controller.has.gate ? static_cast<long>(std::ceil(80 * std::log(2.0) / std::log(controller.gate.widen(0)))) : 1;
+  return controller.has.gate ? static_cast<long>(std::ceil(80 * std::log(2.0) / std::log(controller.gate.widen(0))))
+                             : 1;
 }
 
 // Samples until factorⁿ bound ≤ √P.
@@ -55,8 +57,9 @@ void test_the_error_of_a_filter_dies_out_by_its_pole() {
     const Controller controller = controller_of(scalar_plant(a));
     const Filter filter = filter_by_hand(a);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, std::sqrt(filter.P), controller.recovery.within(0));
-    TEST_ASSERT_EQUAL_INT64(two_digits_up(static_cast<double>(samples_of_gate(controller)) + samples_from_bound(controller, filter)),
-                            controller.recovery.samples);
+    TEST_ASSERT_EQUAL_INT64(
+        two_digits_up(static_cast<double>(samples_of_gate(controller)) + samples_from_bound(controller, filter)),
+        controller.recovery.samples);
   }
 }
 
@@ -66,7 +69,8 @@ void test_a_filter_that_carries_P_has_twice_that() {
   design.gain = "online", design.covariance = "ud";
   const Controller controller = controller_of(design);
   TEST_ASSERT_EQUAL_INT64(two_digits_up(static_cast<double>(samples_of_gate(controller)) +
-                                        2 * samples_from_bound(controller, filter_by_hand(0.99))), controller.recovery.samples);
+                                        2 * samples_from_bound(controller, filter_by_hand(0.99))),
+                          controller.recovery.samples);
 }
 
 // What nothing drives and nothing forgets: named, and the rest has its number.
@@ -82,7 +86,8 @@ void test_states_that_no_noise_reaches_are_named() {
   TEST_ASSERT_EQUAL_INT(1, controller.recovery.lasting.front());
   TEST_ASSERT_TRUE(controller.recovery.samples > 0);
   const std::string header = lqg::emit::header(controller);
-  TEST_ASSERT_TRUE(header.find("#define LOOP_RECOVERY_SAMPLES " + std::to_string(controller.recovery.samples) + " ") != std::string::npos);
+  TEST_ASSERT_TRUE(header.find("#define LOOP_RECOVERY_SAMPLES " + std::to_string(controller.recovery.samples) + " ") !=
+                   std::string::npos);
   TEST_ASSERT_TRUE(header.find("/* No noise reaches bias:") != std::string::npos);
 }
 

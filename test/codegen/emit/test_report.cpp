@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NAME.html: well-formed, complete, without scripts, the same bytes every time.
 #include <cctype>
 

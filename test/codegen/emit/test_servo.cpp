@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Laws with a memory, end to end: integral action, references, weighted changes, slew limits, delays, tables of gains.
 #include <cmath>
 #include <cstdlib>
@@ -44,18 +45,22 @@ void test_integral_action_beside_a_carried_covariance() {
 
 void test_feed_forward_alone_and_beside_integral_action() {
   expect_emitted_to_pass(changed(double_integrator(), track_position), as_both);
-  expect_emitted_to_pass(changed(limited_double_integrator(), [](Problem& problem, Solution& solution) {
-    track_position(problem, solution);
-    integrate_position(problem, solution);
-  }), as_c_only);
+  expect_emitted_to_pass(changed(limited_double_integrator(),
+                                 [](Problem& problem, Solution& solution) {
+                                   track_position(problem, solution);
+                                   integrate_position(problem, solution);
+                                 }),
+                         as_c_only);
 }
 
 void test_weighted_changes_with_and_without_integral_action() {
   expect_emitted_to_pass(changed(limited_double_integrator(), weigh_changes), as_both);
-  expect_emitted_to_pass(changed(double_integrator(), [](Problem& problem, Solution& solution) {
-    problem.regulator->input_rate = Eigen::MatrixXd::Identity(1, 1);
-    solution.regulator->K = matrix({{0.1, 0.3, 0.3}});
-  }), as_c_only);
+  expect_emitted_to_pass(changed(double_integrator(),
+                                 [](Problem& problem, Solution& solution) {
+                                   problem.regulator->input_rate = Eigen::MatrixXd::Identity(1, 1);
+                                   solution.regulator->K = matrix({{0.1, 0.3, 0.3}});
+                                 }),
+                         as_c_only);
 }
 
 void limit_rate(Problem& problem, Solution&) {
@@ -65,10 +70,12 @@ void limit_rate(Problem& problem, Solution&) {
 
 void test_slew_limits_alone_and_within_others() {
   expect_emitted_to_pass(changed(double_integrator(), limit_rate), as_both);
-  expect_emitted_to_pass(changed(limited_double_integrator(), [](Problem& problem, Solution& solution) {
-    limit_rate(problem, solution);
-    weigh_changes(problem, solution);
-  }), as_c_only);
+  expect_emitted_to_pass(changed(limited_double_integrator(),
+                                 [](Problem& problem, Solution& solution) {
+                                   limit_rate(problem, solution);
+                                   weigh_changes(problem, solution);
+                                 }),
+                         as_c_only);
 }
 
 DesignText regulator_alone(DesignText design) {
@@ -105,14 +112,18 @@ void test_gains_of_a_horizon() {
   expect_emitted_to_pass(changed(limited_double_integrator(), schedule_law), as_both);
   expect_emitted_to_pass(changed(regulator_alone(double_integrator()), schedule_law), as_both);
   for (const auto& kind : {integrate_position, weigh_changes, track_position})
-    expect_emitted_to_pass(changed(limited_double_integrator(), [&](Problem& problem, Solution& solution) {
-      kind(problem, solution);
-      schedule_law(problem, solution);
-    }), as_c_only);
-  expect_emitted_to_pass(changed(regulator_alone(limited_double_integrator()), [](Problem& problem, Solution& solution) {
-    integrate_position(problem, solution);
-    schedule_law(problem, solution);
-  }), as_c_only);
+    expect_emitted_to_pass(changed(limited_double_integrator(),
+                                   [&](Problem& problem, Solution& solution) {
+                                     kind(problem, solution);
+                                     schedule_law(problem, solution);
+                                   }),
+                           as_c_only);
+  expect_emitted_to_pass(changed(regulator_alone(limited_double_integrator()),
+                                 [](Problem& problem, Solution& solution) {
+                                   integrate_position(problem, solution);
+                                   schedule_law(problem, solution);
+                                 }),
+                         as_c_only);
 }
 
 // The gain of the position alone changes.
@@ -131,11 +142,13 @@ void test_gains_of_a_transient() {
   expect_emitted_to_pass(changed(double_integrator(), schedule_filter), as_both);
   DesignText design = limited_double_integrator();
   design.Swv = Eigen::MatrixXd::Constant(1, 1, 0.01), design.form = "predictor", design.real = "double";
-  expect_emitted_to_pass(changed(design, [](Problem& problem, Solution& solution) {
-    integrate_position(problem, solution);
-    schedule_law(problem, solution);
-    schedule_filter(problem, solution);
-  }), as_c_only);
+  expect_emitted_to_pass(changed(design,
+                                 [](Problem& problem, Solution& solution) {
+                                   integrate_position(problem, solution);
+                                   schedule_law(problem, solution);
+                                   schedule_filter(problem, solution);
+                                 }),
+                         as_c_only);
 }
 
 // Rows that are all the same, or the held one, are no table.
@@ -154,10 +167,12 @@ void run_in_both_styles(Controller controller, const std::string& body,
                         const std::function<void(const std::string&)>& expect) {
   for (const auto style : {lqg::design::Style::unrolled, lqg::design::Style::compact}) {
     controller.style = style;
-    expect(run_with_header(controller, "#include <math.h>\n#include <stdio.h>\n#include \"loop.h\"\n\n"
-                                       "int main(void)\n{\n    static loop_t self;\n    float y[1] = {0}, u[1] = {0};\n"
-                                       "    unsigned status = 0;\n\n    (void)y;\n    (void)u;\n    (void)status;\n"
-                                       "    loop_init(&self);\n" + body + "    return 0;\n}\n"));
+    expect(run_with_header(controller,
+                           "#include <math.h>\n#include <stdio.h>\n#include \"loop.h\"\n\n"
+                           "int main(void)\n{\n    static loop_t self;\n    float y[1] = {0}, u[1] = {0};\n"
+                           "    unsigned status = 0;\n\n    (void)y;\n    (void)u;\n    (void)status;\n"
+                           "    loop_init(&self);\n" +
+                               body + "    return 0;\n}\n"));
   }
 }
 
@@ -176,24 +191,28 @@ void test_an_integral_does_not_wind_up_at_a_limit() {
         most = self.xi[0] > most ? self.xi[0] : most;
     }
     printf("%.9g %.9g", (double)most, (double)self.xi[0]);
-)", [](const std::string& text) {
-    double most = 0, xi = 0;
-    TEST_ASSERT_EQUAL_INT(2, std::sscanf(text.c_str(), "%lf %lf", &most, &xi));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-3, (0.5 + 100 / 0.3) / 2, most);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.25, xi);
-  });
+)",
+                     [](const std::string& text) {
+                       double most = 0, xi = 0;
+                       TEST_ASSERT_EQUAL_INT(2, std::sscanf(text.c_str(), "%lf %lf", &most, &xi));
+                       TEST_ASSERT_DOUBLE_WITHIN(1e-3, (0.5 + 100 / 0.3) / 2, most);
+                       TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.25, xi);
+                     });
 }
 
 // With x̂ = 0 the law is 2 ξ = 6, and 0.25 is applied.
 void expect_integral_after_another_input(void (*change)(Problem&, Solution&), double expected) {
-  const auto is_expected = [&](const std::string& xi) { TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected, std::strtod(xi.c_str(), nullptr)); };
+  const auto is_expected = [&](const std::string& xi) {
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected, std::strtod(xi.c_str(), nullptr));
+  };
   run_in_both_styles(changed(limited_double_integrator(), change), R"(
     self.xi[0] = 3;
     (void)loop_control(&self, u);
     u[0] = 0.25f;
     (void)loop_predict(&self, u);
     printf("%.9g", (double)self.xi[0]);
-)", is_expected);
+)",
+                     is_expected);
 }
 
 // 3 + 0.3 (0.25 − 6)
@@ -202,10 +221,12 @@ void test_another_input_than_asked_for_acts_on_the_integral_by_H() {
 }
 
 void test_conditioned_law_asks_for_what_was_applied() {
-  expect_integral_after_another_input([](Problem& problem, Solution& solution) {
-    integrate_position(problem, solution);
-    solution.regulator->H.resize(0, 0);
-  }, 0.125);
+  expect_integral_after_another_input(
+      [](Problem& problem, Solution& solution) {
+        integrate_position(problem, solution);
+        solution.regulator->H.resize(0, 0);
+      },
+      0.125);
 }
 
 void test_control_goes_on_where_the_hand_was() {
@@ -218,10 +239,11 @@ void test_control_goes_on_where_the_hand_was() {
     status |= loop_set_input(&self, by_hand);
     status |= loop_control(&self, u);
     printf("%u %.9g", status, (double)u[0]);
-)", [](const std::string& text) {
-      TEST_ASSERT_TRUE(text.substr(0, 2) == "0 ");
-      TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.37, std::strtod(text.c_str() + 2, nullptr));
-    });
+)",
+                       [](const std::string& text) {
+                         TEST_ASSERT_TRUE(text.substr(0, 2) == "0 ");
+                         TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.37, std::strtod(text.c_str() + 2, nullptr));
+                       });
 }
 
 void test_inputs_on_their_way_follow_the_hand() {
@@ -229,7 +251,8 @@ void test_inputs_on_their_way_follow_the_hand() {
     u[0] = 0.75f;
     status = loop_set_input(&self, u);
     printf("%u %g %g", status, (double)self.x[LOOP_X_FORCE_DELAYED_2], (double)self.x[LOOP_X_FORCE_DELAYED_1]);
-)", [](const std::string& text) { TEST_ASSERT_EQUAL_STRING("0 0.75 0.75", text.c_str()); });
+)",
+                     [](const std::string& text) { TEST_ASSERT_EQUAL_STRING("0 0.75 0.75", text.c_str()); });
 }
 
 // 0.7 per second are 0.07 a sample.
@@ -246,14 +269,15 @@ void test_an_input_moves_no_faster_than_its_slew_limit() {
         (void)loop_predict(&self, u);
     }
     printf("%u %.9g %.9g", status, (double)most, (double)last);
-)", [](const std::string& text) {
-    double most = 0, last = 0;
-    unsigned status = 0;
-    TEST_ASSERT_EQUAL_INT(3, std::sscanf(text.c_str(), "%u %lf %lf", &status, &most, &last));
-    TEST_ASSERT_EQUAL_UINT(8, status);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.07, most);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.4, last);
-  });
+)",
+                     [](const std::string& text) {
+                       double most = 0, last = 0;
+                       unsigned status = 0;
+                       TEST_ASSERT_EQUAL_INT(3, std::sscanf(text.c_str(), "%u %lf %lf", &status, &most, &last));
+                       TEST_ASSERT_EQUAL_UINT(8, status);
+                       TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.07, most);
+                       TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.4, last);
+                     });
 }
 
 // NaN in r, in y, and in the u that is given to predict: u stays finite, r as it was, and the loop begins anew.
@@ -268,22 +292,26 @@ void test_nothing_that_is_not_finite_stays() {
     u[0] = (float)NAN;
     status = loop_predict(&self, u);
     printf("%u %g %g %g", status, (double)self.r[0], (double)self.xi[0], (double)self.u_applied[0]);
-)", [](const std::string& text) { TEST_ASSERT_EQUAL_STRING("32 1 16 0.5 0 0", text.c_str()); });
+)",
+                     [](const std::string& text) { TEST_ASSERT_EQUAL_STRING("32 1 16 0.5 0 0", text.c_str()); });
 }
 
 // The time goes on when the state is reset; the filter's transient begins anew.
 void test_counters_stop_at_the_end_and_know_a_reset() {
-  run_in_both_styles(changed(double_integrator(), [](Problem& problem, Solution& solution) {
-    schedule_law(problem, solution);
-    schedule_filter(problem, solution);
-  }), R"(
+  run_in_both_styles(changed(double_integrator(),
+                             [](Problem& problem, Solution& solution) {
+                               schedule_law(problem, solution);
+                               schedule_filter(problem, solution);
+                             }),
+                     R"(
     for (int k = 0; k < 20; k++)
         status |= loop_step(&self, y, u);
     printf("%u %u %u ", status, self.sample, self.gain_row);
     u[0] = (float)NAN;
     status = loop_predict(&self, u);
     printf("%u %u %u", status, self.sample, self.gain_row);
-)", [](const std::string& text) { TEST_ASSERT_EQUAL_STRING("0 5 4 16 5 0", text.c_str()); });
+)",
+                     [](const std::string& text) { TEST_ASSERT_EQUAL_STRING("0 5 4 16 5 0", text.c_str()); });
 }
 
 }  // namespace

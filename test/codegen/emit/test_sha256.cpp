@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SHA-256 against the examples of FIPS 180-4 and, around the ends of a block, against sha256sum of GNU coreutils.
 #include <unity.h>
 
@@ -11,13 +12,9 @@ void expect(const char* digest, const std::string& message) {
   TEST_ASSERT_EQUAL_STRING(digest, sha256(message).c_str());
 }
 
-void test_sha256_of_abc() {
-  expect("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", "abc");
-}
+void test_sha256_of_abc() { expect("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", "abc"); }
 
-void test_sha256_of_nothing() {
-  expect("e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855", "");
-}
+void test_sha256_of_nothing() { expect("e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855", ""); }
 
 void test_sha256_of_448_bits() {
   expect("248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1",
@@ -25,8 +22,9 @@ void test_sha256_of_448_bits() {
 }
 
 void test_sha256_of_896_bits() {
-  expect("cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1",
-         "abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu");
+  expect(
+      "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1",
+      "abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu");
 }
 
 void test_sha256_of_a_million_a() {

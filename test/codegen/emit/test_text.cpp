@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Placeholders, names, numbers and matrices as text.
 #include <cmath>
 #include <stdexcept>
@@ -85,10 +86,14 @@ void test_matrices_stand_in_aligned_columns() {
   const lqg::design::Digits digits(50);
   lqg::design::RealMatrix matrix(2, 2);
   matrix << 1, -0.25, 100, 0;
-  TEST_ASSERT_EQUAL_STRING("  A = [   1.0  -0.25 ]\n"
-                           "      [ 100.0    0.0 ]\n", matrix_lines("A", matrix, true).c_str());
-  TEST_ASSERT_EQUAL_STRING("  E[w wᵀ] = [   1.0  -0.25 ]\n"
-                           "            [ 100.0    0.0 ]\n", matrix_lines("E[w wᵀ]", matrix, true).c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "  A = [   1.0  -0.25 ]\n"
+      "      [ 100.0    0.0 ]\n",
+      matrix_lines("A", matrix, true).c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "  E[w wᵀ] = [   1.0  -0.25 ]\n"
+      "            [ 100.0    0.0 ]\n",
+      matrix_lines("E[w wᵀ]", matrix, true).c_str());
 }
 
 void test_arrays_are_written_row_after_row() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What tracing makes of a plant's structure, and what it costs.
 #include <regex>
 
@@ -101,10 +102,16 @@ Counted operator+(Counted a, Counted b) { return counted(a.value + b.value); }
 Counted operator-(Counted a, Counted b) { return counted(a.value - b.value); }
 Counted operator*(Counted a, Counted b) { return counted(a.value * b.value); }
 Counted operator/(Counted a, Counted b) { return counted(a.value / b.value); }
-Counted multiply_add(const Counted& a, const Counted& b, const Counted& c) { return counted(a.value * b.value + c.value); }
-Counted multiply_subtract(const Counted& a, const Counted& b, const Counted& c) { return counted(c.value - a.value * b.value); }
+Counted multiply_add(const Counted& a, const Counted& b, const Counted& c) {
+  return counted(a.value * b.value + c.value);
+}
+Counted multiply_subtract(const Counted& a, const Counted& b, const Counted& c) {
+  return counted(c.value - a.value * b.value);
+}
 bool is_finite(const Counted& a) { return (a - a).value == 0; }
-bool is_usable(const Counted& innovation, const Counted& variance) { return variance.value > 0 && std::isfinite(innovation.value); }
+bool is_usable(const Counted& innovation, const Counted& variance) {
+  return variance.value > 0 && std::isfinite(innovation.value);
+}
 Counted absolute(const Counted& a) { return counted(std::abs(a.value)); }
 bool is_zero(const Counted& a) { return a.value == 0; }
 bool is_less(const Counted& a, const Counted& b) { return a.value < b.value; }
@@ -139,7 +146,8 @@ void test_compact_counts_what_the_loops_do_zeros_included() {
           design.Swv = Eigen::MatrixXd::Constant(2, 2, 0.01);
         }
         const Controller controller = controller_of(design);
-        TEST_ASSERT_EQUAL_INT(operations_of_a_sample(controller) + scaling_of_a_sample(controller), controller.cost.multiply_adds);
+        TEST_ASSERT_EQUAL_INT(operations_of_a_sample(controller) + scaling_of_a_sample(controller),
+                              controller.cost.multiply_adds);
       }
 }
 

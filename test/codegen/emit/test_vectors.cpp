@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reference vectors: the same on every run, near enough to say something, of a plant that does what its design says.
 #include <cmath>
 
@@ -39,8 +40,8 @@ void test_vectors_are_the_same_each_time() {
 }
 
 // A tolerance of entry i, and the largest value that this entry has.
-void expect_small(const std::vector<double>& tolerance, const std::vector<Sample>& samples, std::vector<double> Sample::*values,
-                  double largest_share) {
+void expect_small(const std::vector<double>& tolerance, const std::vector<Sample>& samples,
+                  std::vector<double> Sample::* values, double largest_share) {
   for (std::size_t i = 0; i < tolerance.size(); ++i) {
     double largest = 0;
     for (const Sample& sample : samples) largest = std::max(largest, std::abs((sample.*values)[i]));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Outputs that are watched: the gate, updates by one output alone, innovations and their variances.
 #include <cmath>
 #include <cstdlib>
@@ -57,8 +58,8 @@ void test_the_narrower_one_of_gate_and_spike_is_the_threshold() {
     std::optional<double> spike;
     double threshold;
   };
-  for (const Case& each : {Case{0, {}, 300}, Case{5, {}, 5}, Case{1000, {}, 1000}, Case{0, 50, 50}, Case{0, infinity, 0},
-                           Case{5, 50, 5}, Case{50, 5, 5}, Case{5, infinity, 5}})
+  for (const Case& each : {Case{0, {}, 300}, Case{5, {}, 5}, Case{1000, {}, 1000}, Case{0, 50, 50},
+                           Case{0, infinity, 0}, Case{5, 50, 5}, Case{50, 5, 5}, Case{5, infinity, 5}})
     for (const Kind& kind : kinds) {
       const Controller controller = changed(design_of(kind), [&](Problem& problem, Solution&) {
         problem.estimator->gate = each.gate, problem.estimator->spike = each.spike;
@@ -73,10 +74,13 @@ std::string run_in_both_styles(Controller controller, const std::string& body) {
   std::string printed[2];
   for (const bool compact : {false, true}) {
     controller.style = compact ? lqg::design::Style::compact : lqg::design::Style::unrolled;
-    printed[compact] = run_with_header(controller, "#include <stdio.h>\n#include <string.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
-                                                   "    static loop_t self, other;\n    float y[LOOP_NY] = {0}, u[LOOP_NU] = {0};\n"
-                                                   "    unsigned status = 0;\n\n    (void)y;\n    (void)u;\n    (void)status;\n"
-                                                   "    loop_init(&self);\n    loop_init(&other);\n" + body + "    return 0;\n}\n");
+    printed[compact] =
+        run_with_header(controller,
+                        "#include <stdio.h>\n#include <string.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
+                        "    static loop_t self, other;\n    float y[LOOP_NY] = {0}, u[LOOP_NU] = {0};\n"
+                        "    unsigned status = 0;\n\n    (void)y;\n    (void)u;\n    (void)status;\n"
+                        "    loop_init(&self);\n    loop_init(&other);\n" +
+                            body + "    return 0;\n}\n");
   }
   TEST_ASSERT_EQUAL_STRING(printed[0].c_str(), printed[1].c_str());
   return printed[0];

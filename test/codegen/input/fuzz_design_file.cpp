@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whatever the bytes, the reader neither crashes nor leaves a trace of them that could harm: each finding is
 // one line of UTF-8 with a place, and a problem without errors has the shapes that it promises.
 #include <cstddef>
@@ -33,10 +34,8 @@ void check_shapes(const design::Problem& problem) {
     if (matrix.size() > 0) is(matrix, rows, columns);
   };
   is(plant.A, nx, nx), is(plant.B, nx, nu), is(plant.C, ny, nx), is(plant.D, ny, nu), is_or_empty(plant.G, nx, nw);
-  demand(static_cast<Eigen::Index>(plant.states.size()) == nx &&
-         static_cast<Eigen::Index>(plant.inputs.size()) == nu);
-  demand(static_cast<Eigen::Index>(plant.outputs.size()) == ny && plant.sample_time > 0 &&
-         !problem.name.empty());
+  demand(static_cast<Eigen::Index>(plant.states.size()) == nx && static_cast<Eigen::Index>(plant.inputs.size()) == nu);
+  demand(static_cast<Eigen::Index>(plant.outputs.size()) == ny && plant.sample_time > 0 && !problem.name.empty());
   if (problem.regulator)
     is_or_empty(problem.regulator->Q, nx, nx), is_or_empty(problem.regulator->R, nu, nu),
         is_or_empty(problem.regulator->N, nx, nu);

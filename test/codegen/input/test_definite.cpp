@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Symmetry and definiteness, at the edges of their tolerances.
 #include <cmath>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a design file to a problem: every key, every default, and where findings stand.
 #include <cmath>
 #include <cstdio>
@@ -134,8 +135,7 @@ void expect_matrix(std::initializer_list<double> row_by_row, const Eigen::Matrix
   TEST_ASSERT_EQUAL_INT(row_by_row.size(), matrix.size());
   const double* expected = row_by_row.begin();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j, ++expected)
-      TEST_ASSERT_EQUAL_DOUBLE(*expected, matrix(i, j));
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j, ++expected) TEST_ASSERT_EQUAL_DOUBLE(*expected, matrix(i, j));
 }
 
 void expect_signal(const char* name, const char* unit, const design::Signal& signal) {
@@ -177,8 +177,7 @@ void test_estimator_and_code_have_what_the_file_says() {
   expect_matrix({7}, p.estimator->W);
   expect_matrix({8}, p.estimator->V);
   expect_matrix({0.0625}, p.estimator->Swv);
-  TEST_ASSERT_TRUE(p.estimator->noise == design::Noise::discrete &&
-                   p.estimator->gain == design::Gain::online);
+  TEST_ASSERT_TRUE(p.estimator->noise == design::Noise::discrete && p.estimator->gain == design::Gain::online);
   TEST_ASSERT_TRUE(p.estimator->form == design::Form::predictor);
   TEST_ASSERT_TRUE(p.estimator->covariance == design::Covariance::plain);
   expect_matrix({5, 6}, p.estimator->x0);
@@ -194,7 +193,8 @@ void test_rarer_keys_of_plant_and_regulator_are_read() {
   TEST_ASSERT_EQUAL_DOUBLE(0.75, p.plant.delay);
   expect_matrix({0.5, 0.25}, p.plant.H);
   const design::Regulator& regulator = *p.regulator;
-  TEST_ASSERT_TRUE(regulator.Q.size() == 0 && regulator.R.size() == 0 && regulator.bryson->states.size() == 0 && !regulator.decay);
+  TEST_ASSERT_TRUE(regulator.Q.size() == 0 && regulator.R.size() == 0 && regulator.bryson->states.size() == 0 &&
+                   !regulator.decay);
   expect_matrix({2, 4}, regulator.bryson->outputs);
   expect_matrix({0.5, 8}, regulator.bryson->inputs);
   TEST_ASSERT_EQUAL_DOUBLE(3, regulator.bryson->rho);
@@ -291,16 +291,14 @@ void test_estimator_alone_needs_no_input() {
 }
 
 void test_regulator_alone_needs_no_output() {
-  const Problem p =
-      problem("name=\"a\"\nplant={domain=\"discrete\", sample_time=1, A=[[1]], B=[[1]]}\n" + lqr);
+  const Problem p = problem("name=\"a\"\nplant={domain=\"discrete\", sample_time=1, A=[[1]], B=[[1]]}\n" + lqr);
   TEST_ASSERT_FALSE(p.estimator.has_value());
   TEST_ASSERT_EQUAL_INT(0, p.plant.C.rows());
   TEST_ASSERT_EQUAL_INT(1, p.plant.C.cols());
 }
 
 void test_regulator_alone_says_what_it_does_not_use() {
-  expect_lines("d.toml:2:77: note: plant.C: not used without [kalman]: u = −K x of the measured states\n",
-               least + lqr);
+  expect_lines("d.toml:2:77: note: plant.C: not used without [kalman]: u = −K x of the measured states\n", least + lqr);
 }
 
 void test_covariance_of_a_steady_gain_is_said_to_be_unused() {
@@ -323,16 +321,14 @@ void test_dotted_and_inline_tables_mean_the_same() {
       "}\n";
   const Problem p = problem(dotted);
   const Problem q = problem(least + lqr + kalman);
-  TEST_ASSERT_TRUE(p.plant.A == q.plant.A && p.regulator->Q == q.regulator->Q &&
-                   p.estimator->V == q.estimator->V);
+  TEST_ASSERT_TRUE(p.plant.A == q.plant.A && p.regulator->Q == q.regulator->Q && p.estimator->V == q.estimator->V);
   expect_lines("d.toml:7:9: lqr.Q: expected 1 number (nx), found 2\n",
                std::string(dotted).replace(dotted.find("Q = [1]"), 7, "Q = [1, 2]"));
 }
 
 void test_file_of_another_editor_means_the_same() {
   std::string text = least + lqr;
-  for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 2))
-    text.replace(at, 1, "\r\n");
+  for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 2)) text.replace(at, 1, "\r\n");
   const Problem p = problem("\xEF\xBB\xBF" + text);
   TEST_ASSERT_EQUAL_STRING("a", p.name.c_str());
 }
@@ -341,9 +337,8 @@ void test_slight_asymmetry_is_taken_out_with_a_note() {
   std::string text = full;
   text.replace(text.find("[0.5, 1]]"), 9, "[0.5000000001, 1]]");
   const input::DesignFile file = input::parse_design(text);
-  TEST_ASSERT_EQUAL_STRING(
-      "d.toml:15:5: note: lqr.Q: symmetrised: found [0][1] = 0.5 and [1][0] = 0.5000000001\n",
-      lines(file).c_str());
+  TEST_ASSERT_EQUAL_STRING("d.toml:15:5: note: lqr.Q: symmetrised: found [0][1] = 0.5 and [1][0] = 0.5000000001\n",
+                           lines(file).c_str());
   TEST_ASSERT_TRUE(file.problem->regulator->Q(0, 1) == file.problem->regulator->Q(1, 0));
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tree of a TOML text: kinds, places, and the ways in which toml++ fails.
 #include <cstdlib>
 #include <string>
@@ -49,8 +50,8 @@ void test_every_kind_of_value_is_told_apart() {
 
 void test_numbers_are_those_that_the_compiler_reads() {
   for (const char* number :
-       {"0.1", "1e-310", "4.9406564584124654e-324", "1.7976931348623157e308", "0.30000000000000004",
-        "9007199254740993", "123456.789e-7", "2.2250738585072011e-308", "-1e23", "-0.0"}) {
+       {"0.1", "1e-310", "4.9406564584124654e-324", "1.7976931348623157e308", "0.30000000000000004", "9007199254740993",
+        "123456.789e-7", "2.2250738585072011e-308", "-1e23", "-0.0"}) {
     const double read = tree("x = " + std::string(number)).items[0].number;
     TEST_ASSERT_EQUAL_HEX64_MESSAGE(0, read == std::strtod(number, nullptr) ? 0 : 1, number);
   }

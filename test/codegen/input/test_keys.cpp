@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The table of keys, and what an unknown one may have meant.
 #include <set>
 #include <string>
@@ -57,7 +58,8 @@ void test_word_of_another_tool_names_the_key() {
   expect("kalman", "R", "unknown key, did you mean `measurement_noise`?");
   expect("lqr", "RN", "unknown key, did you mean `measurement_noise` in [kalman]?");
   expect("require", "phase_margin", "unknown key, did you mean `phase_margin_deg`?");
-  expect("lqr", "K", "unknown key, K is what lqgen computes: did you mean `Q` and `R` in [lqr], or `poles` in [pole_placement]?");
+  expect("lqr", "K",
+         "unknown key, K is what lqgen computes: did you mean `Q` and `R` in [lqr], or `poles` in [pole_placement]?");
   for (const char* table : {"plant", "lqr", "kalman", "limits", "require"})
     for (const char* word : {"Ts", "QN", "umax", "phase_margin", "x0"})
       TEST_ASSERT_NOT_NULL_MESSAGE(find_rule(suggest(table, word).path), word);

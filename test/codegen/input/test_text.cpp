@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What may reach the TOML parser, and what a message may show.
 #include <string>
 

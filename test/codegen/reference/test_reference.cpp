@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is made from the table of keys names every key and says something of it.
 #include <string>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The schema of the design file accepts what lqgen accepts and refuses what lqgen refuses; that of NAME.json holds for
 what lqgen writes."""
 

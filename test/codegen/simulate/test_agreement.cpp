@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forms that keep z beside the physical form that they stand for.
 #include <unity.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What ξ does at a limit: the law that is shipped against others, on several plants. With an argument it prints every law's figures.
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ struct Plant {
   VectorXd x_max, u_max, lowest, highest;
   std::vector<double> q;
   std::vector<VectorXd> steps;
-  VectorXd load;     // as an input, from the middle of the run on
+  VectorXd load;  // as an input, from the middle of the run on
   double seconds;
 };
 
@@ -55,6 +56,7 @@ VectorXd vector(std::initializer_list<double> entries) {
 }
 
 // A Maxon RE25 that turns a shaft to an angle: 2017 and 47.37 1/s as from its data sheet.
+// clang-format off
 Plant servo(std::vector<double> q, std::vector<VectorXd> steps) {
   return {"servo", matrix({{0, 1}, {0, -47.37}}), matrix({{0}, {2017}}), matrix({{1, 0}}), 0.001, vector({0.05, 50}), vector({20}),
           vector({-20}), vector({20}), std::move(q), std::move(steps), vector({6}), 6};
@@ -86,15 +88,18 @@ std::vector<Plant> plants() {
            matrix({{1, 0, 0, 0}}), 0.01, vector({0.2, infinity, 0.2, infinity}), vector({3}), vector({-6}), vector({6}), {1, 10},
            {vector({0.05}), vector({0.2}), vector({0.6})}, vector({0.6}), 40}};
 }
+// clang-format on
 
 double weight(double largest) { return 1 / (largest * largest); }
 
 Problem problem_of(const Plant& plant, double q) {
-  Problem problem = regulator_alone(design_test::problem_of(Domain::continuous, plant.sample_time, plant.A, plant.B, plant.C));
+  Problem problem =
+      regulator_alone(design_test::problem_of(Domain::continuous, plant.sample_time, plant.A, plant.B, plant.C));
   problem.regulator->Q = plant.x_max.unaryExpr(&weight).asDiagonal();
   problem.regulator->R = plant.u_max.unaryExpr(&weight).asDiagonal();
   for (int i = 0; i < plant.C.rows(); ++i) problem.regulator->track.push_back(i);
-  problem.regulator->integral = Integral{problem.regulator->track, q * MatrixXd::Identity(plant.C.rows(), plant.C.rows())};
+  problem.regulator->integral =
+      Integral{problem.regulator->track, q * MatrixXd::Identity(plant.C.rows(), plant.C.rows())};
   problem.limits = Limits{plant.lowest, plant.highest, {}};
   return problem;
 }
@@ -131,7 +136,8 @@ Model model_of(const Controller& controller, const Law& law) {
   Model model = lqg::controller::model_of<double>(controller, round);
   if (law.conditioning >= 0) model.H = law.conditioning * model.H_input;
   const RegulatorSolution& regulator = *controller.solution.regulator;
-  if (!law.leads) model.Nbar = in_double(regulator.Nu) + in_double(regulator.K).leftCols(model.nx) * in_double(regulator.Nx);
+  if (!law.leads)
+    model.Nbar = in_double(regulator.Nu) + in_double(regulator.K).leftCols(model.nx) * in_double(regulator.Nx);
   return model;
 }
 
@@ -164,7 +170,8 @@ Response respond(const Plant& plant, const Model& model, const Law& law, const C
     if (!(error.cwiseAbs().maxCoeff() <= 0.01 * step)) last_outside = std::max(last_outside, k);
     if (!is_loaded)
       for (Index i = 0; i < error.size(); ++i)
-        if (what.r(i) != 0) response.overshoot = std::max(response.overshoot, -error(i) * (what.r(i) > 0 ? 1 : -1) / step);
+        if (what.r(i) != 0)
+          response.overshoot = std::max(response.overshoot, -error(i) * (what.r(i) > 0 ? 1 : -1) / step);
     state.x = x;
     const VectorXd xi = state.xi;
     lqg::step::Listener listener;
@@ -219,14 +226,15 @@ std::map<std::string, Score> compare(bool prints) {
           score.never += responses[i].settling == infinity;
         }
         if (prints)
-          std::printf("%s, q = %g, |r| = %g%s, gain %g: best %g s, model %g s, %.0f %% over\n", plant.name, q, what.r.norm(),
-                      what.load.size() ? ", load" : "", what.gain, shortest, responses[0].settling, 100 * responses[0].overshoot);
+          std::printf("%s, q = %g, |r| = %g%s, gain %g: best %g s, model %g s, %.0f %% over\n", plant.name, q,
+                      what.r.norm(), what.load.size() ? ", load" : "", what.gain, shortest, responses[0].settling,
+                      100 * responses[0].overshoot);
       }
     }
   if (prints)
     for (const Law& law : laws)
-      std::printf("%-32s within 1.2 of the best: %.0f %% of %d cases; never settles: %d\n", law.name, 100 * scores[law.name].share(),
-                  scores[law.name].cases, scores[law.name].never);
+      std::printf("%-32s within 1.2 of the best: %.0f %% of %d cases; never settles: %d\n", law.name,
+                  100 * scores[law.name].share(), scores[law.name].cases, scores[law.name].never);
   return scores;
 }
 
@@ -239,7 +247,8 @@ void test_a_servo_settles_within_60_ms_whatever_its_integral_weighs() {
     const Model model = model_of(controller_for(problem, solved(problem)), shipped);
     const Response response = respond(plant, model, shipped, {vector({1}), {}, 1});
     const std::string found = std::to_string(response.settling) + " s, over " + std::to_string(response.overshoot);
-    TEST_ASSERT_TRUE_MESSAGE(response.settling > 0.01 && response.settling <= 0.06 && response.overshoot <= 0.15, found.c_str());
+    TEST_ASSERT_TRUE_MESSAGE(response.settling > 0.01 && response.settling <= 0.06 && response.overshoot <= 0.15,
+                             found.c_str());
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A plain P, tried in the target's numbers: silence before it is looked at decides how much is lost when outputs come back.
 #include <unity.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The simulation: its noise, its filters and laws against what the design says of them.
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,8 @@ void test_normal_numbers_have_mean_0_and_variance_1() {
 void test_one_seed_gives_the_same_bits_and_another_one_others() {
   const Problem problem = in_double(two_mass());
   const Solution found = solved(problem);
-  const Trajectory first = simulate(problem, found, options_of(50, 3)), again = simulate(problem, found, options_of(50, 3)),
+  const Trajectory first = simulate(problem, found, options_of(50, 3)),
+                   again = simulate(problem, found, options_of(50, 3)),
                    other = simulate(problem, found, options_of(50, 4));
   TEST_ASSERT_TRUE(first.x == again.x && first.estimate == again.estimate && first.u == again.u);
   TEST_ASSERT_TRUE(first.y == again.y && first.cost == again.cost);
@@ -115,8 +117,8 @@ void test_errors_of_the_filter_have_the_posterior_covariance() {
   const Problem problem = in_double(two_mass());
   const Solution found = solved(problem);
   const EstimatorSolution& filter = *found.estimator;
-  const MatrixXd F = (MatrixXd::Identity(4, 4) - to_doubles(filter.L) * to_doubles(found.plant.C))
-                     * to_doubles(found.plant.A);
+  const MatrixXd F =
+      (MatrixXd::Identity(4, 4) - to_doubles(filter.L) * to_doubles(found.plant.C)) * to_doubles(found.plant.A);
   const Trajectory run = simulate(problem, found, options_of(20500, 5));
   expect_covariance(late_errors(run, 20000), to_doubles(filter.P_posterior), F, "posterior covariance");
 }
@@ -282,7 +284,8 @@ void test_gate_leaves_out_what_is_far_off() {
 // In every filter: x̂ is wrong, here because the sensor shows another place from one sample to the next and for ever.
 void test_gate_opens_again_when_the_estimate_is_wrong() {
   for (const auto& [gain, covariance] :
-       {std::pair(Gain::steady, Covariance::ud), std::pair(Gain::online, Covariance::ud), std::pair(Gain::online, Covariance::plain)})
+       {std::pair(Gain::steady, Covariance::ud), std::pair(Gain::online, Covariance::ud),
+        std::pair(Gain::online, Covariance::plain)})
     for (const double moved : {1.0, 1e3, 1e6}) {
       Problem problem = two_mass();
       problem.regulator.reset();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scalar of this variant of the library, and the way of its numbers in and out of the templates.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random controllers, and what the tests of a step do with their states.
 #pragma once
 
@@ -112,7 +113,8 @@ Matrix<double> covariance(const Model<S>& model, const State<S>& state) {
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < nx; ++j) {
       if (model.filter == Filter::plain) P(i, j) = to_double(state.P[static_cast<std::size_t>(triangle(i, j))]);
-      if (model.filter == Filter::ud && i < j) U(i, j) = to_double(state.U[static_cast<std::size_t>(strict_triangle(i, j))]);
+      if (model.filter == Filter::ud && i < j)
+        U(i, j) = to_double(state.U[static_cast<std::size_t>(strict_triangle(i, j))]);
       if (model.filter == Filter::ud && i == j) D(i, i) = to_double(state.D[static_cast<std::size_t>(i)]);
     }
   return model.filter == Filter::ud ? Matrix<double>(U * D * U.transpose()) : P;

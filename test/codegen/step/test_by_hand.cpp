@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a caller sets and looks at between two samples: the state, its covariance, the outputs that an update leaves out.
 #include <cmath>
 #include <limits>
@@ -39,7 +40,8 @@ template <class S>
 long double distance(const Vector<S>& x, const std::vector<int>& bounds) {
   long double sum = 0;
   for (int i = 0; i < x.size(); ++i) {
-    const long double part = std::ldexp(static_cast<long double>(to_double(x(i))), -bounds[static_cast<std::size_t>(i)]);
+    const long double part =
+        std::ldexp(static_cast<long double>(to_double(x(i))), -bounds[static_cast<std::size_t>(i)]);
     sum += part * part;
   }
   return sum;
@@ -57,7 +59,8 @@ void set_random_states() {
     state.innovation = random_vector<S>(random, static_cast<int>(state.innovation.size()));
     const State<S> before = state;
     Vector<S> x = random_vector<S>(random, model.nx);
-    for (int i = 0; i < model.nx; ++i) x(i) = x(i) * rounded<S>(std::ldexp(0.6, model.x_bound[static_cast<std::size_t>(i)]));
+    for (int i = 0; i < model.nx; ++i)
+      x(i) = x(i) * rounded<S>(std::ldexp(0.6, model.x_bound[static_cast<std::size_t>(i)]));
     const long double of_x = distance(x, model.x_bound);
     if (std::abs(of_x - 1) < 1e-5L) continue;  // nearer to 1 than rounding may tell
     Listener listener;
@@ -114,7 +117,8 @@ void multiply_out_random_factors() {
     TEST_ASSERT_EQUAL_size_t(static_cast<std::size_t>(model.nx * (model.nx + 1) / 2), P.size());
     std::size_t at = 0;
     for (int i = 0; i < model.nx; ++i)
-      for (int j = 0; j <= i; ++j) TEST_ASSERT_DOUBLE_WITHIN(roundings * size(i, j), expected(i, j), to_double(P[at++]));
+      for (int j = 0; j <= i; ++j)
+        TEST_ASSERT_DOUBLE_WITHIN(roundings * size(i, j), expected(i, j), to_double(P[at++]));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The three filters against the textbook, against each other, and against what must not happen.
 #include <limits>
 
@@ -53,8 +54,8 @@ Vector<Long> long_numbers(const Vector<S>& values) {
 void expect_near(double largest_error, double tolerance, double scale, int seed, const char* what) {
   if (largest_error <= tolerance * scale) return;
   char message[160];
-  std::snprintf(message, sizeof message, "seed %d: %s is off by %g of %g, accepted %g", seed, what, largest_error, scale,
-                tolerance * scale);
+  std::snprintf(message, sizeof message, "seed %d: %s is off by %g of %g, accepted %g", seed, what, largest_error,
+                scale, tolerance * scale);
   TEST_FAIL_MESSAGE(message);
 }
 
@@ -92,7 +93,9 @@ void run_all_beside_textbook(Filter filter) {
 
 void test_plain_filter_is_that_of_the_textbook_in_double() { run_all_beside_textbook<double>(Filter::plain); }
 void test_plain_filter_is_that_of_the_textbook_in_float() { run_all_beside_textbook<float>(Filter::plain); }
-void test_plain_filter_is_that_of_the_textbook_in_fused_float() { run_all_beside_textbook<Fused<float>>(Filter::plain); }
+void test_plain_filter_is_that_of_the_textbook_in_fused_float() {
+  run_all_beside_textbook<Fused<float>>(Filter::plain);
+}
 void test_ud_filter_is_that_of_the_textbook_in_double() { run_all_beside_textbook<double>(Filter::ud); }
 void test_ud_filter_is_that_of_the_textbook_in_float() { run_all_beside_textbook<float>(Filter::ud); }
 void test_ud_filter_is_that_of_the_textbook_in_fused_double() { run_all_beside_textbook<Fused<double>>(Filter::ud); }
@@ -244,10 +247,14 @@ Model<S> without(const Model<S>& model, int left_out) {
     matrix.transposeInPlace();
   };
   remove_row(less.C);
-  if (model.D.cols()) remove_row(less.D);
-  else less.D.resize(model.ny - 1, 0);
-  if (model.filter == Filter::steady) remove_column(less.L);
-  else remove_row(less.V);
+  if (model.D.cols())
+    remove_row(less.D);
+  else
+    less.D.resize(model.ny - 1, 0);
+  if (model.filter == Filter::steady)
+    remove_column(less.L);
+  else
+    remove_row(less.V);
   if (model.filter != Filter::steady) less.E = Matrix<S>::Identity(model.ny - 1, model.ny - 1);
   if (model.M.cols()) remove_column(less.M);
   --less.ny;
@@ -326,7 +333,8 @@ void test_without_any_finite_output_update_changes_no_bit() {
       lqg::step::predict(model, state, random_vector<float>(random, model.nu), listener);
       const State<float> before = state;
       const float nothing = std::numeric_limits<float>::quiet_NaN();
-      TEST_ASSERT_TRUE(lqg::step::update(model, state, Vector<float>(Vector<float>::Constant(model.ny, nothing)), listener));
+      TEST_ASSERT_TRUE(
+          lqg::step::update(model, state, Vector<float>(Vector<float>::Constant(model.ny, nothing)), listener));
       TEST_ASSERT_TRUE(equal(before, state));
     }
 }

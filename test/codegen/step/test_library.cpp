@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C library and the templates are two texts of one algorithm: they agree in every bit, whatever the sensors say.
 //
 // Built once for each variant of the library.
@@ -43,30 +44,36 @@ struct Description {
 Description::Description(const Model<S>& model)
     : A(row_major(model.A)), B(row_major(model.B)), C(row_major(model.C)), D(row_major(model.D)), L(row_major(model.L)),
       M(row_major(model.M)), E(row_major(model.E)), V(row_major(model.V)), A_free(row_major(model.A_free)),
-      G(row_major(model.G)), w(row_major(model.w)), x0(row_major(model.x0)), P0(in_order(model.P0)), U0(in_order(model.U0)),
-      d0(in_order(model.D0)), K(row_major(model.K)), u_min(row_major(model.u_min)), u_max(row_major(model.u_max)), limit(row_major(model.nu_limit)) {
+      G(row_major(model.G)), w(row_major(model.w)), x0(row_major(model.x0)), P0(in_order(model.P0)),
+      U0(in_order(model.U0)), d0(in_order(model.D0)), K(row_major(model.K)), u_min(row_major(model.u_min)),
+      u_max(row_major(model.u_max)), limit(row_major(model.nu_limit)) {
   for (const int bound : model.x_bound) x_scale.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
   for (int i = 0; i < model.W.rows(); ++i)
     for (int j = 0; j <= i; ++j) W.push_back(number(model.W(i, j)));
   if (is_identity(model.E)) E.clear();
-  const auto nx = static_cast<unsigned>(model.nx), nu = static_cast<unsigned>(model.nu), ny = static_cast<unsigned>(model.ny);
+  const auto nx = static_cast<unsigned>(model.nx), nu = static_cast<unsigned>(model.nu),
+             ny = static_cast<unsigned>(model.ny);
   const lqg_real* free = M.empty() ? nullptr : pointer(A_free);
   const lqg_plant_t plant = {nx, nu, ny, pointer(A), pointer(B), pointer(C), pointer(D)};
   const lqg_lqr_t lqr = {nx, nu, pointer(K), pointer(u_min), pointer(u_max)};
   const lqg_form_t form = model.predictor_form ? LQG_PREDICTOR_FORM : LQG_FILTER_FORM;
   steady = {{plant, pointer(L), pointer(M), pointer(x0), pointer(x_scale), pointer(limit)}, lqr, form};
   plain = {{plant, pointer(E), pointer(V), pointer(W), pointer(M), free, pointer(x0), pointer(P0), pointer(x_scale),
-            pointer(limit)}, lqr, form};
+            pointer(limit)},
+           lqr,
+           form};
   ud = {{plant, pointer(E), pointer(V), static_cast<unsigned>(model.G.cols()), pointer(G), pointer(w), pointer(M), free,
-         pointer(x0), pointer(U0), pointer(d0), pointer(x_scale), pointer(limit)}, lqr, form};
+         pointer(x0), pointer(U0), pointer(d0), pointer(x_scale), pointer(limit)},
+        lqr,
+        form};
 }
 
 // The library's side: its state and its calls.
 class Library {
  public:
   explicit Library(const Model<S>& model)
-      : description_(model), filter_(model.filter), x_(size(model.nx)),
-        P_(model.P0.size()), U_(model.U0.size()), d_(model.D0.size()), u_(size(static_cast<int>(model.D.cols()))),
+      : description_(model), filter_(model.filter), x_(size(model.nx)), P_(model.P0.size()), U_(model.U0.size()),
+        d_(model.D0.size()), u_(size(static_cast<int>(model.D.cols()))),
         innovation_(model.M.cols() ? size(model.ny) : 0),
         work_(LQG_KALMAN_UD_WORK(size(model.nx), size(model.ny), size(static_cast<int>(model.G.cols())))) {
     switch (filter_) {
@@ -87,9 +94,11 @@ class Library {
   lqg_status predict(const Numbers& applied) {
     switch (filter_) {
       case Filter::plain:
-        return lqg_kalman_plain_predict(&description_.plain.kalman, x(), P(), u(), innovation(), pointer(applied), work());
+        return lqg_kalman_plain_predict(&description_.plain.kalman, x(), P(), u(), innovation(), pointer(applied),
+                                        work());
       case Filter::ud:
-        return lqg_kalman_ud_predict(&description_.ud.kalman, x(), U(), d(), u(), innovation(), pointer(applied), work());
+        return lqg_kalman_ud_predict(&description_.ud.kalman, x(), U(), d(), u(), innovation(), pointer(applied),
+                                     work());
       default:
         return lqg_kalman_steady_predict(&description_.steady.kalman, x(), u(), innovation(), pointer(applied), work());
     }
@@ -180,7 +189,8 @@ lqg_real random_output(Random& random, int one_hostile_in) {
 
 class Comparison {
  public:
-  Comparison(const Model<S>& model, std::uint64_t seed) : model_(model), seed_(seed), library_(model), templates_(model) {}
+  Comparison(const Model<S>& model, std::uint64_t seed)
+      : model_(model), seed_(seed), library_(model), templates_(model) {}
 
   void run_sample(const Numbers& y, const Numbers& given, bool in_one_call) {
     ++sample_;
@@ -215,19 +225,22 @@ class Comparison {
     const Numbers found = library_.state();
     const std::vector<double> expected = numbers(templates_.state());
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (!(static_cast<double>(found[i]) == expected[i])) fail(call, "state", static_cast<double>(found[i]), expected[i]);
+      if (!(static_cast<double>(found[i]) == expected[i]))
+        fail(call, "state", static_cast<double>(found[i]), expected[i]);
     TEST_ASSERT_EQUAL_size_t(expected.size(), found.size());
   }
   void expect_same(const char* what, const Numbers& library, const Vector<S>& templates) {
     for (std::size_t i = 0; i < library.size(); ++i) {
       const double expected = to_double(templates(static_cast<Eigen::Index>(i)));
-      if (!(static_cast<double>(library[i]) == expected)) fail("control", what, static_cast<double>(library[i]), expected);
+      if (!(static_cast<double>(library[i]) == expected))
+        fail("control", what, static_cast<double>(library[i]), expected);
     }
   }
   void fail(const char* call, const char* what, double library, double templates) const {
     char message[200];
-    std::snprintf(message, sizeof message, "seed %d, filter %d, nx %d, sample %d, %s: %s of the library %a, of the template %a",
-                  static_cast<int>(seed_), static_cast<int>(model_.filter), model_.nx, sample_, call, what, library, templates);
+    std::snprintf(
+        message, sizeof message, "seed %d, filter %d, nx %d, sample %d, %s: %s of the library %a, of the template %a",
+        static_cast<int>(seed_), static_cast<int>(model_.filter), model_.nx, sample_, call, what, library, templates);
     TEST_FAIL_MESSAGE(message);
   }
 
@@ -299,7 +312,8 @@ void test_steady_filter_agrees_while_sensors_fail() {
   TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED, compare_with_faults(Filter::steady));
 }
 void test_plain_filter_agrees_while_sensors_fail() {  // and when it loses its definiteness meanwhile
-  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED, compare_with_faults(Filter::plain) & ~LQG_COVARIANCE_RESET);
+  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED,
+                        compare_with_faults(Filter::plain) & ~LQG_COVARIANCE_RESET);
 }
 void test_ud_filter_agrees_while_sensors_fail() {
   TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED, compare_with_faults(Filter::ud));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One sample as a whole: scalars, the control law, the order of the calls, the reset.
 #include <limits>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The law with a memory, library and templates: they agree in every bit, whatever r, y and the applied u are.
 //
 // Built once for each variant of the library.
@@ -76,15 +77,18 @@ class Comparison {
  public:
   explicit Comparison(const Model<S>& model)
       : model_(model), state_(lqg::step::initial_state(model)), K_(row_major(model.K)), Nbar_(row_major(model.Nbar)),
-        H_(row_major(model.H)), H_input_(row_major(model.H_input)), u_min_(row_major(model.u_min)), u_max_(row_major(model.u_max)),
-        u_step_(row_major(model.u_step)), error_limit_(row_major(model.error_limit)), output_(model.integral.begin(), model.integral.end()),
-        reference_(model.wanted.begin(), model.wanted.end()), xi_(output_.size()), error_(output_.size()),
-        demand_(static_cast<std::size_t>(state_.demand.size())), u_applied_(static_cast<std::size_t>(state_.u.size())) {
+        H_(row_major(model.H)), H_input_(row_major(model.H_input)), u_min_(row_major(model.u_min)),
+        u_max_(row_major(model.u_max)), u_step_(row_major(model.u_step)), error_limit_(row_major(model.error_limit)),
+        output_(model.integral.begin(), model.integral.end()), reference_(model.wanted.begin(), model.wanted.end()),
+        xi_(output_.size()), error_(output_.size()), demand_(static_cast<std::size_t>(state_.demand.size())),
+        u_applied_(static_cast<std::size_t>(state_.u.size())) {
     for (const int bound : model.xi_bound) xi_scale_.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
     const auto size = [](auto count) { return static_cast<unsigned>(count); };
-    servo_ = {size(model.nx), size(model.nu), size(model.nr), size(output_.size()), model.gives_change ? 1u : 0u, number(model.T),
-              pointer(K_), pointer(Nbar_), pointer(H_), pointer(H_input_), output_.data(), reference_.data(), pointer(u_min_), pointer(u_max_), pointer(u_step_),
-              pointer(xi_scale_), pointer(error_limit_)};
+    servo_ = {
+        size(model.nx),     size(model.nu),       size(model.nr),  size(output_.size()), model.gives_change ? 1u : 0u,
+        number(model.T),    pointer(K_),          pointer(Nbar_),  pointer(H_),          pointer(H_input_),
+        output_.data(),     reference_.data(),    pointer(u_min_), pointer(u_max_),      pointer(u_step_),
+        pointer(xi_scale_), pointer(error_limit_)};
     lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
   }
 
@@ -96,8 +100,8 @@ class Comparison {
     const Numbers x_of_library = row_major(x), y_of_library = row_major(y), wanted = row_major(r);
     Numbers found(static_cast<std::size_t>(model_.nu));
     lqg_servo_observe(&servo_, pointer(wanted), pointer(error_), y_of_library.data());
-    const lqg_status status = lqg_servo_control(&servo_, x_of_library.data(), pointer(wanted), pointer(xi_), pointer(demand_),
-                                                pointer(u_applied_), found.data());
+    const lqg_status status = lqg_servo_control(&servo_, x_of_library.data(), pointer(wanted), pointer(xi_),
+                                                pointer(demand_), pointer(u_applied_), found.data());
     expect(status, listener.events);
     TEST_ASSERT_TRUE(found == row_major(u));
     return status;
@@ -117,22 +121,29 @@ class Comparison {
     return status;
   }
   lqg_status advance(const Vector<S>& u) {
-    return apply(u, [&](const Vector<S>& applied, Listener& listener) {
-      lqg::step::BoundsCheck<S> bounds;
-      lqg::step::remember(model_, state_, applied, bounds, listener);
-      return bounds.is_within();
-    }, [&](const Numbers& applied) {
-      return lqg_servo_advance(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_), applied.data());
-    });
+    return apply(
+        u,
+        [&](const Vector<S>& applied, Listener& listener) {
+          lqg::step::BoundsCheck<S> bounds;
+          lqg::step::remember(model_, state_, applied, bounds, listener);
+          return bounds.is_within();
+        },
+        [&](const Numbers& applied) {
+          return lqg_servo_advance(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_),
+                                   applied.data());
+        });
   }
   lqg_status set_input(const Vector<S>& u) {
-    return apply(u, [&](const Vector<S>& applied, Listener& listener) {
-      return lqg::step::set_input(model_, state_, applied, listener);
-    }, [&](const Numbers& applied) {
-      const Numbers x = row_major(state_.x), r = row_major(state_.r);
-      return lqg_servo_set_input(&servo_, x.data(), pointer(r), pointer(xi_), pointer(error_), pointer(demand_),
-                                 pointer(u_applied_), applied.data());
-    });
+    return apply(
+        u,
+        [&](const Vector<S>& applied, Listener& listener) {
+          return lqg::step::set_input(model_, state_, applied, listener);
+        },
+        [&](const Numbers& applied) {
+          const Numbers x = row_major(state_.x), r = row_major(state_.r);
+          return lqg_servo_set_input(&servo_, x.data(), pointer(r), pointer(xi_), pointer(error_), pointer(demand_),
+                                     pointer(u_applied_), applied.data());
+        });
   }
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "textbook.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -30,8 +31,7 @@ Matrix<Number> initial_covariance(const Model<double>& model) {
 }  // namespace
 
 Textbook::Textbook(const Model<double>& model)
-    : A_(long_numbers(model.A)), B_(long_numbers(model.B)), P_(initial_covariance(model)),
-      x_(model.x0.cast<Number>()) {
+    : A_(long_numbers(model.A)), B_(long_numbers(model.B)), P_(initial_covariance(model)), x_(model.x0.cast<Number>()) {
   const Matrix<Number> E_inverse = long_numbers(model.E).inverse();
   const Matrix<Number> V = model.V.cast<Number>().asDiagonal();
   C_ = E_inverse * long_numbers(model.C);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Kalman filter of the textbooks, with all outputs at once and an explicit inverse, in the host's longest numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "program.hpp"
 
 #include <cmath>
@@ -15,8 +16,20 @@ const std::map<double, std::string> flags = {
 template <class T>
 T random_value(Random& random) {
   using Limits = std::numeric_limits<T>;
-  const T special[] = {0, -T(0), 1, -1, 2, T(0.5), Limits::min(), Limits::denorm_min(), Limits::max(), Limits::lowest(),
-                       Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), Limits::epsilon()};
+  const T special[] = {0,
+                       -T(0),
+                       1,
+                       -1,
+                       2,
+                       T(0.5),
+                       Limits::min(),
+                       Limits::denorm_min(),
+                       Limits::max(),
+                       Limits::lowest(),
+                       Limits::infinity(),
+                       -Limits::infinity(),
+                       Limits::quiet_NaN(),
+                       Limits::epsilon()};
   switch (random.below(8)) {
     case 0: return special[random.below(sizeof special / sizeof *special)];
     case 1: return random.pattern<T>();
@@ -46,13 +59,18 @@ Operation random_operation(Random& random, const Program& program) {
   const auto condition = [&] { return random_of_kind(random, program, Kind::condition); };
   const auto status = [&] { return random_of_kind(random, program, Kind::status); };
   switch (random.below(16)) {
-    case 0: case 1: return {Op::add, number(), number()};
-    case 2: case 3: return {Op::subtract, number(), number()};
-    case 4: case 5: return {Op::multiply, number(), number()};
+    case 0:
+    case 1: return {Op::add, number(), number()};
+    case 2:
+    case 3: return {Op::subtract, number(), number()};
+    case 4:
+    case 5: return {Op::multiply, number(), number()};
     case 6: return {Op::divide, number(), number()};
     case 7: return {random.one_in(2) ? Op::negate : Op::absolute, number()};
-    case 8: case 9: return {Op::multiply_add, number(), number(), number()};
-    case 10: case 11: return {Op::multiply_subtract, number(), number(), number()};
+    case 8:
+    case 9: return {Op::multiply_add, number(), number(), number()};
+    case 10:
+    case 11: return {Op::multiply_subtract, number(), number(), number()};
     default: break;
   }
   switch (random.below(8)) {
@@ -93,9 +111,7 @@ T apply_to(Op op, bool fused, T a, T b, T c) {
 
 bool is_honest(const Program& program, const Results& results, std::size_t at) {
   const Operation& operation = program[at];
-  const auto honest = [&](int operand) {
-    return operand < 0 || results.is_honest[static_cast<std::size_t>(operand)];
-  };
+  const auto honest = [&](int operand) { return operand < 0 || results.is_honest[static_cast<std::size_t>(operand)]; };
   const auto is_input = [&](int operand) { return program[static_cast<std::size_t>(operand)].op == Op::input; };
   const auto value = [&](int operand) { return results.values[static_cast<std::size_t>(operand)]; };
   switch (operation.op) {
@@ -159,10 +175,10 @@ Results evaluate(const Program& program, Target target, const std::vector<double
   for (std::size_t at = 0; at < program.size(); ++at) {
     const Operation& operation = program[at];
     const bool is_given = operation.op == Op::constant || operation.op == Op::flag;
-    results.values.push_back(
-        is_given                    ? operation.value
-        : operation.op == Op::input ? inputs[static_cast<std::size_t>(operation.value)]
-                                    : apply(operation.op, target, value(operation.a), value(operation.b), value(operation.c)));
+    results.values.push_back(is_given                    ? operation.value
+                             : operation.op == Op::input ? inputs[static_cast<std::size_t>(operation.value)]
+                                                         : apply(operation.op, target, value(operation.a),
+                                                                 value(operation.b), value(operation.c)));
     results.is_honest.push_back(is_honest(program, results, at));
   }
   return results;
@@ -175,16 +191,14 @@ std::vector<double> interpret(const Graph& graph, const std::vector<double>& inp
   std::vector<double> values;
   const auto value = [&](int operand) { return operand < 0 ? 0 : values[static_cast<std::size_t>(operand)]; };
   for (const lqg::trace::Node& node : graph.nodes())
-    values.push_back(node.op == Op::constant                        ? node.value
-                     : node.op == Op::input || node.op == Op::flag ? known.at(node.text)
-                                                                   : apply(node.op, graph.target(), value(node.a),
-                                                                           value(node.b), value(node.c)));
+    values.push_back(node.op == Op::constant ? node.value
+                     : node.op == Op::input || node.op == Op::flag
+                         ? known.at(node.text)
+                         : apply(node.op, graph.target(), value(node.a), value(node.b), value(node.c)));
   return values;
 }
 
-bool same(double a, double b) {
-  return a == b || (std::isnan(a) && std::isnan(b));
-}
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 std::string input_text(int i) { return "in[" + std::to_string(i) + "]"; }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A random computation, once as a list of operations that are done one by one, once as the graph that it is traced to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random computations, printed and compiled: the C computes what the graph says, to the bit. Brackets, order and types.
 #include <cinttypes>
 #include <cmath>
@@ -39,8 +40,9 @@ Function random_function(Random& random, Target target, int number, int every) {
   for (std::size_t at = program.size() - operations; at < program.size(); ++at) {
     if (random.one_in(every)) graph.name(nodes[at], "named");
     if (!random.one_in(4)) continue;
-    stores.push_back({std::string(array_of(kind(program, static_cast<int>(at)))) + "[" + std::to_string(results.size()) + "]",
-                      nodes[at]});
+    stores.push_back(
+        {std::string(array_of(kind(program, static_cast<int>(at)))) + "[" + std::to_string(results.size()) + "]",
+         nodes[at]});
     results.push_back(nodes[at]);
   }
   function.text = "static void f_" + std::to_string(number) +
@@ -106,7 +108,8 @@ double number_of(std::uint64_t bits_of_it, Target target) {
 }
 
 // A store of a result may be of any kind: the two arrays that it does not stand in hold 0.
-void expect_line(const std::string& line, const std::vector<double>& expected, const Function& function, Target target) {
+void expect_line(const std::string& line, const std::vector<double>& expected, const Function& function,
+                 Target target) {
   std::istringstream stream(line);
   for (const double value : expected) {
     std::uint64_t word;

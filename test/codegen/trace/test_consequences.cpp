@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is said to follow from a test holds whenever the test passes, and is enough for every term of a sum.
 #include <cmath>
 #include <set>
@@ -26,7 +27,8 @@ int check_consequences(const Graph& graph, const std::vector<double>& inputs) {
   int passed = 0;
   const std::vector<double> values = interpret(graph, inputs);
   for (int node = 0; node < static_cast<int>(values.size()); ++node) {
-    if (!is_condition(graph.nodes()[static_cast<std::size_t>(node)].op) || values[static_cast<std::size_t>(node)] == 0) continue;
+    if (!is_condition(graph.nodes()[static_cast<std::size_t>(node)].op) || values[static_cast<std::size_t>(node)] == 0)
+      continue;
     for (const Consequence& consequence : consequences(graph, node)) {
       TEST_ASSERT_TRUE(holds(consequence, values));
       ++passed;
@@ -61,9 +63,12 @@ struct Sum {
     int sum = -1, others = -1;
     for (int i = 0; i < 8; ++i) {
       const int x = graph.input(input_text(i), "in_" + std::to_string(i));
-      if (i == 3) others = x, finite.insert(x);
-      else if (i == 6) others = graph.make(Op::add, graph.make(Op::add, others, x), graph.constant(0.25)), finite.insert(x);
-      else sum = with_term(random, sum, x), bounded.insert(x);
+      if (i == 3)
+        others = x, finite.insert(x);
+      else if (i == 6)
+        others = graph.make(Op::add, graph.make(Op::add, others, x), graph.constant(0.25)), finite.insert(x);
+      else
+        sum = with_term(random, sum, x), bounded.insert(x);
     }
     const int limit = graph.constant(std::ldexp(1.0, 2 * random.between(-3, 3)));
     condition = random.one_in(2) ? graph.make(Op::less, sum, limit)
@@ -74,7 +79,8 @@ struct Sum {
   int with_term(Random& random, int sum, int x) {
     const bool is_square = random.one_in(2);
     if (sum < 0) return is_square ? graph.make(Op::multiply, x, x) : graph.make(Op::absolute, x);
-    if (random.one_in(2)) sum = graph.make(Op::multiply, graph.constant(std::ldexp(1.0, 2 * random.between(-2, 2))), sum);
+    if (random.one_in(2))
+      sum = graph.make(Op::multiply, graph.constant(std::ldexp(1.0, 2 * random.between(-2, 2))), sum);
     return is_square ? graph.make(Op::multiply_add, x, x, sum) : graph.make(Op::add, sum, graph.make(Op::absolute, x));
   }
 };
@@ -99,7 +105,8 @@ void test_sum_bounds_hold_next_to_the_limit() {
     const Target target = targets[i % 4];
     const Sum sum(random, target);
     std::vector<double> inputs;
-    for (int k = 0; k < 8; ++k) inputs.push_back(static_cast<double>(static_cast<float>(std::ldexp(random.uniform(), -20))));
+    for (int k = 0; k < 8; ++k)
+      inputs.push_back(static_cast<double>(static_cast<float>(std::ldexp(random.uniform(), -20))));
     const double power = std::ldexp(1.0, random.between(-12, 12));
     inputs[static_cast<std::size_t>(random.below(8))] =
         target.is_double ? power * (1 + random.between(-3, 3) * 0x1p-53)
@@ -147,8 +154,7 @@ void test_prover_reads_an_input_that_is_not_stored_in_its_place() {
   const int condition = graph.make(Op::finite, a);
   const Printer printer(graph, {condition});
   TEST_ASSERT_EQUAL_STRING("RESTATED(D - D == 0.0f, FINITE(self->d[0]))", printer.test(condition, {}).c_str());
-  TEST_ASSERT_EQUAL_STRING("RESTATED(D - D == 0.0f, FINITE(D))",
-                           printer.expression(condition).c_str());
+  TEST_ASSERT_EQUAL_STRING("RESTATED(D - D == 0.0f, FINITE(D))", printer.expression(condition).c_str());
   TEST_ASSERT_EQUAL_STRING("D - D == 0.0f", printer.test(condition, {{"self->d[0]", graph.constant(1)}}).c_str());
 }
 

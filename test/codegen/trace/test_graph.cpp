@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The record of a traced run: folds that keep every bit, one node for one operation, names.
 #include <map>
 #include <set>
@@ -102,8 +103,8 @@ void test_what_does_not_change_a_value_is_left_out() {
       std::map<char, int> nodes;
       for (const char what : {fold.a, fold.b, fold.c, fold.result})
         if (!nodes.count(what)) nodes[what] = operand(graph, what);
-      TEST_ASSERT_EQUAL_INT_MESSAGE(nodes[fold.result], graph.make(fold.op, nodes[fold.a], nodes[fold.b], nodes[fold.c]),
-                                    fold.what);
+      TEST_ASSERT_EQUAL_INT_MESSAGE(nodes[fold.result],
+                                    graph.make(fold.op, nodes[fold.a], nodes[fold.b], nodes[fold.c]), fold.what);
     }
 }
 
@@ -159,7 +160,8 @@ void test_nothing_finite_lies_beyond_an_infinite_limit() {
 }
 
 bool commutes(Op op) {
-  return op == Op::add || op == Op::multiply || op == Op::multiply_add || op == Op::multiply_subtract || op == Op::either;
+  return op == Op::add || op == Op::multiply || op == Op::multiply_add || op == Op::multiply_subtract ||
+         op == Op::either;
 }
 
 void test_an_operation_on_the_same_operands_is_made_once() {

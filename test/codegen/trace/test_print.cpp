@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the graph to C: literals that read back, lines that are broken between tokens, nothing that nobody needs.
 #include <cctype>
 #include <cmath>
@@ -62,7 +63,8 @@ void test_literal_of_subnormal_and_of_honest_numbers_reads_back() {
 template <class T, class Expect>
 void expect_at_the_ends(Expect expect) {
   using Limits = std::numeric_limits<T>;
-  for (const T value : {T(0), Limits::min(), Limits::denorm_min(), Limits::max(), Limits::epsilon(), T(1) / 3, T(1e10)}) {
+  for (const T value :
+       {T(0), Limits::min(), Limits::denorm_min(), Limits::max(), Limits::epsilon(), T(1) / 3, T(1e10)}) {
     expect(value);
     expect(-value);
   }
@@ -98,8 +100,9 @@ void test_literal_is_the_shortest() {
 
 // Statements as they are printed: words, numbers with exponents, calls, sums and differences, UTF-8 in names.
 std::string random_line(Random& random) {
-  const char* const operands[] = {"x_0", "innovation_position", "1e-06f", "-0.5f", "self->P[12]", "fmaf(-a, b, c)",
-                                  "(a - b)", "2.5e+10", "x̂₀", "y"};
+  const char* const operands[] = {
+      "x_0", "innovation_position", "1e-06f", "-0.5f", "self->P[12]", "fmaf(-a, b, c)", "(a - b)", "2.5e+10", "x̂₀",
+      "y"};
   const char* const joints[] = {" + ", " - ", " * ", " / ", ", ", " < ", " == ", " ? ", " : "};
   std::string line(static_cast<std::size_t>(random.below(9)), ' ');
   line += "const float result = ";
@@ -158,7 +161,8 @@ void test_wrap_keeps_every_line_within_the_width_where_it_may_break() {
   for (int i = 0; i < 3000; ++i) {
     std::string line = "    const float result = z";
     for (int k = random.below(40); k-- > 0;)
-      line += (random.one_in(2) ? " + " : " - ") + std::string(static_cast<std::size_t>(random.between(1, longest)), 'x');
+      line +=
+          (random.one_in(2) ? " + " : " - ") + std::string(static_cast<std::size_t>(random.between(1, longest)), 'x');
     const std::vector<std::string> lines = lines_of(wrap(line, 8, width));
     for (std::size_t k = 0; k < lines.size(); ++k) {
       TEST_ASSERT_LESS_OR_EQUAL_INT_MESSAGE(width, columns_of(lines[k]), lines[k].c_str());
@@ -171,7 +175,8 @@ void test_wrap_keeps_every_line_within_the_width_where_it_may_break() {
 void test_wrap_goes_on_after_a_part_that_is_too_long() {
   const std::string word(120, 'x');
   const std::string wrapped = wrap("    " + word + " + " + word + " + y", 8);
-  for (const std::string& line : lines_of(wrapped)) TEST_ASSERT_LESS_THAN_INT_MESSAGE(140, columns_of(line), line.c_str());
+  for (const std::string& line : lines_of(wrapped))
+    TEST_ASSERT_LESS_THAN_INT_MESSAGE(140, columns_of(line), line.c_str());
 }
 
 struct Printed {
@@ -229,7 +234,8 @@ void test_what_is_needed_is_needed_by_a_result() {
         if (wanted[at] && operand >= 0) wanted[static_cast<std::size_t>(operand)] = true;
     }
     const Printer printer(printed.graph, printed.results);
-    for (std::size_t at = 0; at < wanted.size(); ++at) TEST_ASSERT_EQUAL_INT(wanted[at], printer.needs(static_cast<int>(at)));
+    for (std::size_t at = 0; at < wanted.size(); ++at)
+      TEST_ASSERT_EQUAL_INT(wanted[at], printer.needs(static_cast<int>(at)));
   }
 }
 
@@ -263,13 +269,14 @@ void test_blocks_stand_under_their_equations() {
   graph.section("second", "_pos");
   const int squared = graph.make(Op::multiply, doubled, doubled);
   graph.name(squared, "squared");
-  TEST_ASSERT_EQUAL_STRING("    const float x_0 = x[0];\n"
-                           "\n    /* first */\n"
-                           "    const float doubled = x_0 + x_0;\n"
-                           "\n    /* second */\n"
-                           "    const float squared_pos = doubled * doubled;\n"
-                           "    x[0] = squared_pos;\n",
-                           Printer(graph, {squared}).statements({{"x[0]", squared}}).c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "    const float x_0 = x[0];\n"
+      "\n    /* first */\n"
+      "    const float doubled = x_0 + x_0;\n"
+      "\n    /* second */\n"
+      "    const float squared_pos = doubled * doubled;\n"
+      "    x[0] = squared_pos;\n",
+      Printer(graph, {squared}).statements({{"x[0]", squared}}).c_str());
 }
 
 void test_operations_are_counted_by_kind_and_only_where_needed() {

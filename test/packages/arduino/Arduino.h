@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Stands in for the Arduino core on the PC, as far as the sketch DcMotor goes. */
 #ifndef ARDUINO_H
 #define ARDUINO_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The sketch BalancingRobot on a simulated Uno, with the nonlinear robot of ports/pc on its pins: encoders, an MPU-6050
  * with an offset and noise, a motor driver, a battery. One motor is weaker than the other, and its wheel
  * drags.

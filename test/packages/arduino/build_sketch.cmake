@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DBUILDER=… -DHARDWARE=… -DLIBRARIES=… -DBOARD=uno -DSKETCH=… -DFOLDER=… -P build_sketch.cmake: builds a sketch with
 # arduino-builder, which fails where it does not fit the board, and says how large it is.
 file(REMOVE_RECURSE ${FOLDER})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DCXX=… -DSKETCH=… -DLIBRARY=… -DSTAND_IN=… -DWORK=… -DUNO=… -DELF=… -P compare.cmake: the sketch prints the same on
 # the simulated Uno and compiled for the PC, but for lines with #; and the motor comes to rest.
 file(WRITE ${WORK}/pc.cpp "#include \"Arduino.h\"\n#include \"${SKETCH}\"\nint main() { setup(); loop(); }\n")

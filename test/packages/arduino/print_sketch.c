@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Runs a sketch on a simulated Uno until it has printed a line "end", and prints what it printed.
  *
  *     print_sketch SKETCH.elf

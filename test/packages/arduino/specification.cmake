@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DLIBRARY=… -P specification.cmake: what the Arduino library specification 1.5 asks for: fields of
 # library.properties, keywords, layout.
 cmake_minimum_required(VERSION 3.22)  # IN_LIST

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "uno.h"
 
 #include <stdio.h>

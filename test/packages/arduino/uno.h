@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* An Arduino Uno, simulated by libsimavr: runs a sketch's ELF file; what hangs on its pins is up to the caller. */
 #ifndef UNO_H
 #define UNO_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Sets `options` to what stands after -- in the command line of a script.
 set(options)
 set(is_option FALSE)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # A user's toolchain file for a Cortex-M4F, as it stands in many a project.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)

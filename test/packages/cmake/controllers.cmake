@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # One small firmware, with its controller made in every style and real.
 enable_testing()
 foreach(style IN ITEMS unrolled compact)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DFOLDER=… -DDESIGN=… -DLQGEN=… -DTINYLQG=… -P rebuild.cmake: the header is made again when the design
 # or lqgen has changed, and only then; a changed name gives a header of that name.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A firmware's main, with the plant in place of the hardware: the mass starts at rest, 10 mm away, and has to
  * be at 0 after 2 s. */
 #include <math.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes the Debian package and looks into it; unpacks it to <folder>/root.
 #
 #   LQG_BUILD=<build> check.sh <root of the source tree> <folder> <lqgen of the build>

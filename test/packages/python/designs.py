@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the tests of the package have in common."""
 
 import os

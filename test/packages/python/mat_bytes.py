@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Files of MATLAB 5 and 7 byte by byte, for what no program writes."""
 
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A plant as MATLAB's variables."""
 
 import numpy

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # The wheel, and two Pythons that have it: `full` with the packages that it works together with, `bare` with none.
 #
 #   LQG_BUILD=<build> prepare.sh <root of the source tree> <folder>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The package's page: its blocks run as printed, those of one chapter in order, in one folder, each by its program."""
 
 import os

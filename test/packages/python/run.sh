@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # One file of tests with the Python that prepare.sh set up:  run.sh <environment> <test file> <home>
 #
 # Octave, Scilab and Matplotlib write into the home of who runs them: here it is a folder of the build.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Without NumPy: design files, gains and headers all the same, and a sentence about what is missing."""
 
 import importlib.util

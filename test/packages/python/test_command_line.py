@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """python -m tinylqg: what it writes, and with which words and exit status it refuses."""
 
 import sys

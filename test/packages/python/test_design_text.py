@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Design files of python-control's, scipy's and plain matrices."""
 
 import json

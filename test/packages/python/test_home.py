@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The tests of the package write below the build folder only."""
 
 import os

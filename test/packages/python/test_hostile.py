@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Files and values that somebody made to do harm: each is refused by a DesignError or arrives as what it says, and nothing is
 written but NAME.toml."""
 

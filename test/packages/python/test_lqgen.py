@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The wheel's lqgen is the build's, with nothing in between; headers and sources are there."""
 
 import os

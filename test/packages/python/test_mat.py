@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """MATLAB's files, written here by scipy in MATLAB's format."""
 
 import unittest

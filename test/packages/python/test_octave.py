@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """To Octave and back."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The chapters of the package's page that need Python alone; those of Octave and Scilab stand with their tests."""
 
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """NAME.json as python-control's, scipy's and NumPy's own."""
 
 import functools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """To Scilab and back."""
 
 import unittest

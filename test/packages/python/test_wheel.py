@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What stands in the wheel beside the package: an SBOM, the licences of all that is inside, and the same bytes each time."""
 
 import hashlib

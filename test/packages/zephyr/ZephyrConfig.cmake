@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Stands in for Zephyr: the application `app` and the modules of ZEPHYR_EXTRA_MODULES, for the PC, with the options of
 # prj.conf. It has no more than the module and its sample need.
 project(zephyr_stand_in LANGUAGES C)

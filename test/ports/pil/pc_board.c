@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A board that is a program of the PC: the target's own text, its serial line being standard input and output. One byte of what
  * it says can be damaged on the way:
  *

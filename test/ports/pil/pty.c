@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Runs a target at the far end of a pseudo-terminal, as a board is at that of a serial port:
  *
  *     pty TARGET PROGRAM…        with `--port DEVICE` added to PROGRAM */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The protocol between host and target: what is sent is found again, whatever else is on the line. */
 #include <math.h>
 #include <string.h>

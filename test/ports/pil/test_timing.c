@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What a step took, from two readings of the target's counter to the numbers of the host's table. */
 #include "ticks.h"
 #include "timing.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DROBOT=… -DPORTS=… -DPORT=… -DFOLDER=… -DCONTROLLER=… -DKERNEL_FOLDER=… -P build.cmake
 # compiles the robot's firmware for a port; as a task of FreeRTOS, too, where its kernel can be had.
 execute_process(COMMAND ${ROBOT}/freertos/fetch.sh ${KERNEL_FOLDER}

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The robot's firmware for the Nucleo-F401RE, the bytes that are flashed, on a model of its processor and of the robot:
  *
  *     nucleo robot_bare_metal.bin

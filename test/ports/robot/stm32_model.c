@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "stm32_model.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* When the robot may drive and when it has to stop, with the robot of ports/pc for hardware. */
 #include <math.h>
 

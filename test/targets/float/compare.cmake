@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DPC=<program for the PC> -DTARGET=<command that runs the target's>… -P compare.cmake: the two say the same but for
 # lines with #.
 foreach(where IN ITEMS PC TARGET)

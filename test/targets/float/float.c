@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* What a target's float operations make of random numbers of every kind: prints a hash of the results for each operation
  * and each pair of kinds. The PC rounds as IEEE 754 says, so a target whose lines are the same does, too.
  *

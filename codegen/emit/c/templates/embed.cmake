@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Makes OUTPUT, which defines lqg::emit::templates::<name> for each <name>.c.in of FOLDER, as it is.
 file(GLOB files ${FOLDER}/*.c.in)
 set(source "// Made by embed.cmake of the .c.in beside it.\n#include \"emit/c/templates.hpp\"\n")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """TinyLQG: LQR, Kalman filter and LQG from a plant and weights to C99, and the way from and to other control tools."""
 
 from importlib.metadata import version

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """python -m tinylqg: the command line of what lqgen itself does not do."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The readers of .mat files are compiled C, which a damaged file can crash: they run in a process of their own."""
 
 import pickle

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A design file from a plant and from weights, wherever they come from."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What goes wrong, in one sentence: what was expected, and what was found."""
 
 from contextlib import contextmanager

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The two parts of a design's loop, as one linear system each."""
 
 from .errors import DesignError

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Where the generator, the headers and the sources are, and how the generator is run."""
 
 import os

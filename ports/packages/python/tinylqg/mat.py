@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The variables of a .mat file as keys of a design file."""
 
 from .design import SECTIONS

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """MATLAB's .mat files, which Octave and Scilab write, too: matrices, texts, cells as lists, structures as dictionaries.
 
 A file may be hostile: it is refused before it has taken much memory or stack, and never leads to another file."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The name of a design, which names its files: what it may be, and which one a design file says."""
 
 import re

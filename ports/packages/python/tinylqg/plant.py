@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The [plant] of a design file, from what other tools call a system."""
 
 import re

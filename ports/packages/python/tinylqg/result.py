@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """NAME.json, read back into Python and from there into other tools."""
 
 import json

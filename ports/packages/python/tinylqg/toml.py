@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The text of a design file. Every number reads back as the double that it was, every text as what it was."""
 
 import math

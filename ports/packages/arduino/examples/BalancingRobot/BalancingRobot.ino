@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* A robot on two wheels that balances, on an Arduino Uno or Nano.
  *
  * Parts:

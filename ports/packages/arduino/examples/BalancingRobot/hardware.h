@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The robot's parts and their connections to an Uno or Nano.
  *
  *   pin   connected to

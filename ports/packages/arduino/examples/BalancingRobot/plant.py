@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """The plant of balancing_robot.toml for a robot of your own: put in what you weighed and measured, run it, and
 replace A, B and G of the design's [plant] by what it prints.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* A DC motor that turns to angle 0 and stays there: the controller of dc_motor.toml and, in place of a real motor, a few
  * lines of physics. Any board will do, nothing has to be connected. The serial monitor (115200 baud) shows a line every
  * 3 ms of the motor's time: milliseconds, angle in µrad, voltage in mV.

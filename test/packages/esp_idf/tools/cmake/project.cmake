@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Stands in for ESP-IDF: builds the project's component main, with those that main/idf_component.yml has by an
 # override_path, for the PC. It has no more than the examples of the package need.
 macro(idf_component_register)
