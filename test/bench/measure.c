@@ -5,10 +5,9 @@
  * first of them, or to the second with PREDICTS. */
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "counter.h"
+#include "results.h"
 
 #include HEADER
 #include VECTORS /* y_in, u_out */
@@ -110,36 +109,6 @@ static void run(unsigned left_out)
 
 /* ---- the report -------------------------------------------------------------------------------------- */
 
-static void print_number(unsigned number)
-{
-    if (number >= 10)
-        print_number(number / 10);
-    putchar((int)('0' + number % 10));
-}
-
-static void print(const char *name, unsigned number)
-{
-    while (*name)
-        putchar(*name++);
-    putchar('=');
-    print_number(number);
-    putchar('\n');
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const unsigned first = *(const unsigned *)a, second = *(const unsigned *)b;
-
-    return (first > second) - (first < second);
-}
-
-static unsigned median(record_t *record)
-{
-    qsort(record->instructions, SAMPLES, sizeof record->instructions[0], ascending);
-    return record->instructions[SAMPLES / 2];
-}
-
-/* Lines that a shell can read as assignments. */
 int main(void)
 {
     start_counting();
@@ -150,9 +119,9 @@ int main(void)
     for (unsigned left_out = 0; left_out < NY; left_out++)
         run(left_out);
     run(NY); /* the last, whose instructions stay in the records: the samples as they are */
-    print("update", median(&records[UPDATE]));
-    print("control", median(&records[CONTROL]));
-    print("predict", median(&records[PREDICT]));
+    print("update", median(records[UPDATE].instructions, SAMPLES));
+    print("control", median(records[CONTROL].instructions, SAMPLES));
+    print("predict", median(records[PREDICT].instructions, SAMPLES));
     print("most_update", records[UPDATE].most);
     print("most_control", records[CONTROL].most);
     print("most_predict", records[PREDICT].most);
