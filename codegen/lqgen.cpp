@@ -153,6 +153,8 @@ bool explain_unknown_options(const CLI::App& app) {
 
 }  // namespace
 
+// Setting up the command line throws only where two options have one name.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};

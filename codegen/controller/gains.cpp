@@ -87,7 +87,7 @@ std::vector<Gains> filter_gains(const Controller& controller) {
     if (controller.has.gate) rows.back().push_back(innovation_variances(controller, estimator.L_schedule[k], k));
   }
   rows.push_back({estimator.L, estimator.M});
-  if (controller.has.gate) rows.back().push_back(estimator.S.diagonal());
+  if (controller.has.gate) rows.back().emplace_back(estimator.S.diagonal());
   cut_off_what_is_held(rows, controller.target.is_double);
   return rows;
 }

@@ -122,7 +122,7 @@ void check_filter(const Controller& controller, NumberCheck& check) {
   const char *noise = "kalman.measurement_noise", *variance = "the variance of the innovations";
   for (const Gains& row : controller.filters)
     if (row.size() > 2 && !check.has_failed()) check.keep(noise, variance, row[2], may_vanish);
-  if (controller.filters.size() && controller.has.variance)
+  if (!controller.filters.empty() && controller.has.variance)
     check.keep(noise, variance, controller.solution.estimator->S.diagonal(), may_vanish);
 }
 

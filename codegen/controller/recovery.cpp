@@ -45,7 +45,8 @@ std::optional<long> samples_until(const MatrixXd& M, const VectorXd& start, cons
   while (!is_within(squares.back(), start, target)) {
     if (static_cast<int>(squares.size()) > longest_recovery_exponent || !squares.back().allFinite())
       return std::nullopt;
-    squares.push_back(squares.back() * squares.back());
+    MatrixXd square = squares.back() * squares.back();
+    squares.push_back(std::move(square));
   }
   long outside = 0;
   MatrixXd power = MatrixXd::Identity(M.rows(), M.cols());

@@ -136,7 +136,7 @@ class Eigenvectors {
   // X with the column j replaced, and its inverse; returns |det| after over before.
   Real replace(Index j, const RealMatrix& x) {
     const RealMatrix share = multiply(inverse_, x);
-    const Real own = share(j, 0);
+    const Real& own = share(j, 0);
     const RealMatrix row = inverse_.row(j) / own;
     inverse_ -= multiply(share, row);
     inverse_.row(j) = row;

@@ -125,9 +125,9 @@ std::vector<std::string> lost(const SampledPlant& exact, Scalar real) {
   const SampledPlant rounded = held(exact, real);
   const RealMatrix one = identity(exact.A.rows());
   std::vector<std::string> all;
-  if (is_zero(rounded.A - one) && !is_zero(exact.A - one)) all.push_back("A becomes the identity");
-  if (loses_column(exact.B, rounded.B)) all.push_back("the effect of an input, B, becomes 0");
-  if (loses_column(exact.C.transpose(), rounded.C.transpose())) all.push_back("an output's row of C becomes 0");
+  if (is_zero(rounded.A - one) && !is_zero(exact.A - one)) all.emplace_back("A becomes the identity");
+  if (loses_column(exact.B, rounded.B)) all.emplace_back("the effect of an input, B, becomes 0");
+  if (loses_column(exact.C.transpose(), rounded.C.transpose())) all.emplace_back("an output's row of C becomes 0");
   return all;
 }
 
