@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "step/scalar.hpp"
+#include "step/model.hpp"
 
 namespace lqg::step {
 
@@ -21,27 +21,27 @@ class BoundsCheck {
  public:
   using Condition = decltype(is_less(S(), S()));
 
-  // Part i of a vector whose bounds are 2^bounds; an empty one: it has to be finite.
+  // Part place.i of a vector whose bounds are 2^bounds; an empty one: it has to be finite.
   template <class Listener>
-  void add(const S& part, const std::vector<int>& bounds, int i, Listener& listener) {
-    if (bounds.empty()) return add(part, listener);
-    sum_ = multiply_add(part, part, in_units_of(bounds[static_cast<std::size_t>(i)]));
-    listener.name(sum_, "sum");
+  void add(const S& part, const std::vector<int>& bounds, const Place& place, Listener& listener) {
+    if (bounds.empty()) return add(part, place, listener);
+    sum_ = multiply_add(part, part, in_units_of(bounds[static_cast<std::size_t>(place.i)]));
+    listener.name(sum_, "squares_to", place);
   }
-  // Likewise P_ii of part i.
+  // Likewise P_ii of part i, or what stands for it.
   template <class Listener>
-  void add_variance(const S& variance, const std::vector<int>& bounds, int i, Listener& listener) {
+  void add_variance(const S& variance, const std::vector<int>& bounds, const Place& place, Listener& listener) {
     require(negation(is_less(variance, S(0))));
-    if (bounds.empty()) return add(variance, listener);
-    sum_ = in_units_of(bounds[static_cast<std::size_t>(i)]) + variance;
-    listener.name(sum_, "sum");
+    if (bounds.empty()) return add(variance, place, listener);
+    sum_ = in_units_of(bounds[static_cast<std::size_t>(place.i)]) + variance;
+    listener.name(sum_, "squares_to", place);
   }
   // What has to be finite.
   template <class Listener>
-  void add(const S& part, Listener& listener) {
+  void add(const S& part, const Place& place, Listener& listener) {
     others_ = has_others_ ? S(others_ + part) : part;
     has_others_ = true;
-    listener.name(others_, "others");
+    listener.name(others_, "sum_to", place);
   }
 
   // What has to be true besides.

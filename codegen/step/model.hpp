@@ -143,15 +143,36 @@ enum class Event {
   covariance_reset
 };
 
+// Which one of several a value is: that of a state, an input, an output, of the integral or the reference of one; an entry
+// of a vector or a matrix; the entry of a row that is independent of row `without`. `of` is what it is one of, if that is not
+// clear: the "P" of "the squares up to P_00".
+struct Place {
+  enum class Kind { single, state, input, output, integral, reference, entry };
+  Kind kind = Kind::single;
+  int i = -1, j = -1;
+  const char* of = "";
+  int without = -1;
+};
+inline Place of_state(int i, const char* of = "") { return {Place::Kind::state, i, -1, of, -1}; }
+inline Place of_input(int i, const char* of = "") { return {Place::Kind::input, i, -1, of, -1}; }
+inline Place of_output(int i, const char* of = "") { return {Place::Kind::output, i, -1, of, -1}; }
+inline Place of_integral(int i, const char* of = "") { return {Place::Kind::integral, i, -1, of, -1}; }
+inline Place of_reference(int i) { return {Place::Kind::reference, i, -1, "", -1}; }
+inline Place of_entry(int i, int j = -1, const char* of = "") { return {Place::Kind::entry, i, j, of, -1}; }
+inline Place of_entry_without(int without, int i, int j) { return {Place::Kind::entry, i, j, "", without}; }
+
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {
   unsigned events = 0;
 
   // A new block of the algorithm: its equation, and the output it belongs to (−1: none).
   void section(const std::string&, int = -1) {}
-  // `value` is called `base`, with indices where they are not −1.
+  // `value` is called `base`, of a place.
   template <class Value>
-  void name(const Value&, const char*, int = -1, int = -1) {}
+  void name(const Value&, const char*, const Place& = {}) {}
+  // Likewise, if it is called anything: a value that only one other is made of may stay without a name.
+  template <class Value>
+  void hint(const Value&, const char*, const Place& = {}) {}
   void raise(Event event, bool happened) {
     if (happened) events |= 1u << static_cast<unsigned>(event);
   }

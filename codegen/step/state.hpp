@@ -32,10 +32,10 @@ Weighing<S> weighing_of(const Model<S>& model, int i) {
 
 // w, from 1 to the widest whatever it was: a NaN is 1.
 template <class S, class Listener>
-S kept_width(const S& width, Listener& listener) {
+S kept_width(const S& width, const char* lower_end, Listener& listener) {
   const S widest = PowerOfTwo<S>::of(widest_gate_exponent);
   const S least = select(is_less(S(1), width), width, S(1));
-  listener.name(least, "wide");
+  listener.name(least, lower_end);
   return select(is_less(least, widest), least, widest);
 }
 
@@ -45,7 +45,7 @@ S kept_width(const S& width, Listener& listener) {
 template <class S, class Listener>
 auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, const S& s, int i, Listener& listener) {
   listener.section("w, at least 1");
-  const S width = kept_width(widening, listener);
+  const S width = kept_width(widening, "width_or_1", listener);
   listener.name(width, "width");
   listener.section("0 < S, |innovation| below its limit, innovation² ≤ gate² S w");
   auto believable = is_less(absolute(nu), weighing.limit);
@@ -65,7 +65,7 @@ auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, con
   const S unheard = weighing.filter == Filter::steady ? weighing.widen : select(gated, weighing.widen, S(1));
   const S next = select(used, weighing.narrow, unheard) * width;
   listener.name(next, "next_width");
-  widening = kept_width(next, listener);
+  widening = kept_width(next, "next_width_or_1", listener);
   return used;
 }
 
@@ -82,6 +82,7 @@ auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, 
                                          : listener.accept(believable, Event::output_not_finite);
   }
   const S most = S(model.gate * model.gate) * least, limit = model.nu_limit(i) * model.nu_limit(i);
+  listener.hint(most, "gate_square");
   const S threshold = select(is_less(most, limit), most, limit);
   listener.name(threshold, "threshold");
   auto expected = both(is_less(S(nu * nu), threshold), negation(is_less(S(1), S(state.widening(i)))));
@@ -126,9 +127,9 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, B
     for (int j = 1; j < model.nx; ++j) sum = multiply_add(S(model.A(i, j)), S(state.x(j)), sum);
     for (int j = 0; j < model.nu; ++j) sum = multiply_add(S(model.B(i, j)), S(u(j)), sum);
     for (int j = 0; j < model.M.cols(); ++j) sum = multiply_add(S(model.M(i, j)), S(state.innovation(j)), sum);
-    listener.name(sum, "next", i);
+    listener.name(sum, "next", of_state(i));
     next(i) = sum;
-    bounds.add(sum, model.x_bound, i, listener);
+    bounds.add(sum, model.x_bound, of_state(i, "x"), listener);
   }
   state.x = next;
   for (int j = 0; j < model.M.cols(); ++j) state.innovation(j) = S(0);

@@ -41,7 +41,8 @@ struct Node {
   int a = -1, b = -1, c = -1;
   double value = 0;  // of a constant, representable in the target's real
   std::string text;  // of an input or a flag: its C expression
-  std::string name;  // empty: printed inside the expression that uses it
+  std::string name;  // empty: printed inside the expression that uses it, or shared by several under its hint
+  std::string hint;
   int section = 0;
 };
 
@@ -73,11 +74,16 @@ class Graph {
 
   // Nodes made from now on stand under `equation`; names get `suffix`.
   void section(const std::string& equation, const std::string& suffix);
-  // The first name a node gets is kept; one that is taken gets a letter behind it.
+  // The first name a node gets is kept. Two nodes may get the same: `names_of` tells them apart.
   void name(int node, const std::string& base);
+  // The name of a node that has none and is used more than once; this gives it no statement of its own.
+  void hint(int node, const std::string& base);
+  // Names that no node may have, since C knows something else by them.
+  void reserve(const std::set<std::string>& names) { reserved_.insert(names.begin(), names.end()); }
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::string& equation(int section) const { return sections_[section].equation; }
+  const std::set<std::string>& reserved() const { return reserved_; }
   Target target() const { return target_; }
 
  private:
@@ -100,7 +106,7 @@ class Graph {
   std::map<Key, int> known_;
   std::map<double, int> constants_;
   std::map<std::string, int> flags_;
-  std::set<std::string> taken_;
+  std::set<std::string> reserved_;
 };
 
 }  // namespace lqg::trace

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "trace/consequences.hpp"
+#include "trace/names.hpp"
 
 namespace lqg::trace {
 
@@ -24,6 +25,9 @@ bool prints_twice(const Node& node, int operand) {
   return node.op == Op::finite || (node.op == Op::usable && operand == node.a);
 }
 
+// Of the function: it has its name already.
+bool is_parameter(const Node& node) { return node.op == Op::input && node.name == node.text; }
+
 // Columns, not bytes: a continuation byte of UTF-8 takes none.
 int columns(const std::string& text, std::size_t from, std::size_t to) {
   int count = 0;
@@ -37,19 +41,44 @@ bool breaks_before(const std::string& line, std::size_t i, const char* signs) {
          std::strchr(signs, line[i + 1]);
 }
 
-// The last place before `width` where the line may break: before ? and : if it has any, else before + and −, else after
-// a comma; the first place behind `width` if there is none before it.
-std::size_t break_before(const std::string& line, std::size_t start, int width) {
-  constexpr std::size_t none = std::string::npos;
-  std::size_t choice = none, sum = none, comma = none;
-  for (std::size_t i = start + 1; i < line.size(); ++i) {
-    const bool has_one = choice != none || sum != none || comma != none;
-    if (has_one && columns(line, start, i) >= width) break;
-    if (breaks_before(line, i, "?:")) choice = i;
-    if (breaks_before(line, i, "+-")) sum = i;
-    if (line[i] == ' ' && line[i - 1] == ',') comma = i;
+// A comment above a block; its lines end between words.
+std::string heading(const std::string& equation) {
+  constexpr int width = 117;  // and " */" behind it
+  std::string out = "\n    /* ", rest = equation;
+  while (columns(rest, 0, rest.size()) > width - 7) {
+    std::size_t end = rest.find(' ');
+    for (std::size_t i = end; i != std::string::npos && columns(rest, 0, i) <= width - 7; i = rest.find(' ', i + 1))
+      end = i;
+    if (end == std::string::npos) break;
+    out += rest.substr(0, end) + "\n     * ";
+    rest = rest.substr(rest.find_first_not_of(' ', end));
   }
-  return choice != none ? choice : sum != none ? sum : comma;
+  return out + rest + " */\n";
+}
+
+// How well a line breaks at its character i, the more the better; −1: it does not.
+int worth_of_break(const std::string& line, std::size_t i) {
+  if (breaks_before(line, i, ":") && line.find(" ? ", i) != std::string::npos) return 5;  // of a choice of choices
+  if (breaks_before(line, i, "?:")) return 4;
+  if (breaks_before(line, i, "+-")) return 3;
+  if (line[i] != ' ') return -1;
+  if (line[i - 1] == ',' || line.compare(i, 4, " && ") == 0 || line.compare(i, 4, " || ") == 0) return 2;
+  if (breaks_before(line, i, "<*/")) return 1;
+  return i > 1 && line[i - 1] == '=' && line[i - 2] == ' ' ? 0 : -1;  // behind the = of an assignment
+}
+
+// The last of the best places before `width` where the line may break; the first place behind it if there is none.
+std::size_t break_before(const std::string& line, std::size_t start, int width) {
+  std::size_t best = std::string::npos;
+  int worth = -1;
+  for (std::size_t i = start + 1; i < line.size(); ++i) {
+    if (worth >= 0 && columns(line, start, i) >= width) break;
+    const int found = worth_of_break(line, i);
+    if (found < 0 || found < worth) continue;
+    best = i;
+    worth = found;
+  }
+  return best;
 }
 
 }  // namespace
@@ -91,19 +120,20 @@ Printer::Printer(const Graph& graph, const std::vector<int>& results) : graph_(g
     for (const int operand : {node.a, node.b, node.c})
       if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : 1;
   }
+  std::vector<bool> needed, declared;
+  for (int node = 0; node < static_cast<int>(uses_.size()); ++node) {
+    needed.push_back(needs(node));
+    declared.push_back(needs(node) && is_declared(node));
+  }
+  names_ = names_of(graph, needed, declared);
 }
 
 std::string Printer::operand(int node) const { return print(node, unary + 1); }
 
 bool Printer::is_declared(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  if (at.op == Op::constant || at.op == Op::flag) return false;
+  if (at.op == Op::constant || at.op == Op::flag || is_parameter(at)) return false;
   return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1;
-}
-
-std::string Printer::name_of(int node) const {
-  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  return at.name.empty() ? "shared_" + std::to_string(node) : at.name;
 }
 
 std::string Printer::print(int node, int level) const {
@@ -137,6 +167,14 @@ std::string Printer::print_comparison(const Node& node) const {
   return difference + " == " + literal(0, graph_.target().is_double);
 }
 
+// a + −0.5 is a − 0.5, to the bit.
+std::string Printer::print_sum(const Node& node, int level) const {
+  const Node& second = graph_.nodes()[static_cast<std::size_t>(node.b)];
+  const bool subtracts = second.op == Op::constant && second.value < 0;
+  const std::string right = subtracts ? literal(-second.value, graph_.target().is_double) : print(node.b, sum + 1);
+  return bracketed(print(node.a, sum) + (subtracts ? " - " : " + ") + right, sum, level);
+}
+
 std::string Printer::print_operation(int node, int level) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   const auto binary = [&](const char* sign, int binds) {
@@ -147,7 +185,7 @@ std::string Printer::print_operation(int node, int level) const {
     return bracketed(print(at.a, continues ? logical : comparison) + sign + print(at.b, comparison), logical, level);
   };
   switch (at.op) {
-    case Op::add: return binary(" + ", sum);
+    case Op::add: return print_sum(at, level);
     case Op::subtract: return binary(" - ", sum);
     case Op::multiply: return binary(" * ", product);
     case Op::divide: return binary(" / ", product);
@@ -175,9 +213,10 @@ std::string Printer::print_operation(int node, int level) const {
 // Where C reads the value from now on: by its name or, once all stores are done, where it has been stored or was loaded
 // from.
 std::vector<std::string> Printer::places(int node, const std::vector<Store>* stores) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (!stores && is_parameter(at)) return {at.text};
   if (!stores) return needs(node) && is_declared(node) ? std::vector{name_of(node)} : std::vector<std::string>();
   std::vector<std::string> out;
-  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   bool is_overwritten = false;
   for (const Store& store : *stores) {
     if (store.node == node) out.push_back(store.target);
@@ -256,8 +295,7 @@ std::string Printer::statements(const std::vector<Store>& stores) const {
       loads += declaration(node);
       continue;
     }
-    if (at.section != section && !graph_.equation(at.section).empty())
-      blocks += "\n    /* " + graph_.equation(at.section) + " */\n";
+    if (at.section != section && !graph_.equation(at.section).empty()) blocks += heading(graph_.equation(at.section));
     section = at.section;
     blocks += declaration(node);
     for (auto [store, end] = ready.equal_range(node); store != end; ++store) blocks += assignment(*store->second);

@@ -50,9 +50,10 @@ class Printer {
 
  private:
   bool is_status(int node) const;
-  std::string name_of(int node) const;
+  const std::string& name_of(int node) const { return names_[static_cast<std::size_t>(node)]; }
   std::string print(int node, int level) const;
   std::string print_operation(int node, int level) const;
+  std::string print_sum(const Node& node, int level) const;
   std::string print_comparison(const Node& node) const;
   std::string print_multiply_add(const Node& node, int level) const;
   std::string restated(int condition, const std::string& text, const std::vector<Store>* stores) const;
@@ -63,6 +64,7 @@ class Printer {
 
   const Graph& graph_;
   std::vector<int> uses_;
+  std::vector<std::string> names_;  // of what is declared
 };
 
 }  // namespace lqg::trace

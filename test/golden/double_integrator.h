@@ -139,53 +139,51 @@ __attribute__((noinline))
 static lqg_status double_integrator_recover(double_integrator_t *self, lqg_status status)
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
 
     /* Σ x̂² in units of a bound */
-    const float sum = x_0 * x_0;
-    const float sum_a = sum + x_1 * x_1;
+    const float squares_to_x_position = x_position * x_position;
+    const float squares_to_x_speed = squares_to_x_position + x_speed * x_speed;
 
     self->P[0] = 0.01f;
     self->P[1] = 0.0f;
     self->P[2] = 0.01f;
 
-    if (!(sum_a < 1.8446744e+19f))
+    if (!(squares_to_x_speed < 1.8446744e+19f))
         return double_integrator_reset(self, status);
     self->covariance_resets++;
     return status | LQG_COVARIANCE_RESET;
 }
 
-/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
+/* Whether output i is used, whose innovation is not as expected: it is not where that is not believable, or beyond
  * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
+static int double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
-    const float innovation = nu;
-    const float variance = S;
 
     /* w, at least 1 */
-    const float wide = 1.0f < widening ? widening : 1.0f;
-    const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
+    const float width_or_1 = 1.0f < widening ? widening : 1.0f;
+    const float width = width_or_1 < 1.2089258e+24f ? width_or_1 : 1.2089258e+24f;
 
     /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
     const int believable = fabsf(innovation) < 8589934592.0f;
-    const lqg_status fault = believable && 0.0f < variance ? LQG_OK : believable
-        ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
+    const lqg_status fault = believable && 0.0f < S ? LQG_OK
+        : believable ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
     const int usable = fault == LQG_OK;
-    const int beyond = 90000.0f * variance * width < innovation * innovation;
+    const int beyond = 90000.0f * S * width < innovation * innovation;
     const int gated = usable && beyond;
     const int used = usable && !beyond;
 
     /* w widens or narrows */
     const float next_width = (used ? 0.75f : gated ? 1.5f : 1.0f) * width;
-    const float wide_a = 1.0f < next_width ? next_width : 1.0f;
+    const float next_width_or_1 = 1.0f < next_width ? next_width : 1.0f;
 
-    self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
+    self->widening[i] = next_width_or_1 < 1.2089258e+24f ? next_width_or_1 : 1.2089258e+24f;
 
     self->gated[i] += gated ? 1 : 0;
     *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
@@ -201,46 +199,49 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
 {
     LQG_STRICT_BODY
     lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
     const float P_00 = self->P[0];
     const float P_10 = self->P[1];
     const float P_11 = self->P[2];
-    const float widening_0 = self->widening[0];
-    const float y_0 = y[0];
+    const float widening_position = self->widening[0];
+    const float y_position = y[0];
 
-    /* output 0, position [m]: S = C P Cᵀ + V, P Cᵀ first */
-    const float S_position = 1e-06f + P_00;
+    /* output 0, position [m]: cov(x̂, y) = P Cᵀ,  S = C P Cᵀ + V */
+    const float variance_position = 1e-06f + P_00;
 
     /* output 0, position [m]: innovation = y − C x̂; a gain of 0 leaves the output out */
-    const float measured_position = y_0 - x_0;
-    const float shared_27 = 90000.0f * S_position;
-    const float threshold_position = shared_27 < 7.378698e+19f ? shared_27 : 7.378698e+19f;
-    int usable_position = measured_position * measured_position < threshold_position && !(1.0f < widening_0);
+    const float raw_innovation_position = y_position - x_position;
+    const float gate_square_position = 90000.0f * variance_position;
+    const float threshold_position = gate_square_position < 7.378698e+19f ? gate_square_position
+        : 7.378698e+19f;
+    int usable_position = raw_innovation_position * raw_innovation_position < threshold_position
+        && !(1.0f < widening_position);
     if (!usable_position)
-        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position);
-    const float reciprocal_position = usable_position ? 1.0f / S_position : 0.0f;
-    const float innovation_position = usable_position ? measured_position : 0.0f;
+        usable_position = double_integrator_weigh(self, &status, 0, raw_innovation_position,
+            variance_position);
+    const float reciprocal_position = usable_position ? 1.0f / variance_position : 0.0f;
+    const float innovation_position = usable_position ? raw_innovation_position : 0.0f;
 
     /* output 0, position [m]: L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ */
-    const float gain_1_position = P_10 * reciprocal_position;
-    const float x_1_position = x_1 + gain_1_position * innovation_position;
-    self->x[1] = x_1_position;
-    const float P_11_position = P_11 - gain_1_position * P_10;
+    const float gain_speed_position = P_10 * reciprocal_position;
+    const float x_speed_position = x_speed + gain_speed_position * innovation_position;
+    self->x[1] = x_speed_position;
+    const float P_11_position = P_11 - gain_speed_position * P_10;
     self->P[2] = P_11_position;
-    const float P_10_position = P_10 - gain_1_position * P_00;
+    const float P_10_position = P_10 - gain_speed_position * P_00;
     self->P[1] = P_10_position;
-    const float gain_0_position = P_00 * reciprocal_position;
-    const float x_0_position = x_0 + gain_0_position * innovation_position;
-    self->x[0] = x_0_position;
-    const float P_00_position = P_00 - gain_0_position * P_00;
+    const float gain_position_position = P_00 * reciprocal_position;
+    const float x_position_position = x_position + gain_position_position * innovation_position;
+    self->x[0] = x_position_position;
+    const float P_00_position = P_00 - gain_position_position * P_00;
     self->P[0] = P_00_position;
 
     /* Σ x̂² in units of a bound */
-    const float sum = x_0_position * x_0_position;
-    const float sum_a = sum + x_1_position * x_1_position;
+    const float squares_to_x_position = x_position_position * x_position_position;
+    const float squares_to_x_speed = squares_to_x_position + x_speed_position * x_speed_position;
 
-    if (!(sum_a < 1.8446744e+19f) || status & LQG_INNOVATION_NOT_POSITIVE)
+    if (!(squares_to_x_speed < 1.8446744e+19f) || status & LQG_INNOVATION_NOT_POSITIVE)
         return double_integrator_recover(self, status);
     return status;
 }
@@ -253,19 +254,21 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
 static inline lqg_status double_integrator_control(const double_integrator_t *self, float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
 
     /* u = −K x̂, within its limits */
-    const float law_0 = -(589.38544f * x_0) - 68.209404f * x_1;
-    const int finite_0 = law_0 - law_0 == 0.0f;
-    const float demand_0 = finite_0 ? law_0 : 0.0f;
-    const int shared_30 = demand_0 < -10.0f;
-    const int shared_31 = 10.0f < demand_0;
-    const float limited_0 = shared_30 ? -10.0f : shared_31 ? 10.0f : demand_0;
-    u[0] = limited_0;
+    const float law_acceleration = -(589.38544f * x_position) - 68.209404f * x_speed;
+    const int finite_acceleration = law_acceleration - law_acceleration == 0.0f;
+    const float demand_acceleration = finite_acceleration ? law_acceleration : 0.0f;
+    const int below_acceleration = demand_acceleration < -10.0f;
+    const int above_acceleration = 10.0f < demand_acceleration;
+    const float limited_acceleration = below_acceleration ? -10.0f
+        : above_acceleration ? 10.0f : demand_acceleration;
+    u[0] = limited_acceleration;
 
-    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK) | (shared_30 || shared_31 ? LQG_INPUT_LIMITED : LQG_OK);
+    return (!finite_acceleration ? LQG_INPUT_LIMITED
+        : LQG_OK) | (below_acceleration || above_acceleration ? LQG_INPUT_LIMITED : LQG_OK);
 }
 
 /* x̂ ← A x̂ + B u,  P ← A P Aᵀ + G W Gᵀ: from this sample to the next.
@@ -276,35 +279,35 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
 static inline lqg_status double_integrator_predict(double_integrator_t *self, const float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
     const float P_00 = self->P[0];
     const float P_10 = self->P[1];
     const float P_11 = self->P[2];
-    const float u_0 = u[0];
+    const float u_acceleration = u[0];
 
     /* x̂ ← A x̂ + B u */
-    const float next_0 = x_0 + 0.01f * x_1 + 5e-05f * u_0;
-    self->x[0] = next_0;
-    const float sum = next_0 * next_0;
-    const float next_1 = x_1 + 0.01f * u_0;
-    self->x[1] = next_1;
-    const float sum_a = sum + next_1 * next_1;
+    const float next_position = x_position + 0.01f * x_speed + 5e-05f * u_acceleration;
+    self->x[0] = next_position;
+    const float squares_to_x_position = next_position * next_position;
+    const float next_speed = x_speed + 0.01f * u_acceleration;
+    self->x[1] = next_speed;
+    const float squares_to_x_speed = squares_to_x_position + next_speed * next_speed;
 
     /* P ← A P Aᵀ + G W Gᵀ, lower triangle */
     const float AP_00 = P_00 + 0.01f * P_10;
     const float AP_01 = P_10 + 0.01f * P_11;
-    const float prior_00 = 2.5e-09f + AP_00 + 0.01f * AP_01;
-    self->P[0] = prior_00;
-    const float sum_b = sum_a + prior_00;
-    const float prior_10 = 5e-07f + P_10 + 0.01f * P_11;
-    self->P[1] = prior_10;
-    const float prior_11 = 1e-04f + P_11;
-    self->P[2] = prior_11;
-    const float sum_c = sum_b + prior_11;
+    const float prior_P_00 = 2.5e-09f + AP_00 + 0.01f * AP_01;
+    self->P[0] = prior_P_00;
+    const float squares_to_P_00 = squares_to_x_speed + prior_P_00;
+    const float prior_P_10 = 5e-07f + P_10 + 0.01f * P_11;
+    self->P[1] = prior_P_10;
+    const float prior_P_11 = 1e-04f + P_11;
+    self->P[2] = prior_P_11;
+    const float squares_to_P_11 = squares_to_P_00 + prior_P_11;
 
     const lqg_status status = LQG_OK;
-    if (!(sum_c < 1.8446744e+19f && !(prior_00 < 0.0f) && !(prior_11 < 0.0f)))
+    if (!(squares_to_P_11 < 1.8446744e+19f && !(prior_P_00 < 0.0f) && !(prior_P_11 < 0.0f)))
         return double_integrator_recover(self, status);
     return status;
 }
@@ -333,25 +336,25 @@ static inline lqg_status double_integrator_update_position(double_integrator_t *
 /* How far the outputs are from what is expected, y − C x̂ and the variance of each, C P Cᵀ + V:
  * to be called before update by those who watch the health of sensors and model.
  *
- * y   in: the outputs, in their units
- * nu  out: the innovations
- * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ * y           in: the outputs, in their units
+ * innovation  out: the innovations
+ * S           out: the variances; innovation²/S is 1 in the mean as long as the model holds
  */
 static inline void double_integrator_innovation(const double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
-    float nu[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
+    float innovation[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
+    const float x_position = self->x[0];
     const float P_00 = self->P[0];
-    const float y_0 = y[0];
+    const float y_position = y[0];
 
     /* output 0, position [m]: innovation = y − C x̂ */
-    const float innovation_position = y_0 - x_0;
-    nu[0] = innovation_position;
+    const float innovation_position = y_position - x_position;
+    innovation[0] = innovation_position;
 
     /* output 0, position [m]: S = C P Cᵀ + V */
-    const float S_position = 1e-06f + P_00;
-    S[0] = S_position;
+    const float variance_position = 1e-06f + P_00;
+    S[0] = variance_position;
 }
 
 /* x̂ ← x, by hand; its covariance stays.
@@ -362,18 +365,18 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
 static inline lqg_status double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
 {
     LQG_STRICT_BODY
-    const float x_0 = x[0];
-    const float x_1 = x[1];
+    const float x_position = x[0];
+    const float x_speed = x[1];
 
     /* Σ x² in units of a bound */
-    const float sum = x_0 * x_0;
-    const float sum_a = sum + x_1 * x_1;
+    const float squares_to_x_position = x_position * x_position;
+    const float squares_to_x_speed = squares_to_x_position + x_speed * x_speed;
 
-    self->x[0] = x_0;
-    self->x[1] = x_1;
+    self->x[0] = x_position;
+    self->x[1] = x_speed;
 
     const lqg_status status = LQG_OK;
-    if (!(sum_a < 1.8446744e+19f))
+    if (!(squares_to_x_speed < 1.8446744e+19f))
         return double_integrator_reset(self, status);
     return status;
 }

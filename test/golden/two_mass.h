@@ -139,35 +139,33 @@ static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
     return status | LQG_STATE_RESET;
 }
 
-/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
+/* Whether output i is used, whose innovation is not as expected: it is not where that is not believable, or beyond
  * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
+static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
-    const float innovation = nu;
-    const float variance = S;
 
     /* w, at least 1 */
-    const float wide = 1.0f < widening ? widening : 1.0f;
-    const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
+    const float width_or_1 = 1.0f < widening ? widening : 1.0f;
+    const float width = width_or_1 < 1.2089258e+24f ? width_or_1 : 1.2089258e+24f;
 
     /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
     const int believable = fabsf(innovation) < 2199023255552.0f;
     const lqg_status fault = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
     const int usable = fault == LQG_OK;
-    const int beyond = 90000.0f * variance * width < innovation * innovation;
+    const int beyond = 90000.0f * S * width < innovation * innovation;
     const int gated = usable && beyond;
     const int used = usable && !beyond;
 
     /* w widens or narrows */
     const float next_width = (used ? 0.72558594f : 1.5f) * width;
-    const float wide_a = 1.0f < next_width ? next_width : 1.0f;
+    const float next_width_or_1 = 1.0f < next_width ? next_width : 1.0f;
 
-    self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
+    self->widening[i] = next_width_or_1 < 1.2089258e+24f ? next_width_or_1 : 1.2089258e+24f;
 
     self->gated[i] += gated ? 1 : 0;
     *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
@@ -183,44 +181,44 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
 {
     LQG_STRICT_BODY
     lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float widening_0 = self->widening[0];
-    const float widening_1 = self->widening[1];
-    const float y_0 = y[0];
-    const float y_1 = y[1];
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
+    const float widening_dy1 = self->widening[0];
+    const float widening_dy2 = self->widening[1];
+    const float y_dy1 = y[0];
+    const float y_dy2 = y[1];
 
     /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy1 = y_0 - x_0;
-    int usable_dy1 = measured_dy1 * measured_dy1 < 302.56482f && !(1.0f < widening_0);
+    const float raw_innovation_dy1 = y_dy1 - x_dy1;
+    int usable_dy1 = raw_innovation_dy1 * raw_innovation_dy1 < 302.56482f && !(1.0f < widening_dy1);
     if (!usable_dy1)
-        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1, 0.0033618314f);
-    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
+        usable_dy1 = two_mass_weigh(self, &status, 0, raw_innovation_dy1, 0.0033618314f);
+    const float innovation_dy1 = usable_dy1 ? raw_innovation_dy1 : 0.0f;
 
     /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy2 = y_1 - x_2;
-    int usable_dy2 = measured_dy2 * measured_dy2 < 122.89207f && !(1.0f < widening_1);
+    const float raw_innovation_dy2 = y_dy2 - x_dy2;
+    int usable_dy2 = raw_innovation_dy2 * raw_innovation_dy2 < 122.89207f && !(1.0f < widening_dy2);
     if (!usable_dy2)
-        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2, 0.0013654674f);
-    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
+        usable_dy2 = two_mass_weigh(self, &status, 1, raw_innovation_dy2, 0.0013654674f);
+    const float innovation_dy2 = usable_dy2 ? raw_innovation_dy2 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + 0.7008788f * innovation_dy1 + 0.03500962f * innovation_dy2;
-    self->x[0] = posterior_0;
-    const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 + 0.8304034f * innovation_dy1 - 0.105838105f * innovation_dy2;
-    self->x[1] = posterior_1;
-    const float sum_a = sum + posterior_1 * posterior_1;
-    const float posterior_2 = x_2 + 0.03500962f * innovation_dy1 + 0.26355246f * innovation_dy2;
-    self->x[2] = posterior_2;
-    const float sum_b = sum_a + posterior_2 * posterior_2;
-    const float posterior_3 = x_3 + 0.17161791f * innovation_dy1 + 0.078661025f * innovation_dy2;
-    self->x[3] = posterior_3;
-    const float sum_c = sum_b + posterior_3 * posterior_3;
+    const float posterior_dy1 = x_dy1 + 0.7008788f * innovation_dy1 + 0.03500962f * innovation_dy2;
+    self->x[0] = posterior_dy1;
+    const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
+    const float posterior_v1 = x_v1 + 0.8304034f * innovation_dy1 - 0.105838105f * innovation_dy2;
+    self->x[1] = posterior_v1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + posterior_v1 * posterior_v1;
+    const float posterior_dy2 = x_dy2 + 0.03500962f * innovation_dy1 + 0.26355246f * innovation_dy2;
+    self->x[2] = posterior_dy2;
+    const float squares_to_x_dy2 = squares_to_x_v1 + posterior_dy2 * posterior_dy2;
+    const float posterior_v2 = x_v2 + 0.17161791f * innovation_dy1 + 0.078661025f * innovation_dy2;
+    self->x[3] = posterior_v2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + posterior_v2 * posterior_v2;
 
-    if (!(sum_c < 1.2089258e+24f))
+    if (!(squares_to_x_v2 < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -233,19 +231,19 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
 static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
 
     /* u = −K x̂ */
-    const float law_0 = -(2.4226158f * x_0) - 2.1417978f * x_1 + 0.33327204f * x_2
-        - 1.9239638f * x_3;
-    const int finite_0 = law_0 - law_0 == 0.0f;
-    const float demand_0 = finite_0 ? law_0 : 0.0f;
-    u[0] = demand_0;
+    const float law_force = -(2.4226158f * x_dy1) - 2.1417978f * x_v1 + 0.33327204f * x_dy2
+        - 1.9239638f * x_v2;
+    const int finite_force = law_force - law_force == 0.0f;
+    const float demand_force = finite_force ? law_force : 0.0f;
+    u[0] = demand_force;
 
-    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK);
+    return (!finite_force ? LQG_INPUT_LIMITED : LQG_OK);
 }
 
 /* x̂ ← A x̂ + B u: from this sample to the next.
@@ -256,32 +254,32 @@ static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MA
 static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float u_0 = u[0];
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
+    const float u_force = u[0];
 
     /* x̂ ← A x̂ + B u */
-    const float next_0 = 0.9877046f * x_0 + 0.4974466f * x_1 + 0.012295422f * x_2
-        + 0.002553408f * x_3 + 0.12465904f * u_0;
-    self->x[0] = next_0;
-    const float sum = next_0 * next_0;
-    const float next_1 = -(0.048467956f * x_0) + 0.9857659f * x_1 + 0.048467956f * x_2
-        + 0.0142341405f * x_3 + 0.4974466f * u_0;
-    self->x[1] = next_1;
-    const float sum_a = sum + next_1 * next_1;
-    const float next_2 = 0.061477114f * x_0 + 0.01276704f * x_1 + 0.9385229f * x_2
-        + 0.48723295f * x_3 + 0.0017048119f * u_0;
-    self->x[2] = next_2;
-    const float sum_b = sum_a + next_2 * next_2;
-    const float next_3 = 0.24233977f * x_0 + 0.0711707f * x_1 - 0.24233977f * x_2
-        + 0.9288293f * x_3 + 0.01276704f * u_0;
-    self->x[3] = next_3;
-    const float sum_c = sum_b + next_3 * next_3;
+    const float next_dy1 = 0.9877046f * x_dy1 + 0.4974466f * x_v1 + 0.012295422f * x_dy2
+        + 0.002553408f * x_v2 + 0.12465904f * u_force;
+    self->x[0] = next_dy1;
+    const float squares_to_x_dy1 = next_dy1 * next_dy1;
+    const float next_v1 = -(0.048467956f * x_dy1) + 0.9857659f * x_v1 + 0.048467956f * x_dy2
+        + 0.0142341405f * x_v2 + 0.4974466f * u_force;
+    self->x[1] = next_v1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + next_v1 * next_v1;
+    const float next_dy2 = 0.061477114f * x_dy1 + 0.01276704f * x_v1 + 0.9385229f * x_dy2
+        + 0.48723295f * x_v2 + 0.0017048119f * u_force;
+    self->x[2] = next_dy2;
+    const float squares_to_x_dy2 = squares_to_x_v1 + next_dy2 * next_dy2;
+    const float next_v2 = 0.24233977f * x_dy1 + 0.0711707f * x_v1 - 0.24233977f * x_dy2
+        + 0.9288293f * x_v2 + 0.01276704f * u_force;
+    self->x[3] = next_v2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + next_v2 * next_v2;
 
     const lqg_status status = LQG_OK;
-    if (!(sum_c < 1.2089258e+24f))
+    if (!(squares_to_x_v2 < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -306,35 +304,34 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
 {
     LQG_STRICT_BODY
     lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float widening_0 = self->widening[0];
-    const float y = y_dy1;
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
+    const float widening_dy1 = self->widening[0];
 
     /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy1 = y - x_0;
-    int usable_dy1 = measured_dy1 * measured_dy1 < 302.56482f && !(1.0f < widening_0);
+    const float raw_innovation_dy1 = y_dy1 - x_dy1;
+    int usable_dy1 = raw_innovation_dy1 * raw_innovation_dy1 < 302.56482f && !(1.0f < widening_dy1);
     if (!usable_dy1)
-        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1, 0.0033618314f);
-    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
+        usable_dy1 = two_mass_weigh(self, &status, 0, raw_innovation_dy1, 0.0033618314f);
+    const float innovation_dy1 = usable_dy1 ? raw_innovation_dy1 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + 0.7008788f * innovation_dy1;
-    self->x[0] = posterior_0;
-    const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 + 0.8304034f * innovation_dy1;
-    self->x[1] = posterior_1;
-    const float sum_a = sum + posterior_1 * posterior_1;
-    const float posterior_2 = x_2 + 0.03500962f * innovation_dy1;
-    self->x[2] = posterior_2;
-    const float sum_b = sum_a + posterior_2 * posterior_2;
-    const float posterior_3 = x_3 + 0.17161791f * innovation_dy1;
-    self->x[3] = posterior_3;
-    const float sum_c = sum_b + posterior_3 * posterior_3;
+    const float posterior_dy1 = x_dy1 + 0.7008788f * innovation_dy1;
+    self->x[0] = posterior_dy1;
+    const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
+    const float posterior_v1 = x_v1 + 0.8304034f * innovation_dy1;
+    self->x[1] = posterior_v1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + posterior_v1 * posterior_v1;
+    const float posterior_dy2 = x_dy2 + 0.03500962f * innovation_dy1;
+    self->x[2] = posterior_dy2;
+    const float squares_to_x_dy2 = squares_to_x_v1 + posterior_dy2 * posterior_dy2;
+    const float posterior_v2 = x_v2 + 0.17161791f * innovation_dy1;
+    self->x[3] = posterior_v2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + posterior_v2 * posterior_v2;
 
-    if (!(sum_c < 1.2089258e+24f))
+    if (!(squares_to_x_v2 < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -349,35 +346,34 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
 {
     LQG_STRICT_BODY
     lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float widening_1 = self->widening[1];
-    const float y = y_dy2;
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
+    const float widening_dy2 = self->widening[1];
 
     /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy2 = y - x_2;
-    int usable_dy2 = measured_dy2 * measured_dy2 < 122.89207f && !(1.0f < widening_1);
+    const float raw_innovation_dy2 = y_dy2 - x_dy2;
+    int usable_dy2 = raw_innovation_dy2 * raw_innovation_dy2 < 122.89207f && !(1.0f < widening_dy2);
     if (!usable_dy2)
-        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2, 0.0013654674f);
-    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
+        usable_dy2 = two_mass_weigh(self, &status, 1, raw_innovation_dy2, 0.0013654674f);
+    const float innovation_dy2 = usable_dy2 ? raw_innovation_dy2 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + 0.03500962f * innovation_dy2;
-    self->x[0] = posterior_0;
-    const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 - 0.105838105f * innovation_dy2;
-    self->x[1] = posterior_1;
-    const float sum_a = sum + posterior_1 * posterior_1;
-    const float posterior_2 = x_2 + 0.26355246f * innovation_dy2;
-    self->x[2] = posterior_2;
-    const float sum_b = sum_a + posterior_2 * posterior_2;
-    const float posterior_3 = x_3 + 0.078661025f * innovation_dy2;
-    self->x[3] = posterior_3;
-    const float sum_c = sum_b + posterior_3 * posterior_3;
+    const float posterior_dy1 = x_dy1 + 0.03500962f * innovation_dy2;
+    self->x[0] = posterior_dy1;
+    const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
+    const float posterior_v1 = x_v1 - 0.105838105f * innovation_dy2;
+    self->x[1] = posterior_v1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + posterior_v1 * posterior_v1;
+    const float posterior_dy2 = x_dy2 + 0.26355246f * innovation_dy2;
+    self->x[2] = posterior_dy2;
+    const float squares_to_x_dy2 = squares_to_x_v1 + posterior_dy2 * posterior_dy2;
+    const float posterior_v2 = x_v2 + 0.078661025f * innovation_dy2;
+    self->x[3] = posterior_v2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + posterior_v2 * posterior_v2;
 
-    if (!(sum_c < 1.2089258e+24f))
+    if (!(squares_to_x_v2 < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
@@ -385,26 +381,26 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
 /* How far the outputs are from what is expected, y − C x̂ and the steady variance of each:
  * to be called before update by those who watch the health of sensors and model.
  *
- * y   in: the outputs, in their units
- * nu  out: the innovations
- * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ * y           in: the outputs, in their units
+ * innovation  out: the innovations
+ * S           out: the variances; innovation²/S is 1 in the mean as long as the model holds
  */
 static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO_MASS_NY],
-    float nu[TWO_MASS_NY], float S[TWO_MASS_NY])
+    float innovation[TWO_MASS_NY], float S[TWO_MASS_NY])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_2 = self->x[2];
-    const float y_0 = y[0];
-    const float y_1 = y[1];
+    const float x_dy1 = self->x[0];
+    const float x_dy2 = self->x[2];
+    const float y_dy1 = y[0];
+    const float y_dy2 = y[1];
 
     /* output 0, dy1 [m]: innovation = y − C x̂ */
-    const float innovation_dy1 = y_0 - x_0;
-    nu[0] = innovation_dy1;
+    const float innovation_dy1 = y_dy1 - x_dy1;
+    innovation[0] = innovation_dy1;
 
     /* output 1, dy2 [m]: innovation = y − C x̂ */
-    const float innovation_dy2 = y_1 - x_2;
-    nu[1] = innovation_dy2;
+    const float innovation_dy2 = y_dy2 - x_dy2;
+    innovation[1] = innovation_dy2;
 
     S[0] = 0.0033618314f;
     S[1] = 0.0013654674f;
@@ -420,16 +416,16 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
 static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
 {
     LQG_STRICT_BODY
-    float there[TWO_MASS_NY], nu[TWO_MASS_NY], S[TWO_MASS_NY];
+    float there[TWO_MASS_NY], innovation[TWO_MASS_NY], S[TWO_MASS_NY];
     unsigned long lost = 0;
 
     for (int i = 0; i < TWO_MASS_NY; i++)
         there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
-    two_mass_innovation(self, there, nu, S);
-    const float nu_0 = nu[0];
-    const float nu_1 = nu[1];
-    lost |= !(fabsf(nu_0) < 2199023255552.0f) ? 1ul << 0 : 0ul;
-    lost |= !(fabsf(nu_1) < 2199023255552.0f) ? 1ul << 1 : 0ul;
+    two_mass_innovation(self, there, innovation, S);
+    const float innovation_dy1 = innovation[0];
+    const float innovation_dy2 = innovation[1];
+    lost |= !(fabsf(innovation_dy1) < 2199023255552.0f) ? 1ul << 0 : 0ul;
+    lost |= !(fabsf(innovation_dy2) < 2199023255552.0f) ? 1ul << 1 : 0ul;
 
     const lqg_status status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
     return used & lost ? status | LQG_OUTPUT_NOT_FINITE : status;
@@ -443,24 +439,24 @@ static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y
 static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
 {
     LQG_STRICT_BODY
-    const float x_0 = x[0];
-    const float x_1 = x[1];
-    const float x_2 = x[2];
-    const float x_3 = x[3];
+    const float x_dy1 = x[0];
+    const float x_v1 = x[1];
+    const float x_dy2 = x[2];
+    const float x_v2 = x[3];
 
     /* Σ x² in units of a bound */
-    const float sum = x_0 * x_0;
-    const float sum_a = sum + x_1 * x_1;
-    const float sum_b = sum_a + x_2 * x_2;
-    const float sum_c = sum_b + x_3 * x_3;
+    const float squares_to_x_dy1 = x_dy1 * x_dy1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + x_v1 * x_v1;
+    const float squares_to_x_dy2 = squares_to_x_v1 + x_dy2 * x_dy2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + x_v2 * x_v2;
 
-    self->x[0] = x_0;
-    self->x[1] = x_1;
-    self->x[2] = x_2;
-    self->x[3] = x_3;
+    self->x[0] = x_dy1;
+    self->x[1] = x_v1;
+    self->x[2] = x_dy2;
+    self->x[3] = x_v2;
 
     const lqg_status status = LQG_OK;
-    if (!(sum_c < 1.2089258e+24f))
+    if (!(squares_to_x_v2 < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }

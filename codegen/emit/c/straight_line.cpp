@@ -60,7 +60,7 @@ std::string status(const Controller& controller, const Printed& printed) {
   if (!function.asked.empty()) return status_of_weighed(controller, printed);
   if (raised.empty()) raised = "LQG_OK";
   if (function.finite < 0 && function.is_void) return "";
-  if (function.finite < 0) return "    return " + raised + ";\n";
+  if (function.finite < 0) return trace::wrap("    return " + raised + ";", 8) + "\n";
   if (!function.recovery.empty())
     return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery +
            ";\n    return " + raised + ";\n";
@@ -126,7 +126,7 @@ std::string weigh_body(const Controller& controller) {
   std::string raised;
   for (const int status : traced.statuses) raised += (raised.empty() ? "" : " | ") + printed.printer.operand(status);
   const auto table = [&](const Eigen::VectorXd& values) {
-    return initializer({values.data(), values.data() + values.size()}, controller.target.is_double);
+    return trace::wrap(initializer({values.data(), values.data() + values.size()}, controller.target.is_double), 8, 60);
   };
   return write_body(templates::weigh_body, controller,
                     {{"limits", table(controller.bounds.innovation)},

@@ -51,11 +51,11 @@ void TraceListener::gate(const Condition& gated, int) {
   function_.gates.push_back(gated.node);
 }
 
-Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu,
+Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& innovation,
                                    const trace::Expr& variance) {
   const std::string call = controller_.problem.name + "_weigh(self, &status, " + std::to_string(output);
   function_.asked.push_back(
-      function_.graph->ask(expected.node, call, nu.node, variance.node, controller_.bounds.innovation(output)));
+      function_.graph->ask(expected.node, call, innovation.node, variance.node, controller_.bounds.innovation(output)));
   return {function_.asked.back()};
 }
 
@@ -76,15 +76,17 @@ TracedFunction new_function(const Controller& controller) {
   TracedFunction function;
   function.graph = std::make_shared<trace::Graph>(
       trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover});
+  function.graph->reserve(reserved_names(controller));
   return function;
 }
 
 std::string element(const std::string& array, int i) { return array + "[" + std::to_string(i) + "]"; }
 
-Symbols load(trace::Graph& graph, const std::string& array, const std::string& name, int size) {
+Symbols load(const Controller& controller, const std::string& array, const std::string& name, int size,
+             step::Place (*place)(int)) {
   Symbols symbols(size);
   for (int i = 0; i < size; ++i)
-    symbols(i) = trace::Expr::of(graph.input(element(array, i), name + index_suffix(i, -1, size)));
+    symbols(i) = trace::Expr::of(trace::graph().input(element(array, i), name + suffix_of(controller, place(i))));
   return symbols;
 }
 
@@ -92,12 +94,6 @@ void store(TracedFunction& function, const std::string& target, const trace::Exp
   const trace::Node& node = function.graph->nodes()[static_cast<std::size_t>(value.node)];
   if (node.op == trace::Op::input && node.text == target) return;  // as it was
   function.stores.push_back({target, value.node});
-}
-
-std::string index_suffix(int i, int j, int size) {
-  if (i < 0) return "";
-  if (j < 0) return "_" + std::to_string(i);
-  return "_" + std::to_string(i) + (size > 10 ? "_" : "") + std::to_string(j);
 }
 
 }  // namespace lqg::emit
