@@ -171,7 +171,7 @@ void test_predictor_form_prints_the_gain_that_its_code_uses() {
     expect_order(text, {"  L_predictor = [ 0.9 ]\n", "[ 2.0 ]\n", "poles of A − L_predictor C: 0.6, 0.5"});
     TEST_ASSERT_TRUE(text.find(" L = [") == std::string::npos);
   }
-  expect_order(lqg::emit::header(observer), {"+ 0.9f * kept_0;", "+ 2.0f * kept_0;"});
+  expect_order(lqg::emit::header(observer), {"+ 0.9f * last_innovation_y0;", "+ 2.0f * last_innovation_y0;"});
   const std::string noise = "process_noise = [0.01, 0.01]\nmeasurement_noise = [0.01]\n";
   const std::string filter = lqg::emit::header(controller_of(plant + "[kalman]\nform = \"predictor\"\n" + noise));
   expect_order(filter, {" L = [", " L_predictor = [", "poles of A − L_predictor C"});

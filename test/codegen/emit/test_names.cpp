@@ -206,6 +206,73 @@ void test_a_short_name_compiles_as_c_and_cxx() {
     }
 }
 
+// Inside of the functions.
+
+// In the styles and forms that differ in what their functions call.
+const std::vector<Values> bodies = {
+    {{"filter", "gain = \"online\""}, {"more", limits}},
+    {{"filter", "gain = \"online\"\ncovariance = \"plain\""}, {"law", "integral = { outputs = [0], Q = [1] }"}},
+    {{"code", "realisation = \"modal\""}, {"filter", "form = \"predictor\""}}};
+
+// Behind all headers of C, whose macros and types have been defined.
+void expect_to_compile(const Values& names, const std::filesystem::path& folder) {
+  for (Values values : bodies) {
+    values.insert(names.begin(), names.end());
+    const std::string name = values.count("name") ? values.at("name") : "loop";
+    write(folder / (name + ".h"), header_of(values));
+    write(folder / "alone.c",
+          "#include <sys/types.h>\n#include <errno.h>\n#include <math.h>\n#include <complex.h>\n#include <limits.h>\n"
+          "#include <float.h>\n#include <signal.h>\n#include <sys/wait.h>\n#include <sys/stat.h>\n#include \"" +
+              name + ".h\"\n");
+    for (const std::string& compiler : {as_c, as_cxx}) {
+      const Outcome outcome =
+          run(compiler + " -D_GNU_SOURCE -fsyntax-only -I" LQG_INCLUDE_FOLDER " " + (folder / "alone.c").string());
+      TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.substr(0, 2000).c_str());
+    }
+  }
+}
+
+// x of speed_rate, and x of speed behind the update by the output rate.
+void test_two_states_of_one_identifier_are_told_apart() {
+  const Values names = {{"state", "speed_rate"}};
+  expect_to_compile(names, empty_folder("one_identifier"));
+  Values values = names;
+  values["filter"] = "gain = \"online\"";
+  const std::string header = header_of(values);
+  for (const char* declared : {"const float x_speed_rate = self->x[0];", "const float x_speed_rate_2 = "})
+    TEST_ASSERT_TRUE_MESSAGE(header.find(declared) != std::string::npos, declared);
+}
+
+void test_signals_may_be_called_as_keywords_macros_types_and_values() {
+  const std::filesystem::path folder = empty_folder("words");
+  for (const char* name : {"int", "class", "NAN", "errno", "I", "char", "part", "x", "r", "1"})
+    if (!is_refused({{"state", name}, {"input", name}, {"output", name}}))
+      expect_to_compile({{"state", name}, {"input", name}, {"output", name}}, folder);
+}
+
+void test_a_value_never_gets_the_name_of_a_function_of_the_design() {
+  const std::filesystem::path folder = empty_folder("functions");
+  for (const char* name : {"reset", "update_rate", "t", "hear"}) {
+    expect_to_compile({{"name", "x"}, {"state", name}}, folder);
+    expect_to_compile({{"name", "law"}, {"input", name}}, folder);
+  }
+}
+
+// Of the longest names that a design may have.
+void test_no_line_of_a_body_is_too_long_whatever_the_names() {
+  const auto longest = [](char c) { return std::string(31, c); };
+  for (Values values : bodies) {
+    values.insert({{"state", longest('s')}, {"input", longest('i')}, {"output", longest('o')}, {"name", longest('n')}});
+    bool is_inside = false;
+    std::istringstream lines(header_of(values));
+    for (std::string line; std::getline(lines, line);) {
+      if (line == "{" || line == "}") is_inside = line == "{";
+      if (is_inside && line.find("    const float ") == 0)
+        TEST_ASSERT_LESS_OR_EQUAL_INT_MESSAGE(120, static_cast<int>(line.size()), line.c_str());
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" {
@@ -223,5 +290,9 @@ int main() {
   RUN_TEST(test_no_design_has_the_type_of_a_standard_header);
   RUN_TEST(test_ordinary_names_are_free);
   RUN_TEST(test_a_short_name_compiles_as_c_and_cxx);
+  RUN_TEST(test_two_states_of_one_identifier_are_told_apart);
+  RUN_TEST(test_signals_may_be_called_as_keywords_macros_types_and_values);
+  RUN_TEST(test_a_value_never_gets_the_name_of_a_function_of_the_design);
+  RUN_TEST(test_no_line_of_a_body_is_too_long_whatever_the_names);
   return UNITY_END();
 }
