@@ -30,7 +30,7 @@ Innovation<S> innovate(const Model<S>& model, State<S>& state, const S& y, int i
 template <class S, class Listener>
 auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& innovation, int first,
                     Listener& listener) {
-  listener.section("x̂ ← x̂ + L innovation");
+  listener.section("x̂ ← x̂ + L innovation", -1, and_check(model.x_bound));
   BoundsCheck<S> bounds;
   for (int j = 0; j < model.nx; ++j) {
     S sum = state.x(j);

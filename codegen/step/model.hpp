@@ -165,8 +165,9 @@ inline Place of_entry_without(int without, int i, int j) { return {Place::Kind::
 struct Listener {
   unsigned events = 0;
 
-  // A new block of the algorithm: its equation, and the output it belongs to (−1: none).
-  void section(const std::string&, int = -1) {}
+  // A new block of the algorithm: its equation, the output it belongs to (−1: none), and what follows the equation.
+  template <class Text>
+  void section(const Text&, int = -1, const char* = "") {}
   // `value` is called `base`, of a place.
   template <class Value>
   void name(const Value&, const char*, const Place& = {}) {}

@@ -88,6 +88,7 @@ template <class S, class Listener>
 auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   const int nxi = static_cast<int>(model.integral.size());
   BoundsCheck<S> bounds;
+  if (model.delayed) listener.section("the inputs on their way", -1, and_check(model.x_bound));
   for (int i = 0; i < model.delayed; ++i) {
     const int at = model.nx - model.delayed + i;
     state.x(at) = u(i % model.nu);

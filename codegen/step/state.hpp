@@ -120,7 +120,8 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, B
                    Listener& listener) {
   listener.section(model.M.cols() ? "x̂ ← A x̂ + B u + M (what the outputs told of w)"
                    : model.nu     ? "x̂ ← A x̂ + B u"
-                                  : "x̂ ← A x̂");
+                                  : "x̂ ← A x̂",
+                   -1, and_check(model.x_bound));
   Vector<S> next(model.nx);
   for (int i = 0; i < model.nx; ++i) {
     S sum = model.A(i, 0) * state.x(0);

@@ -9,9 +9,9 @@
 
 namespace lqg::trace {
 
-// The name of each node that `is_declared`, "" of the others: its own name, or its hint, or that of the value it is a part
-// of among those that are needed: "law_voltage_part". Among those that want the same name the first gets it, the next
-// "…_2", and no name is reserved.
+// The name of each node that `is_declared`, "" of the others: its own name, or its hint, or that of the value it is a
+// part of among those that are needed: "law_voltage_part". Of those that want the same name the first gets it, the next
+// gets "…_2"; reserved names are taken.
 std::vector<std::string> names_of(const Graph& graph, const std::vector<bool>& is_needed,
                                   const std::vector<bool>& is_declared);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a reviewer meets between the braces of straight-line code: no value is called by a number of the generator's own,
-// and no line is longer than 120 columns. Takes headers, prints what is wrong.
+// What a reviewer meets between the braces of straight-line code: no value is called by a number of the generator's
+// own, and no line is longer than 120 columns. Takes headers, prints what is wrong.
 #include <fstream>
 #include <iostream>
 #include <regex>

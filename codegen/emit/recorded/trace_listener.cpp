@@ -17,12 +17,12 @@ const char* status_name(step::Event event) {
   }
 }
 
-void TraceListener::section(const std::string& equation, int output) {
-  if (output < 0) return function_.graph->section(equation, "");
+void TraceListener::section(const std::string& equation, int output, const char* supplement) {
+  if (output < 0) return function_.graph->section(equation + supplement, "");
   const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
   const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";
-  function_.graph->section("output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation,
-                           "_" + signal.name);
+  function_.graph->section(
+      "output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation + supplement, "_" + signal.name);
 }
 
 void TraceListener::raise(step::Event event, const Condition& condition) {

@@ -17,7 +17,7 @@ class TraceListener {
   TraceListener(const Controller& controller, TracedFunction& function)
       : controller_(controller), function_(function) {}
 
-  void section(const std::string& equation, int output = -1);
+  void section(const std::string& equation, int output = -1, const char* supplement = "");
   template <class Value>  // Expr or Condition
   void name(const Value& value, const char* base, const step::Place& place = {}) {
     function_.graph->name(value.node, base + suffix_of(controller_, place));

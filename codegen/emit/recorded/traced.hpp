@@ -37,7 +37,8 @@ struct TracedController {
 
 TracedController trace_controller(const Controller& controller);
 
-// Whether output i is used, of its innovation and S. What is not the same for all outputs is limits[i], widen[i] or narrow[i].
+// Whether output i is used, of its innovation and S. What is not the same for all outputs is limits[i], widen[i] or
+// narrow[i].
 TracedFunction trace_weigh(const Controller& controller);
 bool is_same_for_all(const Eigen::VectorXd& values);
 
@@ -59,7 +60,7 @@ TracedFunction trace_begin_covariance(const Controller& controller);
 // r − y of the integrals of an output, of which y was `heard`; no stores where it has none.
 TracedFunction trace_observation(const Controller& controller, int output);
 
-// Those that an update leaves out, of the innovations innovation[] of the outputs as they are, infinite where one is not there.
+// Those that an update leaves out, of the innovation[] of the outputs as they are, infinite where one is not there.
 TracedFunction trace_lost_outputs(const Controller& controller);
 
 // Which entries of P (or of U, then D) are ever different from 0: those of P0, and those that a step makes so.
