@@ -10,8 +10,8 @@ namespace lqg::step {
 
 // What stands beside the equation of a block in which x̂ is checked, too.
 inline const char* and_check(const std::vector<int>& bounds) {
-  return bounds.empty() ? ";  sum_to_k = Σ x̂_i, i ≤ k, is finite where each x̂_i is"
-                        : ";  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b";
+  return bounds.empty() ? ";  sum_to_x_k = Σ x̂_i, i ≤ k, is finite where each x̂_i is"
+                        : ";  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b";
 }
 
 // Σ (x_i/b_i)² + Σ P_ii/b_i² < 1 with bounds b that are powers of two, no P_ii negative, and all that has no bound finite.

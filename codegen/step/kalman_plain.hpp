@@ -52,7 +52,7 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
 template <class S, class Listener>
 void predict_plain_covariance(const Model<S>& model, State<S>& state, BoundsCheck<S>& bounds, Listener& listener) {
   const int nx = model.nx;
-  listener.section("P ← A P Aᵀ + G W Gᵀ, lower triangle");
+  listener.section("P ← A P Aᵀ + G W Gᵀ, lower triangle;  squares_to_P_kk adds P_kk");
   std::vector<S> next(state.P.size());
   for (int i = 0; i < nx; ++i) {
     Vector<S> AP(nx);

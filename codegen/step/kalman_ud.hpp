@@ -87,7 +87,8 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
 template <class S, class Listener>
 Matrix<S> rows_of_the_prior(const Model<S>& model, const State<S>& state, Listener& listener) {
   const int nx = model.nx, nq = static_cast<int>(model.G.cols());
-  listener.section("rows [A U | G] with the weights [d | w]");
+  listener.section(
+      "rows [A U | G] with the weights [d | w];  squares_to_d_k adds d_k, and sum_to_U_jk is finite where each U is");
   Matrix<S> T(nx, nx + nq);
   for (int i = 0; i < nx; ++i) {
     for (int j = 0; j < nx; ++j) {

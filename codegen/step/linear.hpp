@@ -32,6 +32,8 @@ LinearState<S> initial_state(const LinearModel<S>& model) {
   return {model.z0, Vector<S>(Vector<S>::Constant(model.predictor_form ? 0 : model.B.cols(), S(0)))};
 }
 
+constexpr const char* sum_of_z = ";  sum_to_z_k = Σ z_i, i ≤ k, is finite where each z_i is";
+
 // sum + row i of M times v
 template <class S>
 S add_product(S sum, const Matrix<S>& M, int i, const Vector<S>& v) {
@@ -102,7 +104,7 @@ auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const 
 // z ← A z + B y with outputs that are finite; the condition says that z is.
 template <class S, class Listener>
 auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Listener& listener) {
-  listener.section("z ← A z + B y");
+  listener.section("z ← A z + B y", -1, sum_of_z);
   BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {
@@ -129,7 +131,7 @@ Vector<S> estimate(const LinearModel<S>& model, const LinearState<S>& state, Lis
 // z of a state that is set by hand; the condition says that it is finite.
 template <class S, class Listener>
 auto set_state(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& x, Listener& listener) {
-  listener.section("z of x");
+  listener.section("z of x", -1, sum_of_z);
   BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {

@@ -58,11 +58,12 @@ std::string heading(const std::string& equation) {
 
 // How well a line breaks at its character i, the more the better; −1: it does not.
 int worth_of_break(const std::string& line, std::size_t i) {
-  if (breaks_before(line, i, ":") && line.find(" ? ", i) != std::string::npos) return 5;  // of a choice of choices
-  if (breaks_before(line, i, "?:")) return 4;
+  if (breaks_before(line, i, ":") && line.find(" ? ", i) != std::string::npos) return 6;  // of a choice of choices
+  if (breaks_before(line, i, "?:")) return 5;
+  if (line.compare(i, 4, " && ") == 0 || line.compare(i, 4, " || ") == 0) return 4;
   if (breaks_before(line, i, "+-")) return 3;
   if (line[i] != ' ') return -1;
-  if (line[i - 1] == ',' || line.compare(i, 4, " && ") == 0 || line.compare(i, 4, " || ") == 0) return 2;
+  if (line[i - 1] == ',') return 2;
   if (breaks_before(line, i, "<*/")) return 1;
   return i > 1 && line[i - 1] == '=' && line[i - 2] == ' ' ? 0 : -1;  // behind the = of an assignment
 }

@@ -142,7 +142,7 @@ static lqg_status double_integrator_recover(double_integrator_t *self, lqg_statu
     const float x_position = self->x[0];
     const float x_speed = self->x[1];
 
-    /* x̂ within its bounds;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ within its bounds;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float squares_to_x_position = x_position * x_position;
     const float squares_to_x_speed = squares_to_x_position + x_speed * x_speed;
 
@@ -237,7 +237,7 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
     const float P_00_position = P_00 - gain_position_position * P_00;
     self->P[0] = P_00_position;
 
-    /* x̂ within its bounds;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ within its bounds;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float squares_to_x_position = x_position_position * x_position_position;
     const float squares_to_x_speed = squares_to_x_position + x_speed_position * x_speed_position;
 
@@ -286,7 +286,7 @@ static inline lqg_status double_integrator_predict(double_integrator_t *self, co
     const float P_11 = self->P[2];
     const float u_acceleration = u[0];
 
-    /* x̂ ← A x̂ + B u;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← A x̂ + B u;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float next_position = x_position + 0.01f * x_speed + 5e-05f * u_acceleration;
     self->x[0] = next_position;
     const float squares_to_x_position = next_position * next_position;
@@ -294,7 +294,7 @@ static inline lqg_status double_integrator_predict(double_integrator_t *self, co
     self->x[1] = next_speed;
     const float squares_to_x_speed = squares_to_x_position + next_speed * next_speed;
 
-    /* P ← A P Aᵀ + G W Gᵀ, lower triangle */
+    /* P ← A P Aᵀ + G W Gᵀ, lower triangle;  squares_to_P_kk adds P_kk */
     const float AP_00 = P_00 + 0.01f * P_10;
     const float AP_01 = P_10 + 0.01f * P_11;
     const float prior_P_00 = 2.5e-09f + AP_00 + 0.01f * AP_01;
@@ -368,7 +368,7 @@ static inline lqg_status double_integrator_set_state(double_integrator_t *self, 
     const float x_position = x[0];
     const float x_speed = x[1];
 
-    /* x̂ ← x;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float squares_to_x_position = x_position * x_position;
     const float squares_to_x_speed = squares_to_x_position + x_speed * x_speed;
 

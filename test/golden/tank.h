@@ -233,7 +233,7 @@ static inline lqg_status tank_update(tank_t *self, const float y[TANK_NY])
         ? raw_error_level : 0.0f;
     self->error[0] = error_level;
 
-    /* x̂ ← x̂ + L innovation;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float posterior_level = fmaf(0.38432372f, innovation_level, x_level);
     self->x[0] = posterior_level;
     const float squares_to_x_level = posterior_level * posterior_level;
@@ -326,7 +326,7 @@ static inline lqg_status tank_predict(tank_t *self, const float u[TANK_NU])
     const float u_inflow = u[0];
     const float u_heating = u[1];
 
-    /* x̂ ← A x̂ + B u;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← A x̂ + B u;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float next_level = fmaf(0.19900332f, u_inflow, 0.99004984f * x_level);
     self->x[0] = next_level;
     const float squares_to_x_level = next_level * next_level;
@@ -394,7 +394,7 @@ static inline lqg_status tank_update_level(tank_t *self, const float y_level)
         ? raw_error_level : 0.0f;
     self->error[0] = error_level;
 
-    /* x̂ ← x̂ + L innovation;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float posterior_level = fmaf(0.38432372f, innovation_level, x_level);
     self->x[0] = posterior_level;
     const float squares_to_x_level = posterior_level * posterior_level;
@@ -427,7 +427,7 @@ static inline lqg_status tank_update_temperature(tank_t *self, const float y_tem
         usable_temperature = tank_weigh(self, &status, 1, raw_innovation_temperature, 0.10024631f);
     const float innovation_temperature = usable_temperature ? raw_innovation_temperature : 0.0f;
 
-    /* x̂ ← x̂ + L innovation;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float squares_to_x_level = x_level * x_level;
     const float posterior_temperature = fmaf(0.20196564f, innovation_temperature, x_temperature);
     self->x[1] = posterior_temperature;
@@ -503,7 +503,7 @@ static inline lqg_status tank_set_state(tank_t *self, const float x[TANK_NX])
     const float x_level = x[0];
     const float x_temperature = x[1];
 
-    /* x̂ ← x;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float squares_to_x_level = x_level * x_level;
     const float squares_to_x_temperature = fmaf(x_temperature, x_temperature, squares_to_x_level);
 

@@ -204,7 +204,7 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
         usable_dy2 = two_mass_weigh(self, &status, 1, raw_innovation_dy2, 0.0013654674f);
     const float innovation_dy2 = usable_dy2 ? raw_innovation_dy2 : 0.0f;
 
-    /* x̂ ← x̂ + L innovation;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float posterior_dy1 = x_dy1 + 0.7008788f * innovation_dy1 + 0.03500962f * innovation_dy2;
     self->x[0] = posterior_dy1;
     const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
@@ -260,7 +260,7 @@ static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MA
     const float x_v2 = self->x[3];
     const float u_force = u[0];
 
-    /* x̂ ← A x̂ + B u;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← A x̂ + B u;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float next_dy1 = 0.9877046f * x_dy1 + 0.4974466f * x_v1 + 0.012295422f * x_dy2
         + 0.002553408f * x_v2 + 0.12465904f * u_force;
     self->x[0] = next_dy1;
@@ -317,7 +317,7 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
         usable_dy1 = two_mass_weigh(self, &status, 0, raw_innovation_dy1, 0.0033618314f);
     const float innovation_dy1 = usable_dy1 ? raw_innovation_dy1 : 0.0f;
 
-    /* x̂ ← x̂ + L innovation;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float posterior_dy1 = x_dy1 + 0.7008788f * innovation_dy1;
     self->x[0] = posterior_dy1;
     const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
@@ -359,7 +359,7 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
         usable_dy2 = two_mass_weigh(self, &status, 1, raw_innovation_dy2, 0.0013654674f);
     const float innovation_dy2 = usable_dy2 ? raw_innovation_dy2 : 0.0f;
 
-    /* x̂ ← x̂ + L innovation;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float posterior_dy1 = x_dy1 + 0.03500962f * innovation_dy2;
     self->x[0] = posterior_dy1;
     const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
@@ -444,7 +444,7 @@ static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_
     const float x_dy2 = x[2];
     const float x_v2 = x[3];
 
-    /* x̂ ← x;  squares_to_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    /* x̂ ← x;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
     const float squares_to_x_dy1 = x_dy1 * x_dy1;
     const float squares_to_x_v1 = squares_to_x_dy1 + x_v1 * x_v1;
     const float squares_to_x_dy2 = squares_to_x_v1 + x_dy2 * x_dy2;

@@ -18,6 +18,7 @@ const char* status_name(step::Event event) {
 }
 
 void TraceListener::section(const std::string& equation, int output, const char* supplement) {
+  is_of_output_ = output >= 0;
   if (output < 0) return function_.graph->section(equation + supplement, "");
   const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
   const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";

@@ -20,11 +20,11 @@ class TraceListener {
   void section(const std::string& equation, int output = -1, const char* supplement = "");
   template <class Value>  // Expr or Condition
   void name(const Value& value, const char* base, const step::Place& place = {}) {
-    function_.graph->name(value.node, base + suffix_of(controller_, place));
+    function_.graph->name(value.node, base + suffix(place));
   }
   template <class Value>
   void hint(const Value& value, const char* base, const step::Place& place = {}) {
-    function_.graph->hint(value.node, base + suffix_of(controller_, place));
+    function_.graph->hint(value.node, base + suffix(place));
   }
   void raise(step::Event event, const trace::Condition& condition);
   // The fault is decided where it is found and asked for afterwards: one comparison on the way of an honest output.
@@ -41,6 +41,10 @@ class TraceListener {
   }
 
  private:
+  // In the block of an output its name stands behind each value already.
+  std::string suffix(const step::Place& place) const {
+    return place.kind == step::Place::Kind::output && is_of_output_ ? "" : suffix_of(controller_, place);
+  }
   trace::Condition ask_weigh(const trace::Condition& expected, int output, const trace::Expr& innovation,
                              const trace::Expr& variance);
   int flag_ok() { return function_.graph->flag("LQG_OK"); }
@@ -49,6 +53,7 @@ class TraceListener {
 
   const Controller& controller_;
   TracedFunction& function_;
+  bool is_of_output_ = false;  // the block
 };
 
 // "LQG_STATE_RESET"

@@ -160,12 +160,14 @@ void expect_wrapped(const char* expected, const std::string& line) {
   TEST_ASSERT_EQUAL_STRING(expected, wrap(line, 4, 24).c_str());
 }
 
-// Before a choice, else a sum, else between arguments or conditions, else at a comparison or a product, else behind the =.
+// Before a choice, else between conditions, else in a sum, else between arguments, else at a comparison or a product, else
+// behind the =.
 void test_wrap_breaks_where_a_reader_would() {
   expect_wrapped("first = aaaaaaa + b\n    ? ccccc : ddd", "first = aaaaaaa + b ? ccccc : ddd");
   expect_wrapped("first = aa ? bb\n    : cc ? dd : eeeeeeee", "first = aa ? bb : cc ? dd : eeeeeeee");
   expect_wrapped("first = aaaaaa * bbb\n    + ccccccc * ddd", "first = aaaaaa * bbb + ccccccc * ddd");
   expect_wrapped("first = aa < bb\n    && cc < dddddd", "first = aa < bb && cc < dddddd");
+  expect_wrapped("first = aa - b < c\n    && dddd < ee - fff", "first = aa - b < c && dddd < ee - fff");
   expect_wrapped("first = aaaaaaaaa\n    * bbbbbbbbbb", "first = aaaaaaaaa * bbbbbbbbbb");
   expect_wrapped("first =\n    aaaaaaaaaaaaaaaaaaaa", "first = aaaaaaaaaaaaaaaaaaaa");
 }
