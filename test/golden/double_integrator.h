@@ -267,8 +267,8 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
         : above_acceleration ? 10.0f : demand_acceleration;
     u[0] = limited_acceleration;
 
-    return (!finite_acceleration ? LQG_INPUT_LIMITED
-        : LQG_OK) | (below_acceleration || above_acceleration ? LQG_INPUT_LIMITED : LQG_OK);
+    return (!finite_acceleration ? LQG_INPUT_LIMITED : LQG_OK)
+        | (below_acceleration || above_acceleration ? LQG_INPUT_LIMITED : LQG_OK);
 }
 
 /* x̂ ← A x̂ + B u,  P ← A P Aᵀ + G W Gᵀ: from this sample to the next.

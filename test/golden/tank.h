@@ -299,14 +299,14 @@ static inline lqg_status tank_control(tank_t *self, float u[TANK_NU])
     const float limited_heating = below_heating ? -2.0f : above_heating ? 6.0f : reached_heating;
     u[1] = limited_heating;
 
-    return (!(r_level - r_level == 0.0f) ? LQG_REFERENCE_NOT_FINITE
-        : LQG_OK) | (!finite_r_temperature ? LQG_REFERENCE_NOT_FINITE
-        : LQG_OK) | (!finite_inflow ? LQG_INPUT_LIMITED
-        : LQG_OK) | (below_lowest_inflow || above_highest_inflow ? LQG_INPUT_LIMITED
-        : LQG_OK) | (below_inflow || above_inflow ? LQG_INPUT_LIMITED
-        : LQG_OK) | (!finite_heating ? LQG_INPUT_LIMITED
-        : LQG_OK) | (below_lowest_heating || above_highest_heating ? LQG_INPUT_LIMITED
-        : LQG_OK) | (below_heating || above_heating ? LQG_INPUT_LIMITED : LQG_OK);
+    return (!(r_level - r_level == 0.0f) ? LQG_REFERENCE_NOT_FINITE : LQG_OK)
+        | (!finite_r_temperature ? LQG_REFERENCE_NOT_FINITE : LQG_OK)
+        | (!finite_inflow ? LQG_INPUT_LIMITED : LQG_OK)
+        | (below_lowest_inflow || above_highest_inflow ? LQG_INPUT_LIMITED : LQG_OK)
+        | (below_inflow || above_inflow ? LQG_INPUT_LIMITED : LQG_OK)
+        | (!finite_heating ? LQG_INPUT_LIMITED : LQG_OK)
+        | (below_lowest_heating || above_highest_heating ? LQG_INPUT_LIMITED : LQG_OK)
+        | (below_heating || above_heating ? LQG_INPUT_LIMITED : LQG_OK);
 }
 
 /* x̂ ← A x̂ + B u,  ξ ← ξ + H (u − what control asked for) + T (r − y): from this sample to the next.

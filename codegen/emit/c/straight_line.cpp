@@ -49,6 +49,16 @@ std::string status_of_weighed(const Controller& controller, const Printed& print
          (printed.function.checks_covariance ? "_recover" : "_reset") + "(self, status);\n    return status;\n";
 }
 
+// A line for each bit where one is not enough.
+std::string return_of(std::string bits) {
+  constexpr std::size_t longest = 100;
+  const std::string line_end = "\n        ";
+  const bool is_long = bits.size() > longest;
+  for (std::size_t at = 0; is_long && (at = bits.find(" | ", at)) != bits.npos; at += line_end.size() + 1)
+    bits.replace(at, 1, line_end);
+  return "    return " + bits + ";";
+}
+
 std::string status(const Controller& controller, const Printed& printed) {
   const TracedFunction& function = printed.function;
   const trace::Printer& printer = printed.printer;
@@ -60,7 +70,7 @@ std::string status(const Controller& controller, const Printed& printed) {
   if (!function.asked.empty()) return status_of_weighed(controller, printed);
   if (raised.empty()) raised = "LQG_OK";
   if (function.finite < 0 && function.is_void) return "";
-  if (function.finite < 0) return trace::wrap("    return " + raised + ";", 8) + "\n";
+  if (function.finite < 0) return return_of(raised) + "\n";
   if (!function.recovery.empty())
     return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery +
            ";\n    return " + raised + ";\n";
