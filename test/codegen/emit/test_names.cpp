@@ -245,17 +245,15 @@ void test_two_states_of_one_identifier_are_told_apart() {
 
 void test_signals_may_be_called_as_keywords_macros_types_and_values() {
   const std::filesystem::path folder = empty_folder("words");
-  for (const char* name : {"int", "class", "NAN", "errno", "I", "char", "part", "x", "r", "1"})
-    if (!is_refused({{"state", name}, {"input", name}, {"output", name}}))
-      expect_to_compile({{"state", name}, {"input", name}, {"output", name}}, folder);
+  expect_to_compile({{"state", "int"}, {"input", "class"}, {"output", "NAN"}}, folder);
+  expect_to_compile({{"state", "I"}, {"input", "errno"}, {"output", "char"}}, folder);
+  expect_to_compile({{"state", "part"}, {"input", "int"}, {"output", "r"}}, folder);  // u_int is a type
 }
 
 void test_a_value_never_gets_the_name_of_a_function_of_the_design() {
   const std::filesystem::path folder = empty_folder("functions");
-  for (const char* name : {"reset", "update_rate", "t", "hear"}) {
-    expect_to_compile({{"name", "x"}, {"state", name}}, folder);
-    expect_to_compile({{"name", "law"}, {"input", name}}, folder);
-  }
+  for (const char* name : {"reset", "update_rate", "hear"}) expect_to_compile({{"name", "x"}, {"state", name}}, folder);
+  expect_to_compile({{"name", "law"}, {"input", "t"}}, folder);
 }
 
 // Of the longest names that a design may have.
