@@ -143,6 +143,25 @@ enum class Event {
   covariance_reset
 };
 
+// What a number is that is no gain.
+enum class Quantity {
+  u_min,
+  u_max,
+  u_step,
+  y_min,
+  y_max,
+  innovation_limit,
+  innovation_limit_squared,
+  innovation_variance,
+  gate,
+  gate_squared,
+  gate_widen,
+  gate_narrow,
+  threshold,
+  error_limit,
+  sample_time
+};
+
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {
   unsigned events = 0;
@@ -152,6 +171,11 @@ struct Listener {
   // `value` is called `base`, with indices where they are not −1.
   template <class Value>
   void name(const Value&, const char*, int = -1, int = -1) {}
+  // `value`, which is such a number of signal i (−1: of all) unless it depends on the state.
+  template <class S>
+  S constant(const S& value, Quantity, int = -1) const {
+    return value;
+  }
   void raise(Event event, bool happened) {
     if (happened) events |= 1u << static_cast<unsigned>(event);
   }

@@ -81,8 +81,9 @@ auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, 
                                                            Event::innovation_not_positive, Event::output_not_finite)
                                          : listener.accept(believable, Event::output_not_finite);
   }
-  const S most = S(model.gate * model.gate) * least, limit = model.nu_limit(i) * model.nu_limit(i);
-  const S threshold = select(is_less(most, limit), most, limit);
+  const S square = listener.constant(S(model.gate * model.gate), Quantity::gate_squared), most = square * least;
+  const S limit = listener.constant(S(model.nu_limit(i) * model.nu_limit(i)), Quantity::innovation_limit_squared, i);
+  const S threshold = listener.constant(select(is_less(most, limit), most, limit), Quantity::threshold, i);
   listener.name(threshold, "threshold");
   auto expected = both(is_less(S(nu * nu), threshold), negation(is_less(S(1), S(state.widening(i)))));
   auto used = listener.weigh(expected, i, nu, variance, [&] {

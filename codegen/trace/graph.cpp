@@ -65,6 +65,17 @@ int Graph::constant(double value) {
   return at->second;
 }
 
+int Graph::constant(double value, const std::string& name) {
+  const auto [at, is_new] = named_constants_.try_emplace(target_.prefix + name, -1);
+  if (is_new) {
+    Node node;
+    node.value = value + 0.0;  // −0 is 0
+    node.text = at->first;
+    at->second = insert(std::move(node));
+  }
+  return at->second;
+}
+
 int Graph::input(const std::string& text, const std::string& name) {
   Node node;
   node.op = Op::input;

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace lqg::trace {
@@ -40,7 +41,7 @@ struct Node {
   Op op = Op::constant;
   int a = -1, b = -1, c = -1;
   double value = 0;  // of a constant, representable in the target's real
-  std::string text;  // of an input or a flag: its C expression
+  std::string text;  // its C expression: of an input, of a flag, of a constant that has a name in C
   std::string name;  // empty: printed inside the expression that uses it
   int section = 0;
 };
@@ -50,6 +51,7 @@ struct Target {
   bool is_double = false;
   bool is_fused = false;
   bool is_prover = false;  // reads beside each test what follows from it
+  std::string prefix;      // of the names of constants in C: "SERVO_"
 };
 
 // Nodes are numbered in the order in which the run made them, so a node stands after all that it uses.
@@ -58,9 +60,11 @@ struct Target {
 // constants alone. Nothing is reassociated.
 class Graph {
  public:
-  explicit Graph(Target target) : target_(target) { sections_.push_back({}); }
+  explicit Graph(Target target) : target_(std::move(target)) { sections_.push_back({}); }
 
   int constant(double value);
+  // The constant that C knows by the target's prefix and `name`. It folds like any other; what it folds to has no name.
+  int constant(double value, const std::string& name);
   int input(const std::string& text, const std::string& name);
   int flag(const std::string& text);
   // `condition`, or else what the call `function`, b, c) answers: "weigh(self, 0". Printed as two statements. In either case
@@ -78,7 +82,9 @@ class Graph {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::string& equation(int section) const { return sections_[section].equation; }
-  Target target() const { return target_; }
+  const Target& target() const { return target_; }
+  // The constants with a name in C, and their nodes.
+  const std::map<std::string, int>& named_constants() const { return named_constants_; }
 
  private:
   struct Section {
@@ -99,6 +105,7 @@ class Graph {
   std::vector<Section> sections_;
   std::map<Key, int> known_;
   std::map<double, int> constants_;
+  std::map<std::string, int> named_constants_;
   std::map<std::string, int> flags_;
   std::set<std::string> taken_;
 };

@@ -37,19 +37,27 @@ bool breaks_before(const std::string& line, std::size_t i, const char* signs) {
          std::strchr(signs, line[i + 1]);
 }
 
-// The last place before `width` where the line may break: before ? and : if it has any, else before + and −, else after
-// a comma; the first place behind `width` if there is none before it.
+bool breaks_before_logical(const std::string& line, std::size_t i) {
+  return line.compare(i, 4, " && ") == 0 || line.compare(i, 4, " || ") == 0;
+}
+
+// The last place before `width` where the line may break: before ? and : if it has any, else before && and ||, else before
+// <, else before + and −, else after a comma; the first place behind `width` if there is none before it.
 std::size_t break_before(const std::string& line, std::size_t start, int width) {
   constexpr std::size_t none = std::string::npos;
-  std::size_t choice = none, sum = none, comma = none;
+  std::size_t choice = none, logical = none, less = none, sum = none, comma = none;
   for (std::size_t i = start + 1; i < line.size(); ++i) {
-    const bool has_one = choice != none || sum != none || comma != none;
+    const bool has_one = choice != none || logical != none || less != none || sum != none || comma != none;
     if (has_one && columns(line, start, i) >= width) break;
     if (breaks_before(line, i, "?:")) choice = i;
+    if (breaks_before_logical(line, i)) logical = i;
+    if (breaks_before(line, i, "<")) less = i;
     if (breaks_before(line, i, "+-")) sum = i;
     if (line[i] == ' ' && line[i - 1] == ',') comma = i;
   }
-  return choice != none ? choice : sum != none ? sum : comma;
+  for (const std::size_t place : {choice, logical, less, sum, comma})
+    if (place != none) return place;
+  return none;
 }
 
 }  // namespace
@@ -108,6 +116,7 @@ std::string Printer::name_of(int node) const {
 
 std::string Printer::print(int node, int level) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::constant && !at.text.empty()) return at.text;
   if (at.op == Op::constant) {
     const std::string text = literal(at.value, graph_.target().is_double);
     return at.value < 0 ? bracketed(text, unary, level + 1) : text;
@@ -115,12 +124,40 @@ std::string Printer::print(int node, int level) const {
   return is_declared(node) ? name_of(node) : print_operation(node, level);
 }
 
+// How tightly the operator binds that a node is printed with; a name and a call are no operators.
+int Printer::binds(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::constant || is_declared(node)) return unary;
+  switch (at.op) {
+    case Op::select: return any;
+    case Op::either:
+    case Op::both: return logical;
+    case Op::finite:
+    case Op::less:
+    case Op::usable:
+    case Op::same: return comparison;
+    case Op::add:
+    case Op::subtract: return sum;
+    case Op::multiply:
+    case Op::divide: return product;
+    case Op::multiply_add:
+    case Op::multiply_subtract: return graph_.target().is_fused ? unary : sum;
+    default: return unary;
+  }
+}
+
+// An operand, in brackets if it is an operation of another kind: nobody has to know what binds tighter.
+std::string Printer::first_operand(int node, int level) const {
+  return print(node, binds(node) == level ? level : unary);
+}
+
 std::string Printer::print_multiply_add(const Node& node, int level) const {
   const bool subtracts = node.op == Op::multiply_subtract;
   if (!graph_.target().is_fused)
     return bracketed(
-        print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " + print(node.b, unary), sum,
-        level);
+        first_operand(node.c, sum) + (subtracts ? " - (" : " + (") + first_operand(node.a, product) + " * " +
+            print(node.b, unary) + ")",
+        sum, level);
   // The sign goes to a factor that is no number: for -0.5f compilers load another constant beside 0.5f.
   const bool second = subtracts && graph_.is_constant(node.a), first = subtracts && !second;
   const auto factor = [&](int operand, bool has_sign) {
@@ -131,20 +168,20 @@ std::string Printer::print_multiply_add(const Node& node, int level) const {
 }
 
 std::string Printer::print_comparison(const Node& node) const {
-  if (node.op == Op::less) return print(node.a, comparison) + " < " + print(node.b, comparison + 1);
-  const std::string difference = print(node.a, sum) + " - " + print(node.a, product);
-  if (node.op == Op::usable) return difference + " < " + print(node.b, sum);
+  if (node.op == Op::less) return print(node.a, unary) + " < " + print(node.b, unary);
+  const std::string difference = "(" + print(node.a, unary) + " - " + print(node.a, unary) + ")";
+  if (node.op == Op::usable) return difference + " < " + print(node.b, unary);
   return difference + " == " + literal(0, graph_.target().is_double);
 }
 
 std::string Printer::print_operation(int node, int level) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   const auto binary = [&](const char* sign, int binds) {
-    return bracketed(print(at.a, binds) + sign + print(at.b, binds + 1), binds, level);
+    return bracketed(first_operand(at.a, binds) + sign + print(at.b, unary), binds, level);
   };
   const auto chained = [&](const char* sign) {  // a && b && c; brackets where && and || meet
     const bool continues = graph_.nodes()[static_cast<std::size_t>(at.a)].op == at.op;
-    return bracketed(print(at.a, continues ? logical : comparison) + sign + print(at.b, comparison), logical, level);
+    return bracketed(print(at.a, continues ? logical : unary) + sign + print(at.b, unary), logical, level);
   };
   switch (at.op) {
     case Op::add: return binary(" + ", sum);
@@ -156,7 +193,7 @@ std::string Printer::print_operation(int node, int level) const {
     case Op::multiply_add:
     case Op::multiply_subtract: return print_multiply_add(at, level);
     case Op::select:
-      return bracketed(print(at.a, logical) + " ? " + print(at.b, logical) + " : " + print(at.c, any), any, level);
+      return bracketed(print(at.a, unary) + " ? " + print(at.b, unary) + " : " + first_operand(at.c, any), any, level);
     case Op::finite:
     case Op::less:
     case Op::usable: {
@@ -226,14 +263,32 @@ std::string Printer::question(int node) const {
                                                               literal(at.value, true) + "))";
   // A prover follows both answers from here on, but not those to the questions before: they would multiply.
   const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
-  return merge + wrap("    int " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ")\n" +
-         wrap("        " + name + " = " + answer + ";", 12) + "\n";
+  return merge + wrap("    bool " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ") {\n" +
+         wrap("        " + name + " = " + answer + ";", 12) + "\n    }\n";
+}
+
+// A status is chosen by statements: in C an expression that chooses among numbers has the type of the smallest one.
+std::string Printer::status_choice(int node, const std::string& name, int indent) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  const std::string blanks(static_cast<std::size_t>(indent), ' ');
+  if (at.op != Op::select) return blanks + name + " = " + print(node, any) + ";\n";
+  return wrap(blanks + "if (" + print(at.a, any) + ") {", indent + 4) + "\n" + status_choice(at.b, name, indent + 4) +
+         blanks + "} else {\n" + status_choice(at.c, name, indent + 4) + blanks + "}\n";
+}
+
+std::string Printer::raise(int status) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(status)];
+  const auto is_ok = [&](int node) { return graph_.nodes()[static_cast<std::size_t>(node)].text == "LQG_OK"; };
+  if (is_declared(status) || at.op != Op::select || is_declared(at.b) || !is_ok(at.c))
+    return "    status |= " + operand(status) + ";\n";
+  return wrap("    if (" + print(at.a, any) + ") {", 8) + "\n        status |= " + print(at.b, any) + ";\n    }\n";
 }
 
 std::string Printer::declaration(int node) const {
+  if (is_status(node))
+    return "    lqg_status " + name_of(node) + ";\n" + status_choice(node, name_of(node), 4);
   if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked) return question(node);
-  const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "int"
-                           : is_status(node)                                               ? "lqg_status"
+  const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "bool"
                            : graph_.target().is_double                                     ? "double"
                                                                                            : "float";
   return wrap("    const " + type + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";
@@ -270,6 +325,7 @@ std::string Printer::statements(const std::vector<Store>& stores) const {
 
 Operations Printer::operations() const {
   Operations count;
+  std::set<double> constants;
   for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
     if (!needs(node)) continue;
     switch (graph_.nodes()[static_cast<std::size_t>(node)].op) {
@@ -281,13 +337,14 @@ Operations Printer::operations() const {
       case Op::multiply_add:
       case Op::multiply_subtract: ++count.multiply_adds; break;
       case Op::divide: ++count.divisions; break;
-      case Op::constant: ++count.constants; break;
+      case Op::constant: constants.insert(graph_.nodes()[static_cast<std::size_t>(node)].value); break;
       case Op::input:
       case Op::flag: break;
       case Op::negate: break;  // part of the operation before or after it
       default: ++count.selections;
     }
   }
+  count.constants = static_cast<int>(constants.size());
   return count;
 }
 

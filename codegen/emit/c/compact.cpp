@@ -40,7 +40,7 @@ std::string watch(const Controller& controller, bool tells_heard) {
   const char* const gate =
       "{NULL, {gate}, self->gated, NULL, NULL, self->widening, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW, ";
   Words words = common_words(controller);
-  words["gate"] = trace::literal(controller.gate.sigma, controller.target.is_double);
+  words["gate"] = words["NAME"] + "_GATE";
   return controller.has.gate ? fill(gate, words) + heard + "}"
                              : "{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, " + heard + "}";
 }
@@ -174,9 +174,9 @@ std::string act_body(const Controller& controller, std::string& constants) {
 
 std::string options_check(const Controller& controller) {
   const auto check = [&](const char* option, bool wanted, const char* what) {
-    return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"" + controller.problem.name + ".h " +
-           what + ": " + (wanted ? "define " : "do not define ") + option +
-           " for the library and for this file, or run lqgen with other options.\"\n#endif\n";
+    return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"This file " + what + ": " +
+           (wanted ? "define " : "do not define ") + option +
+           " for it and the library, or regenerate it.\"\n#endif\n";
   };
   return check("LQG_REAL_DOUBLE", controller.target.is_double,
                controller.target.is_double ? "computes in double" : "computes in float") +
@@ -192,7 +192,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
       std::string(controller.target.is_fused || controller.size.ny > 1 || controller.size.nxi || controller.has.range
                       ? "#include <math.h>\n"
                       : "") +
-      "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
+      "#include <stdbool.h>\n#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   bodies.resets = needs_reset(controller);
   if (controller.keeps.any) bodies.init = init_body(controller);
   if (carries_covariance(controller))
@@ -202,7 +202,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
     bodies.update = update_body(controller);
     bodies.predict = predict_body(controller);
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
-      if (can_update_alone(controller, i)) bodies.updates_alone.push_back(update_alone_body(controller, i));
+      if (has_update_alone(controller, i)) bodies.updates_alone.push_back(update_alone_body(controller, i));
     if (controller.size.ny == 1) bodies.updates_alone = {only_update_body(controller)};
   }
   if (controller.has.regulator) {

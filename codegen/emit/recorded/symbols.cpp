@@ -55,6 +55,29 @@ void read_row(const Controller& controller, const std::vector<Gains>& rows, cons
   }
 }
 
+// Names for the numbers that are no gains. A factor of the gate that all outputs share has one name.
+void name_constants(const Controller& controller, SymbolicModel& model) {
+  const auto name = [&](step::Vector<Expr>& values, step::Quantity quantity) {
+    for (int i = 0; i < values.size(); ++i) values(i) = named(controller, values(i), quantity, i);
+  };
+  const auto name_factors = [&](step::Vector<Expr>& values, const Eigen::VectorXd& given, step::Quantity quantity) {
+    for (int i = 0; i < values.size(); ++i)
+      values(i) = named(controller, values(i), quantity, is_same_for_all(given) ? -1 : i);
+  };
+  name(model.u_min, step::Quantity::u_min);
+  name(model.u_max, step::Quantity::u_max);
+  name(model.u_step, step::Quantity::u_step);
+  name(model.y_min, step::Quantity::y_min);
+  name(model.y_max, step::Quantity::y_max);
+  name(model.nu_limit, step::Quantity::innovation_limit);
+  name(model.error_limit, step::Quantity::error_limit);
+  name(model.variance, step::Quantity::innovation_variance);
+  name_factors(model.gate_widen, controller.gate.widen, step::Quantity::gate_widen);
+  name_factors(model.gate_narrow, controller.gate.narrow, step::Quantity::gate_narrow);
+  if (controller.has.gate) model.gate = named(controller, model.gate, step::Quantity::gate);
+  model.T = named(controller, model.T, step::Quantity::sample_time);
+}
+
 }  // namespace
 
 SymbolicModel symbolic_model(const Controller& controller) {
@@ -66,6 +89,7 @@ SymbolicModel symbolic_model(const Controller& controller) {
   step::Matrix<Expr> variance = model.variance;
   read_row(controller, controller.filters, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance});
   if (controller.has.gate) model.variance = variance;
+  name_constants(controller, model);
   return model;
 }
 

@@ -2,6 +2,7 @@
 // From a step that runs over symbols to a TracedFunction: who listens to it, what it loads and stores.
 #pragma once
 
+#include "emit/recorded/constants.hpp"
 #include "emit/recorded/traced.hpp"
 #include "step/model.hpp"
 #include "trace/expr.hpp"
@@ -20,6 +21,9 @@ class TraceListener {
   template <class Value>  // Expr or Condition
   void name(const Value& value, const char* base, int i = -1, int j = -1) {
     function_.graph->name(value.node, base + index_suffix(i, j, controller_.size.nx));
+  }
+  trace::Expr constant(const trace::Expr& value, step::Quantity quantity, int i = -1) const {
+    return named(controller_, value, quantity, i);
   }
   void raise(step::Event event, const trace::Condition& condition);
   // The fault is decided where it is found and asked for afterwards: one comparison on the way of an honest output.

@@ -94,6 +94,8 @@ TracedFunction trace_weigh(const Controller& controller) {
   TraceListener listener(controller, function);
   const auto input = [&](const char* text, const char* name) { return Expr::of(function.graph->input(text, name)); };
   step::Weighing<Expr> weighing = step::weighing_of(model, 0);
+  weighing.square = named(controller, weighing.square, step::Quantity::gate_squared);
+  weighing.limit = named(controller, weighing.limit, step::Quantity::innovation_limit);
   const auto of_output = [&](Expr& constant, const Eigen::VectorXd& values, const char* text, const char* name) {
     if (!is_same_for_all(values)) constant = input(text, name);
   };
@@ -192,7 +194,7 @@ TracedController trace_controller(const Controller& controller) {
     traced.update = trace_update(controller, pattern);
     traced.predict = trace_predict(controller, pattern);
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
-      if (can_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
+      if (has_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
   }
   if (controller.has.regulator) traced.control = trace_control(controller);
   return traced;

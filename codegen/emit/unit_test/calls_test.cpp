@@ -86,7 +86,7 @@ std::string predict_case(const Controller& controller) {
 std::string update_alone_case(const Controller& controller) {
   std::string out;
   for (int i = 0; i < controller.size.ny; ++i)
-    if (can_update_alone(controller, i))
+    if (has_update_alone(controller, i))
       out += "            if (turns[k].entry == " + std::to_string(i) + ")\n    " +
              answered("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name +
                       "(&self, turns[k].number)");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "emit/text/columns.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/unit_test/calls_test.hpp"
 #include "emit/unit_test/linear_unit_test.hpp"
@@ -43,17 +44,17 @@ std::string data(const Controller& controller, const Vectors& vectors) {
   };
   std::string out;
   if (controller.has.filter) {
-    out += "/* What the sensors say. */\n" +
+    out += "/* Outputs of the plant. */\n" +
            table("y_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
     out += std::string("\n/* What the reference says: the estimate ") +
-           (controller.linear ? "that u is made of" : "after update") + " … */\n" +
+           (controller.linear ? "of which u is made" : "after update") + " … */\n" +
            table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
   } else {
     out +=
         "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
   }
   if (controller.size.nr)
-    out += "\n/* What the outputs should be. */\n" +
+    out += "\n/* References. */\n" +
            table("r_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.r; });
   if (controller.size.nu)
     out +=
@@ -65,8 +66,8 @@ std::string data(const Controller& controller, const Vectors& vectors) {
            std::to_string(samples_per_covariance) + "th sample. */\n" +
            table("P_out", vectors.samples, samples_per_covariance, is_double,
                  [](const Sample& sample) { return sample.P; });
-  out += "\n/* How far from that the controller may be: " + decimal(Tolerances::margin) +
-         " times the error that the host makes when it runs the same samples in " + (is_double ? "double" : "float") +
+  out += "\n/* Tolerance: " + decimal(Tolerances::margin) +
+         " times the error of the host's run in " + (is_double ? "double" : "float") +
          ",\n * which is the precision times the conditioning of this filter. */\n";
   if (controller.has.filter) out += tolerances("x_tolerance", vectors.tolerance.x);
   if (controller.has.regulator) out += tolerances("u_tolerance", vectors.tolerance.u);
@@ -330,9 +331,9 @@ std::string unit_test(const Controller& controller) {
       "#define TURNS {turns}\n#define HASH_OF_TURNS {hash_of_turns}u\n\n" +
       data(controller, vectors) + turns_as_data(controller, vectors.calls) + helpers() + reference_test(controller) +
       bits_test(controller) + calls_test(controller) + fault_test(controller) + main_function(controller);
-  return "/* Test of " + controller.problem.name +
-         ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" + provenance(controller) +
-         " */\n" + fill(text, test_words(controller, vectors));
+  return fit_columns("/* Test of " + controller.problem.name +
+                     ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" +
+                     provenance(controller) + " */\n" + fill(text, test_words(controller, vectors)));
 }
 
 }  // namespace lqg::emit

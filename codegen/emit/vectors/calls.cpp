@@ -99,7 +99,7 @@ class Script {
 
   bool can(const Turn& turn) const {
     return has_call(controller_, turn.call) &&
-           (turn.call != Call::update_alone || controller::can_update_alone(controller_, turn.entry));
+           (turn.call != Call::update_alone || controller::has_update_alone(controller_, turn.entry));
   }
   // None of the numbers of the row overflows.
   bool is_finite(const Turn& turn) const {
@@ -389,7 +389,8 @@ bool has_call(const Controller& controller, Call call) {
     case Call::update:
     case Call::predict:
     case Call::write_x: return filter && !linear;
-    case Call::update_alone: return filter && !linear;
+    case Call::update_alone:
+      return filter && !linear && controller.problem.code.updates == design::Updates::each;
     case Call::partial_without:
     case Call::partial_alone:
       return filter && !linear && controller.size.ny > 1 && controller.size.ny < bits_of_long && !controller.has.stages;
