@@ -16,8 +16,6 @@ namespace {
 
 using step::Quantity;
 
-const std::string two_to = "TWO_TO_", minus = "MINUS_";
-
 const char* word_of(Quantity quantity) {
   switch (quantity) {
     case Quantity::u_min: return "U_MIN";
@@ -26,7 +24,7 @@ const char* word_of(Quantity quantity) {
     case Quantity::y_min: return "Y_MIN";
     case Quantity::y_max: return "Y_MAX";
     case Quantity::innovation_limit: return "INNOVATION_LIMIT";
-    case Quantity::innovation_limit_squared: return "INNOVATION_LIMIT_SQUARED";
+    case Quantity::innovation_limit_squared: return "LIMIT_SQUARED";
     case Quantity::innovation_variance: return "INNOVATION_VARIANCE";
     case Quantity::gate: return "GATE";
     case Quantity::gate_squared: return "GATE_SQUARED";
@@ -47,11 +45,6 @@ const design::Signal& signal_of(const Controller& controller, Quantity quantity,
   const auto at = static_cast<std::size_t>(i);
   if (is_of_input(quantity)) return plant.inputs[at];
   return plant.outputs[quantity == Quantity::error_limit ? static_cast<std::size_t>(controller.integrated[at]) : at];
-}
-
-// The sum of the squares of all that is checked at once is below a power of two, and units are changed by one.
-std::string name_of_power(int exponent) {
-  return two_to + (exponent < 0 ? minus : "") + std::to_string(std::abs(exponent));
 }
 
 // The names and values of all that is no power of two, as the code has them.
@@ -147,6 +140,10 @@ void add_powers(const std::string& text, const Controller& controller, std::vect
 }
 
 }  // namespace
+
+std::string name_of_power(int exponent) {
+  return std::string("TWO_TO_") + (exponent < 0 ? "MINUS_" : "") + std::to_string(std::abs(exponent));
+}
 
 std::string constant_name(const Controller& controller, Quantity quantity, int i) {
   const std::string word = word_of(quantity);

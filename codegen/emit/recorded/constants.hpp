@@ -15,6 +15,9 @@ namespace lqg::emit {
 // "SERVO_U_MAX_VOLTAGE" of input 0; "SERVO_GATE_SQUARED" where i is −1.
 std::string constant_name(const Controller& controller, step::Quantity quantity, int i);
 
+// "TWO_TO_82", without the design's name.
+std::string name_of_power(int exponent);
+
 // The value with that name, where it is a finite number.
 trace::Expr named(const Controller& controller, const trace::Expr& value, step::Quantity quantity, int i = -1);
 

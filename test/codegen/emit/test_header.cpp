@@ -262,8 +262,8 @@ void test_header_of_another_format_is_refused_with_what_to_do() {
     const Controller controller = controller_in(style);
     TEST_ASSERT_TRUE(compile(controller, "").succeeded);
     expect_refusal(compile(controller, "", include),
-                   "loop.h was made by lqgen " + lqg::emit::version() +
-                       ", which this TinyLQG does not know: run the lqgen of this TinyLQG on loop.toml again.");
+                   "This file needs header format " + lqg::emit::header_format() +
+                       ", the library has another one: regenerate it with the library's lqgen.");
   }
 }
 
@@ -276,14 +276,14 @@ void test_fast_math_is_refused() {
 void test_compact_refuses_the_options_of_another_library() {
   DesignText design = double_integrator();
   expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_REAL_DOUBLE"),
-                 "loop.h computes in float: do not define LQG_REAL_DOUBLE");
+                 "This file computes in float: do not define LQG_REAL_DOUBLE");
   expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_FUSED"),
-                 "loop.h uses plain arithmetic: do not define LQG_FUSED");
+                 "This file uses plain arithmetic: do not define LQG_FUSED");
   design.real = "double", design.arithmetic = "fused";
   const Controller controller = controller_in(Style::compact, design);
   TEST_ASSERT_TRUE(compile(controller, "").succeeded);
-  expect_refusal(compile(controller, "-ULQG_REAL_DOUBLE"), "loop.h computes in double: define LQG_REAL_DOUBLE");
-  expect_refusal(compile(controller, "-ULQG_FUSED"), "loop.h uses fused multiply-adds: define LQG_FUSED");
+  expect_refusal(compile(controller, "-ULQG_REAL_DOUBLE"), "This file computes in double: define LQG_REAL_DOUBLE");
+  expect_refusal(compile(controller, "-ULQG_FUSED"), "This file uses fused multiply-adds: define LQG_FUSED");
 }
 
 void test_unrolled_does_not_care_about_the_options_of_the_library() {

@@ -144,6 +144,12 @@ void test_a_state_is_not_called_bounds_whatever_its_capitals() {
   TEST_ASSERT_FALSE(is_refused({{"input", "bounds"}, {"output", "bounds"}}));
 }
 
+void test_an_input_or_output_is_not_called_like_a_limit_of_another_one() {
+  for (const char* name : {"min_rate", "MAX_RATE", "Step_rate"}) TEST_ASSERT_TRUE(is_refused({{"output", name}}));
+  for (const char* name : {"min_y", "max_force", "minimum_rate"}) TEST_ASSERT_FALSE(is_refused({{"output", name}}));
+  TEST_ASSERT_FALSE(is_refused({{"state", "min_speed"}}));
+}
+
 void test_a_state_of_the_name_of_a_delayed_input_stays_apart_from_it() {
   for (const char* name : {"force_delayed_1", "FORCE_DELAYED_1", "Force_delayed_2", "force_delayed_1_samples"})
     expect_no_doubles(header_of({{"state", name}, {"delay", "delay = 0.2"}}), name);
@@ -218,6 +224,7 @@ int main() {
   RUN_TEST(test_no_two_things_of_a_header_have_one_name);
   RUN_TEST(test_a_signal_never_gets_the_name_of_something_else);
   RUN_TEST(test_a_state_is_not_called_bounds_whatever_its_capitals);
+  RUN_TEST(test_an_input_or_output_is_not_called_like_a_limit_of_another_one);
   RUN_TEST(test_a_state_of_the_name_of_a_delayed_input_stays_apart_from_it);
   RUN_TEST(test_no_design_is_called_as_a_header_of_c_posix_or_unity);
   RUN_TEST(test_no_design_has_the_type_of_a_standard_header);

@@ -190,6 +190,15 @@ void test_an_output_that_needs_another_has_no_update_of_its_own() {
   TEST_ASSERT_TRUE(header.find("loop_update_y1(") == std::string::npos);
 }
 
+void test_updates_by_one_output_are_there_only_where_the_design_asks_for_them() {
+  for (const lqg::design::Updates updates : {lqg::design::Updates::all, lqg::design::Updates::each}) {
+    const std::string header =
+        lqg::emit::header(changed(design_of(kinds[0]), [&](Problem& problem, Solution&) { problem.code.updates = updates; }));
+    TEST_ASSERT_EQUAL(updates == lqg::design::Updates::each, header.find("loop_update_y0(") != std::string::npos);
+    TEST_ASSERT_TRUE(header.find("loop_partial_update(") != std::string::npos);
+  }
+}
+
 // y1 is made independent by y0: without it nothing is heard of y1, which is said.
 void test_a_partial_update_says_when_an_output_lacks_its_company() {
   DesignText design = design_of(kinds[1]);
@@ -235,6 +244,7 @@ int main() {
   RUN_TEST(test_the_gate_is_where_the_variance_says);
   RUN_TEST(test_updates_by_one_output_each_are_the_update_by_all);
   RUN_TEST(test_an_output_that_needs_another_has_no_update_of_its_own);
+  RUN_TEST(test_updates_by_one_output_are_there_only_where_the_design_asks_for_them);
   RUN_TEST(test_a_partial_update_is_the_update_by_those_that_are_used);
   RUN_TEST(test_a_partial_update_reports_the_outputs_that_are_used_only);
   RUN_TEST(test_a_partial_update_says_when_an_output_lacks_its_company);
