@@ -57,8 +57,7 @@ void add_linear_state(const Controller& controller, Fields& fields) {
 
 std::vector<Field> state_fields(const Controller& controller) {
   Fields fields;
-  const Field resets = {"resets", Kind::total, 1, "", "resets of the state since init; wraps to 0",
-                        {}};
+  const Field resets = {"resets", Kind::total, 1, "", "resets of the state since init; wraps to 0", {}};
   if (controller.linear) {
     add_linear_state(controller, fields);
     fields.push_back(resets);
@@ -66,31 +65,28 @@ std::vector<Field> state_fields(const Controller& controller) {
   }
   if (controller.has.filter) add_estimate(controller, fields);
   if (controller.keeps.input)
-    add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU",
-              "input that acts: of the last predict or control");
+    add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU", "input that acts: of the last predict or control");
   if (controller.has.gate)
     add_reals(fields, "widening", controller.size.ny, "{NAME}_NY",
-              "w ≥ 1, widening of the gate: it grows while the output is rejected",
-              start_of_gate(controller));
+              "w ≥ 1, widening of the gate: it grows while the output is rejected", start_of_gate(controller));
   if (controller.keeps.innovation)
-    add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY",
-              "of the last outputs, for predict");
+    add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY", "of the last outputs, for predict");
   if (controller.has.servo) add_law(controller, fields);
   if (controller.keeps.sample)
-    fields.push_back({"sample",
-                      Kind::counter,
-                      1,
-                      "",
-                      "number of the sample; stops at the last that has gains of its own",
-                      {}});
+    fields.push_back(
+        {"sample", Kind::counter, 1, "", "number of the sample; stops at the last that has gains of its own", {}});
   if (controller.keeps.gain_row)
     fields.push_back({"gain_row", Kind::counter, 1, "", "row of the filter's gains; 0 after a reset", {}});
   if (controller.has.filter) fields.push_back(resets);
   if (controller.solution.online)
     fields.push_back({"covariance_resets", Kind::total, 1, "", "resets of P alone since init; wraps to 0", {}});
   if (controller.has.gate)
-    fields.push_back(
-        {"gated", Kind::counters, controller.size.ny, "{NAME}_NY", "how often the gate has rejected an output; wraps to 0", {}});
+    fields.push_back({"gated",
+                      Kind::counters,
+                      controller.size.ny,
+                      "{NAME}_NY",
+                      "how often the gate has rejected an output; wraps to 0",
+                      {}});
   return fields;
 }
 

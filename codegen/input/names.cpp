@@ -157,8 +157,7 @@ Complaint check_limit_name(const std::string& key, const std::string& name,
   const std::string capitals = in_capitals(name);
   for (const std::string prefix : {"MIN_", "MAX_", "STEP_"})
     if (capitals.rfind(prefix, 0) == 0 && others.count(capitals.substr(prefix.size())) > 0)
-      return "expected a name that is not that of a limit of " +
-             in_quotes(name.substr(prefix.size())) + found(name);
+      return "expected a name that is not that of a limit of " + in_quotes(name.substr(prefix.size())) + found(name);
   return {};
 }
 

@@ -66,7 +66,7 @@ int Graph::constant(double value) {
 }
 
 int Graph::constant(double value, const std::string& name) {
-  const auto [at, is_new] = named_constants_.try_emplace(target_.prefix + name, -1);
+  const auto [at, is_new] = named_constants_.try_emplace(prefix_ + name, -1);
   if (is_new) {
     Node node;
     node.value = value + 0.0;  // −0 is 0

@@ -51,7 +51,6 @@ struct Target {
   bool is_double = false;
   bool is_fused = false;
   bool is_prover = false;  // reads beside each test what follows from it
-  std::string prefix;      // of the names of constants in C: "SERVO_"
 };
 
 // Nodes are numbered in the order in which the run made them, so a node stands after all that it uses.
@@ -60,10 +59,13 @@ struct Target {
 // constants alone. Nothing is reassociated.
 class Graph {
  public:
-  explicit Graph(Target target) : target_(std::move(target)) { sections_.push_back({}); }
+  // `prefix` begins the names of constants in C: "SERVO_".
+  explicit Graph(Target target, std::string prefix = "") : target_(target), prefix_(std::move(prefix)) {
+    sections_.push_back({});
+  }
 
   int constant(double value);
-  // The constant that C knows by the target's prefix and `name`. It folds like any other; what it folds to has no name.
+  // The constant that C knows by the graph's prefix and `name`. It folds like any other; what it folds to has no name.
   int constant(double value, const std::string& name);
   int input(const std::string& text, const std::string& name);
   int flag(const std::string& text);
@@ -82,7 +84,7 @@ class Graph {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::string& equation(int section) const { return sections_[section].equation; }
-  const Target& target() const { return target_; }
+  Target target() const { return target_; }
   // The constants with a name in C, and their nodes.
   const std::map<std::string, int>& named_constants() const { return named_constants_; }
 
@@ -101,6 +103,7 @@ class Graph {
   int fold_multiply_subtract(int a, int b, int c);
 
   Target target_;
+  std::string prefix_;
   std::vector<Node> nodes_;
   std::vector<Section> sections_;
   std::map<Key, int> known_;

@@ -154,10 +154,9 @@ std::string Printer::first_operand(int node, int level) const {
 std::string Printer::print_multiply_add(const Node& node, int level) const {
   const bool subtracts = node.op == Op::multiply_subtract;
   if (!graph_.target().is_fused)
-    return bracketed(
-        first_operand(node.c, sum) + (subtracts ? " - (" : " + (") + first_operand(node.a, product) + " * " +
-            print(node.b, unary) + ")",
-        sum, level);
+    return bracketed(first_operand(node.c, sum) + (subtracts ? " - (" : " + (") + first_operand(node.a, product) +
+                         " * " + print(node.b, unary) + ")",
+                     sum, level);
   // The sign goes to a factor that is no number: for -0.5f compilers load another constant beside 0.5f.
   const bool second = subtracts && graph_.is_constant(node.a), first = subtracts && !second;
   const auto factor = [&](int operand, bool has_sign) {
@@ -285,8 +284,12 @@ std::string Printer::raise(int status) const {
 }
 
 std::string Printer::declaration(int node) const {
-  if (is_status(node))
-    return "    lqg_status " + name_of(node) + ";\n" + status_choice(node, name_of(node), 4);
+  if (is_status(node)) {
+    const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+    return "    lqg_status " + name_of(node) + " = " + print(at.b, any) + ";\n" +
+           wrap("    if (!" + print(at.a, unary + 1) + ") {", 8) + "\n" + status_choice(at.c, name_of(node), 8) +
+           "    }\n";
+  }
   if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked) return question(node);
   const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "bool"
                            : graph_.target().is_double                                     ? "double"

@@ -150,7 +150,7 @@ std::string control_body(const Controller& controller) {
 
 // a b added to y[i], in C.
 std::string add_product(const Controller& controller, const std::string& a, const std::string& b) {
-  if (!controller.target.is_fused) return "y[i] + " + a + " * " + b;
+  if (!controller.target.is_fused) return "y[i] + (" + a + " * " + b + ")";
   return std::string(controller.target.is_double ? "fma(" : "fmaf(") + a + ", " + b + ", y[i])";
 }
 
@@ -164,8 +164,8 @@ std::string act_body(const Controller& controller, std::string& constants) {
     const design::SampledPlant& plant = controller.solution.plant;
     const std::string C = tables.add("C", plant.C), D = tables.add_unless_zero("D", plant.D);
     words["rows"] = std::to_string(plant.C.rows());
-    words["add_Cx"] = add_product(controller, C + "[i * " + words["NAME"] + "_NX + j]", "x[j]");
-    words["add_Du"] = add_product(controller, D + "[i * " + words["NAME"] + "_NU + j]", "u[j]");
+    words["add_Cx"] = add_product(controller, C + "[(i * " + words["NAME"] + "_NX) + j]", "x[j]");
+    words["add_Du"] = add_product(controller, D + "[(i * " + words["NAME"] + "_NU) + j]", "u[j]");
     conditions["has_D"] = D != "NULL";
     constants += tables.text;
   }
@@ -175,8 +175,7 @@ std::string act_body(const Controller& controller, std::string& constants) {
 std::string options_check(const Controller& controller) {
   const auto check = [&](const char* option, bool wanted, const char* what) {
     return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"This file " + what + ": " +
-           (wanted ? "define " : "do not define ") + option +
-           " for it and the library, or regenerate it.\"\n#endif\n";
+           (wanted ? "define " : "do not define ") + option + " for it and the library, or regenerate it.\"\n#endif\n";
   };
   return check("LQG_REAL_DOUBLE", controller.target.is_double,
                controller.target.is_double ? "computes in double" : "computes in float") +

@@ -181,9 +181,11 @@ std::string index_array(const std::string& name, const std::vector<int>& values,
 // Which of the descriptions is in force.
 std::string stage_function(const Controller& controller) {
   std::string index;
+  int stage = 0;
   for (const std::size_t start : controller.stage_starts)
     if (start > 0)
-      index += (index.empty() ? "" : " + ") + std::string("((self->sample >= ") + std::to_string(start) + "u) ? 1u : 0u)";
+      index += (index.empty() ? "" : " + ") + std::string("((self->sample >= {NAME}_STAGE_") + std::to_string(++stage) +
+               ") ? 1u : 0u)";
   return fill(R"(
 /* The plant of this sample. */
 static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
@@ -193,7 +195,7 @@ static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
 )",
               [&] {
                 Words words = common_words(controller);
-                words["index"] = index;
+                words["index"] = fill(index, words);
                 return words;
               }());
 }
@@ -225,8 +227,7 @@ std::string Tables::define(const std::string& suffix, const std::string& values,
   auto& same_suffix = defined_[suffix];
   const std::string number = same_suffix.empty() ? "" : "_" + std::to_string(same_suffix.size());
   const auto [at, is_new] = same_suffix.try_emplace(values, name_ + "_" + suffix + number);
-  if (is_new)
-    text += "static const lqg_real " + at->second + "[" + std::to_string(size) + "] = {\n" + values + "};\n";
+  if (is_new) text += "static const lqg_real " + at->second + "[" + std::to_string(size) + "] = {\n" + values + "};\n";
   return at->second;
 }
 
@@ -284,9 +285,10 @@ std::string servo_constants(const Controller& controller) {
   const Eigen::VectorXd& error = controller.bounds.error;
   const std::string xi_scale = tables.add("XI_SCALE", inverse_powers(controller, controller.bounds.xi));
   const std::string error_limit = tables.add("ERROR_LIMIT", names_of(controller, step::Quantity::error_limit, error));
-  const std::string u_step = controller.has.rate_limit
-                                 ? tables.add("U_STEP", names_of(controller, step::Quantity::u_step, controller::rate_steps(controller)))
-                                 : "NULL";
+  const std::string u_step =
+      controller.has.rate_limit
+          ? tables.add("U_STEP", names_of(controller, step::Quantity::u_step, controller::rate_steps(controller)))
+          : "NULL";
   return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
          fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.size.nr), std::to_string(controller.size.nxi),
                  controller.has.input_change ? "1" : "0", NAME + "_SAMPLE_TIME"}) +

@@ -74,7 +74,8 @@ void add_sensors(const Controller& controller, const std::string& functions, std
 
 void add_transfers(const Controller& controller, std::vector<Entry>& out) {
   const bool has_filter = controller.has.filter;
-  if (controller.linear) out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "between control and advance"});
+  if (controller.linear)
+    out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "between control and advance"});
   if (has_filter && controller.has.regulator && !controller.linear)
     out.push_back({"in manual mode", "{name}_predict(&loop, u)", "after update, with the manual u; no control"});
   if (has_filter) out.push_back({"the state is known", "{name}_set_state(&loop, x)", "between predict and update"});
@@ -91,9 +92,9 @@ std::string table_of_contents(const Controller& controller, const std::string& f
   const auto add = [&](const std::vector<Entry>& more) { entries.insert(entries.end(), more.begin(), more.end()); };
   if (controller.keeps.any) add({{"once", "{name}_init(&loop)", "at the start"}});
   if (controller.size.nr) add({{"a new reference", "loop.r[i] = …", "at any time between two calls"}});
-  add(controller.linear           ? sample_of_linear_form(controller)
-      : controller.has.filter     ? sample_of_filter(controller)
-                                  : sample_of_regulator(controller));
+  add(controller.linear       ? sample_of_linear_form(controller)
+      : controller.has.filter ? sample_of_filter(controller)
+                              : sample_of_regulator(controller));
   if (controller.has.filter) add_sensors(controller, functions, entries);
   add_transfers(controller, entries);
   if (functions.find("LQG_STATE_RESET") != std::string::npos)
@@ -113,8 +114,9 @@ std::string table_of_contents(const Controller& controller, const std::string& f
     else
       out += begin + entry.call + "\n *   " + padded("", when + 4) + entry.why + "\n";
   }
-  return out + (controller.has.filter ? " *\n * A status other than LQG_OK says what happened; each function lists its bits.\n"
-                                      : "");
+  return out + (controller.has.filter
+                    ? " *\n * A status other than LQG_OK says what happened; each function lists its bits.\n"
+                    : "");
 }
 
 }  // namespace lqg::emit

@@ -13,10 +13,10 @@ namespace {
 bool is_steady(const Controller& controller) { return controller.filter == step::Filter::steady; }
 
 std::string init_function(const Controller& controller, const FunctionBodies& bodies) {
-  std::string begin = controller.linear           ? "z of x̂ = x0"
-                      : !controller.has.filter    ? ""
-                      : is_steady(controller)     ? "x̂ = x0"
-                                                  : "x̂ = x0, its covariance P = P0";
+  std::string begin = controller.linear        ? "z of x̂ = x0"
+                      : !controller.has.filter ? ""
+                      : is_steady(controller)  ? "x̂ = x0"
+                                               : "x̂ = x0, its covariance P = P0";
   const auto add = [&](bool is_kept, const char* what) {
     if (is_kept) begin += (begin.empty() ? "" : ", ") + std::string(what);
   };
@@ -31,8 +31,9 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
 // What a reset keeps: ", keeps the counters and r".
 std::string what_stays(const Controller& controller) {
   std::string out;
-  for (const auto& [stays, what] : {std::pair(controller.has.filter, "the counters"), std::pair(controller.size.nr > 0, "r"),
-                                    std::pair(controller.keeps.sample, "the sample number")})
+  for (const auto& [stays, what] :
+       {std::pair(controller.has.filter, "the counters"), std::pair(controller.size.nr > 0, "r"),
+        std::pair(controller.keeps.sample, "the sample number")})
     if (stays) out += std::string(out.empty() ? ", keeps " : " and ") + what;
   return out;
 }
@@ -181,7 +182,6 @@ std::string step_function(const Controller& controller) {
                                            : "update, control, predict; assumes that the actuator applies u as it is";
   return write_function(templates::step, controller, {{"order", order}},
                         {{"is_told_u", !acts && controller.size.nu},
-                         {"acts_or_is_told_u", controller.size.nu > 0},
                          {"control_first", acts && is_predictor},
                          {"control_second", acts && !is_predictor}});
 }
@@ -205,14 +205,15 @@ std::string set_state_function(const Controller& controller) {
 std::string set_input_function(const Controller& controller) {
   if (!can_set_input(controller)) return "";
   const TracedFunction traced = trace_set_input(controller);
-  return write_function(templates::set_input, controller,
-                        {{"delayed", controller.size.delayed ? "; sets the delayed inputs, too" : ""},
-                         {"integral", controller.size.nxi ? " * ξ becomes such that the transfer to automatic is bumpless: "
-                                                            "the law demands u next.\n"
-                                                          : ""},
-                         {"when", controller.size.nxi && controller.has.filter ? " * Call it before control.\n" : ""},
-                         {"body", controller.has.filter ? body(controller, traced, {"self", "u"})
-                                                        : body(controller, traced, {"self", "x", "u"})}});
+  return write_function(
+      templates::set_input, controller,
+      {{"delayed", controller.size.delayed ? "; sets the delayed inputs, too" : ""},
+       {"integral", controller.size.nxi ? " * ξ becomes such that the transfer to automatic is bumpless: "
+                                          "the law demands u next.\n"
+                                        : ""},
+       {"when", controller.size.nxi && controller.has.filter ? " * Call it before control.\n" : ""},
+       {"body", controller.has.filter ? body(controller, traced, {"self", "u"})
+                                      : body(controller, traced, {"self", "x", "u"})}});
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ std::string bounds(const Controller& controller) {
   const std::vector<design::Signal> states = state_signals(controller);
   const std::vector<double> values = controller::powers_of_two(controller.bounds.x);
   for (std::size_t i = 0; i < values.size(); ++i)
-    out += "    " + trace::literal(values[i], controller.target.is_double) + (i + 1 < values.size() ? "," : "") + "  /* 2^" +
-           std::to_string(controller.bounds.x[i]) + ": " + name_with_unit(states[i]) + " */ \\\n";
+    out += "    " + trace::literal(values[i], controller.target.is_double) + (i + 1 < values.size() ? "," : "") +
+           "  /* 2^" + std::to_string(controller.bounds.x[i]) + ": " + name_with_unit(states[i]) + " */ \\\n";
   return out + "}\n";
 }
 
@@ -63,9 +63,15 @@ std::string last_rows(const Controller& controller) {
            " */\n";
   };
   std::string out;
-  if (controller.keeps.sample) out += define("LAST_SAMPLE", controller.last_sample, "`sample` stops there: nothing changes any more");
-  if (controller.laws.size() > 1) out += define("LAST_LAW_ROW", controller.laws.size() - 1, "rows of the law's gains, less 1");
-  if (controller.keeps.gain_row) out += define("LAST_GAIN_ROW", controller.filters.size() - 1, "rows of the filter's gains, less 1");
+  if (controller.keeps.sample)
+    out += define("LAST_SAMPLE", controller.last_sample, "`sample` stops there: nothing changes any more");
+  int stage = 0;
+  for (const std::size_t start : controller.stage_starts)
+    if (start > 0) out += define("STAGE_" + std::to_string(++stage), start, "the sample from which on it is in force");
+  if (controller.laws.size() > 1)
+    out += define("LAST_LAW_ROW", controller.laws.size() - 1, "rows of the law's gains, less 1");
+  if (controller.keeps.gain_row)
+    out += define("LAST_GAIN_ROW", controller.filters.size() - 1, "rows of the filter's gains, less 1");
   return out;
 }
 
@@ -106,13 +112,14 @@ std::string recovery(const Controller& controller) {
     lasting += (lasting.empty() ? "" : ", ") + controller.problem.plant.states[static_cast<std::size_t>(state)].name;
   std::string out;
   if (recovery.samples)
-    out =
-        fill("#define {NAME}_RECOVERY_SAMPLES {samples}  /* after the end of a fault, until its effect is below the noise */\n",
-             {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
+    out = fill(
+        "#define {NAME}_RECOVERY_SAMPLES {samples}  /* samples after a fault until its effect is below the noise */\n",
+        {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
   else if (controller.has.filter)
     out = "/* No number of samples until recovery can be stated: not every error decays. */\n";
   if (!lasting.empty())
-    out += "/* No noise reaches " + lasting + ": the effect of a fault stays there, and in estimates that depend on it. */\n";
+    out += "/* No noise reaches " + lasting +
+           ": the effect of a fault stays there, and in estimates that depend on it. */\n";
   return out;
 }
 

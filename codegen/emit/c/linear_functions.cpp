@@ -22,7 +22,7 @@ std::string others(int i) { return "others_" + std::to_string(i); }
 
 // sum − sum = 0, beside which a prover reads that each y is finite.
 std::string all_finite(const Controller& controller, const std::string& sum) {
-  const std::string test = sum + " - " + sum + " == " + trace::literal(0, controller.target.is_double);
+  const std::string test = "(" + sum + " - " + sum + ") == " + trace::literal(0, controller.target.is_double);
   if (!controller.target.is_prover) return test;
   std::string facts;
   for (int i = 0; i < controller.size.ny; ++i) facts += (i ? " && FINITE(" : "FINITE(") + element("y", i) + ")";

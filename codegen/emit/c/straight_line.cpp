@@ -180,6 +180,16 @@ std::string initializer(const std::vector<double>& values, bool is_double) {
 
 namespace {
 
+// Where an initial value comes from.
+std::string origin_of_initial(const std::string& field) {
+  if (field == "x") return "x: the initial state x0";
+  if (field == "P") return "P: the initial covariance P0";
+  if (field == "U" || field == "d") return field + ": of the initial covariance P0 = U diag(d) Uᵀ";
+  if (field == "widening") return "widening: of the variance of the first innovation, from P0, relative to S";
+  if (field == "z") return "z: of the initial state x0";
+  return field;
+}
+
 std::string zero_counters(int count) {
   std::string zeros = "0uL";
   for (int i = 1; i < count; ++i) zeros += ", 0uL";
@@ -199,16 +209,19 @@ std::string initial_state(const Controller& controller) {
         : field.kind == controller::Kind::counters
             ? zero_counters(field.count)
             : initializer(field.initial.empty() ? zeros : field.initial, controller.target.is_double);
-    values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "" : ",") + "  /* " + field.name + " */\n";
+    values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "" : ",") + "  /* " +
+              origin_of_initial(field.name) + " */\n";
   }
   return write_body(templates::initial_state, controller, {{"values", values}});
 }
 
 FunctionBodies straight_line_bodies(const Controller& controller) {
   FunctionBodies bodies;
-  bodies.includes = std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
-                    "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
-  bodies.options = R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
+  bodies.includes =
+      std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
+      "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
+  bodies.options =
+      R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif
 )";

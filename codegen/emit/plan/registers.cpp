@@ -126,9 +126,7 @@ class Order {
   }
 
   // Of constants of one value, whatever their names, the first.
-  int same(int i) {
-    return node(i).op == Op::constant ? constants_.try_emplace(node(i).value, i).first->second : i;
-  }
+  int same(int i) { return node(i).op == Op::constant ? constants_.try_emplace(node(i).value, i).first->second : i; }
 
   const Listing& listing_;
   Traffic& traffic_;

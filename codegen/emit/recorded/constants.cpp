@@ -58,9 +58,10 @@ std::map<std::string, double> values_of(const Controller& controller) {
     SymbolicState state;
     load_memory(model, state);
     const trace::Expr innovation = trace::Expr::of(function.graph->input("innovation", "innovation"));
-    const trace::Expr variance = controller.filter == step::Filter::steady  ? trace::Expr(model.variance(i))
-                                 : controller.filter == step::Filter::plain ? trace::Expr::of(function.graph->input("S", "S"))
-                                                                            : trace::Expr(model.V(i));
+    const trace::Expr variance = controller.filter == step::Filter::steady ? trace::Expr(model.variance(i))
+                                 : controller.filter == step::Filter::plain
+                                     ? trace::Expr::of(function.graph->input("S", "S"))
+                                     : trace::Expr(model.V(i));
     (void)named(controller, model.nu_limit(0), Quantity::innovation_limit);  // that all outputs have
     step::weigh(model, state, innovation, variance, [&] { return variance; }, i, listener);
   }
@@ -70,7 +71,9 @@ std::map<std::string, double> values_of(const Controller& controller) {
   return values;
 }
 
-bool is_of_name(char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_of_name(char c) {
+  return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
 
 bool uses(const std::string& text, const std::string& name) {
   for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
@@ -90,7 +93,8 @@ std::string limit(const std::string& key, double given, double value) {
 
 std::string threshold(const Controller& controller, int i) {
   const double limit = controller.bounds.innovation(i);
-  return "min(" + decimal(controller.gate.sigma) + (controller.solution.online ? "² V, " : "² S, ") + power(limit * limit) + "), for innovation²";
+  return "min(" + decimal(controller.gate.sigma) + (controller.solution.online ? "² V, " : "² S, ") +
+         power(limit * limit) + "), for innovation²";
 }
 
 std::string origin(const Controller& controller, Quantity quantity, int i, double value) {

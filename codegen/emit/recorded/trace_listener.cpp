@@ -77,8 +77,8 @@ Condition TraceListener::accept_or(const Condition& usable, int fault) {
 TracedFunction new_function(const Controller& controller) {
   TracedFunction function;
   function.graph = std::make_shared<trace::Graph>(
-      trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover,
-                    upper(controller.problem.name) + "_"});
+      trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover},
+      upper(controller.problem.name) + "_");
   return function;
 }
 

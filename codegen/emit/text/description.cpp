@@ -65,7 +65,8 @@ std::string describe_plant(const Controller& controller) {
   out += matrix_lines("C", plant.C, is_double);
   if (controller.size.nu) out += matrix_lines("D", plant.D, is_double);
   for (const std::size_t start : controller.stage_starts)
-    if (start > 0) out += "  from sample " + std::to_string(start) + " on another plant, with its numbers in the code\n";
+    if (start > 0)
+      out += "  from sample " + std::to_string(start) + " on another plant, with its numbers in the code\n";
   return out;
 }
 
@@ -156,7 +157,9 @@ std::string bounds(const Controller& controller) {
   if (controller.bounds.x.empty()) return "";
   return bounds_line("limit of |x̂_i| (reset when exceeded): ", controller::powers_of_two(controller.bounds.x)) +
          bounds_line("innovation limit: ", controller.bounds.innovation) +
-         (controller.bounds.xi.empty() ? "" : bounds_line("limit of |ξ_i| (reset when exceeded): ", controller::powers_of_two(controller.bounds.xi)));
+         (controller.bounds.xi.empty()
+              ? ""
+              : bounds_line("limit of |ξ_i| (reset when exceeded): ", controller::powers_of_two(controller.bounds.xi)));
 }
 
 }  // namespace

@@ -117,8 +117,8 @@ std::string body_of(const Controller& controller, Call call) {
     case Call::update: return given_outputs() + answered("update(&self, given)");
     case Call::update_alone: return update_alone_case(controller);
     case Call::partial_without:
-      return given_outputs() + answered("partial_update(&self, given, ~(1ul << turns[k].entry))");
-    case Call::partial_alone: return given_outputs() + answered("partial_update(&self, given, 1ul << turns[k].entry)");
+      return given_outputs() + answered("partial_update(&self, given, ~(1uL << turns[k].entry))");
+    case Call::partial_alone: return given_outputs() + answered("partial_update(&self, given, 1uL << turns[k].entry)");
     case Call::control: return control_case(controller);
     case Call::predict: return predict_case(controller);
     case Call::advance: return advance_case(controller);

@@ -66,9 +66,8 @@ std::string data(const Controller& controller, const Vectors& vectors) {
            std::to_string(samples_per_covariance) + "th sample. */\n" +
            table("P_out", vectors.samples, samples_per_covariance, is_double,
                  [](const Sample& sample) { return sample.P; });
-  out += "\n/* Tolerance: " + decimal(Tolerances::margin) +
-         " times the error of the host's run in " + (is_double ? "double" : "float") +
-         ",\n * which is the precision times the conditioning of this filter. */\n";
+  out += "\n/* Tolerance: " + decimal(Tolerances::margin) + " times the error of the host's run in " +
+         (is_double ? "double" : "float") + ",\n * which is the precision times the conditioning of this filter. */\n";
   if (controller.has.filter) out += tolerances("x_tolerance", vectors.tolerance.x);
   if (controller.has.regulator) out += tolerances("u_tolerance", vectors.tolerance.u);
   if (!vectors.tolerance.P.empty()) out += tolerances("P_tolerance", vectors.tolerance.P);

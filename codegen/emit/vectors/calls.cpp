@@ -389,8 +389,7 @@ bool has_call(const Controller& controller, Call call) {
     case Call::update:
     case Call::predict:
     case Call::write_x: return filter && !linear;
-    case Call::update_alone:
-      return filter && !linear && controller.problem.code.updates == design::Updates::each;
+    case Call::update_alone: return filter && !linear && controller.problem.code.updates == design::Updates::each;
     case Call::partial_without:
     case Call::partial_alone:
       return filter && !linear && controller.size.ny > 1 && controller.size.ny < bits_of_long && !controller.has.stages;

@@ -192,8 +192,8 @@ void test_an_output_that_needs_another_has_no_update_of_its_own() {
 
 void test_updates_by_one_output_are_there_only_where_the_design_asks_for_them() {
   for (const lqg::design::Updates updates : {lqg::design::Updates::all, lqg::design::Updates::each}) {
-    const std::string header =
-        lqg::emit::header(changed(design_of(kinds[0]), [&](Problem& problem, Solution&) { problem.code.updates = updates; }));
+    const std::string header = lqg::emit::header(
+        changed(design_of(kinds[0]), [&](Problem& problem, Solution&) { problem.code.updates = updates; }));
     TEST_ASSERT_EQUAL(updates == lqg::design::Updates::each, header.find("loop_update_y0(") != std::string::npos);
     TEST_ASSERT_TRUE(header.find("loop_partial_update(") != std::string::npos);
   }
