@@ -86,6 +86,9 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
                                       "Made by lqgen " + lqg::emit::version() + " from loop.toml",
                                       controller.source.sha256,
                                       "under any licence",
+                                      "What is called when:",
+                                      "loop_init(&loop)",
+                                      "loop_step(&loop, y, u)",
                                       "Plant, sampled every 0.1 s",
                                       "states   x[0] position [m], x[1] speed [m/s]",
                                       "inputs   u[0] force [N]",
@@ -111,7 +114,7 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
                                       "#include \"lqg/",
                                       "#if LQG_HEADER_FORMAT != ",
                                       "#error",
-                                      "run the lqgen",
+                                      "regenerate it with the library's lqgen",
                                       "#endif",
                                       "#define LOOP_NX 2",
                                       "#define LOOP_NU 1",
@@ -132,9 +135,10 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
 // The comment above a function says its equation, its arguments and its status.
 void test_every_function_carries_its_contract() {
   const std::string text = lqg::emit::header(controller_in(Style::unrolled));
-  expect_order(text, {"/* x̂ = x0", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1],
-                      "/* u = −K x̂", "u  out:", "Status:", functions[2], "/* x̂ ← A x̂ + B u",
-                      "u  in:", "Status:", functions[3], "/* One sample: update, control and predict", functions[4]});
+  expect_order(text,
+               {"/* Initial state: x̂ = x0", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1],
+                "/* u = −K x̂", "u  out:", "Status:", functions[2], "/* From this sample to the next:  x̂ ← A x̂ + B u",
+                "u  in:", "Status:", functions[3], "/* One sample: update, control, predict", functions[4]});
 }
 
 void test_step_makes_its_calls_in_the_order_of_the_form() {
@@ -207,8 +211,7 @@ DesignText with_longest_names() {
   const auto names = [](int count, const std::string& unit) {
     std::string out;
     for (int i = 0; i < count; ++i)
-      out +=
-          std::string(i ? ", " : "[") + "\"a_signal_with_a_name_as_long_as" + std::to_string(i) + " [" + unit + "]\"";
+      out += std::string(i ? ", " : "[") + "\"a_signal_with_a_name_as_long_a" + std::to_string(i) + " [" + unit + "]\"";
     return out + "]";
   };
   design.name = "a_design_with_a_name_as_long_as";

@@ -75,9 +75,10 @@ std::string bits(double value, Target target) {
 std::string c_program(const std::vector<Function>& functions_of_file, Target target) {
   const std::string real = target.is_double ? "double" : "float", word = target.is_double ? "uint64_t" : "uint32_t";
   std::ostringstream text;
-  text << "#include <inttypes.h>\n#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n#include <string.h>\n"
-       << "#include \"lqg/status.h\"\ntypedef " << real << " real;\ntypedef " << word << " word;\n"
-       << "enum { results = " << operations << " };\n";
+  text
+      << "#include <inttypes.h>\n#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n#include <stdio.h>\n#include <string.h>\n"
+      << "#include \"lqg/status.h\"\ntypedef " << real << " real;\ntypedef " << word << " word;\n"
+      << "enum { results = " << operations << " };\n";
   for (const Function& function : functions_of_file) text << function.text;
   text << "static void (*const all[])(const real[], real[], int[], lqg_status[]) = {";
   for (std::size_t i = 0; i < functions_of_file.size(); ++i) text << (i ? ", f_" : "f_") << i;

@@ -143,10 +143,11 @@ void test_wrap_turns_spaces_into_line_ends_and_changes_nothing_else() {
 // After a comma, or before a sum or a choice goes on.
 bool may_break(const std::string& before, const std::string& after) {
   const std::string start = after.substr(0, 2);
-  return before.back() == ',' || start == "+ " || start == "- " || start == "? " || start == ": ";
+  return before.back() == ',' || start == "+ " || start == "- " || start == "? " || start == ": " || start == "< " ||
+         start == "&&" || start == "||";
 }
 
-void test_wrap_breaks_after_a_comma_or_before_a_sign_or_a_choice_only() {
+void test_wrap_breaks_after_a_comma_or_before_an_operator_only() {
   Random random(4);
   for (int i = 0; i < 3000; ++i) {
     const std::vector<std::string> lines = lines_of(wrap(random_line(random), 8, random.between(40, 100)));
@@ -307,7 +308,7 @@ int main() {
   RUN_TEST(test_what_is_not_finite_has_no_literal);
   RUN_TEST(test_literal_is_the_shortest);
   RUN_TEST(test_wrap_turns_spaces_into_line_ends_and_changes_nothing_else);
-  RUN_TEST(test_wrap_breaks_after_a_comma_or_before_a_sign_or_a_choice_only);
+  RUN_TEST(test_wrap_breaks_after_a_comma_or_before_an_operator_only);
   RUN_TEST(test_wrap_keeps_every_line_within_the_width_where_it_may_break);
   RUN_TEST(test_wrap_goes_on_after_a_part_that_is_too_long);
   RUN_TEST(test_what_nobody_needs_is_not_printed);
