@@ -41,21 +41,23 @@ bool breaks_before_logical(const std::string& line, std::size_t i) {
   return line.compare(i, 4, " && ") == 0 || line.compare(i, 4, " || ") == 0;
 }
 
-// The last place before `width` where the line may break: before ? and : if it has any, else before && and ||, else before
-// <, else before + and −, else after a comma; the first place behind `width` if there is none before it.
+// The last place before `width` where the line may break, of the first kind that it has: before ? and :, && and ||, <,
+// + and −, after a comma, before * and /. The first place behind `width` if there is none before it.
 std::size_t break_before(const std::string& line, std::size_t start, int width) {
   constexpr std::size_t none = std::string::npos;
-  std::size_t choice = none, logical = none, less = none, sum = none, comma = none;
+  std::size_t choice = none, logical = none, less = none, sum = none, product = none, comma = none;
   for (std::size_t i = start + 1; i < line.size(); ++i) {
-    const bool has_one = choice != none || logical != none || less != none || sum != none || comma != none;
+    const bool has_one =
+        choice != none || logical != none || less != none || sum != none || product != none || comma != none;
     if (has_one && columns(line, start, i) >= width) break;
     if (breaks_before(line, i, "?:")) choice = i;
     if (breaks_before_logical(line, i)) logical = i;
     if (breaks_before(line, i, "<")) less = i;
     if (breaks_before(line, i, "+-")) sum = i;
+    if (breaks_before(line, i, "*/")) product = i;
     if (line[i] == ' ' && line[i - 1] == ',') comma = i;
   }
-  for (const std::size_t place : {choice, logical, less, sum, comma})
+  for (const std::size_t place : {choice, logical, less, sum, comma, product})
     if (place != none) return place;
   return none;
 }

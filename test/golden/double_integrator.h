@@ -166,8 +166,9 @@ static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status 
     return status | LQG_STATE_RESET;
 }
 
-/* Called if x̂ or P is not within its bounds, or P cannot be a covariance. Resets P and increments
- * `covariance_resets`. If x̂ is not within its bounds either, double_integrator_reset resets the whole state. */
+/* Called if x̂ or P is not within its bounds, or P cannot be a covariance. Resets P to P0 and
+ * increments `covariance_resets`. If x̂ is not within its bounds either, double_integrator_reset resets the whole
+ * state. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif

@@ -79,7 +79,8 @@ def mutants(text: str, begin: str = "LQG_STRICT_BEGIN", end: str = "LQG_STRICT_E
         code = re.sub(r"/\*.*?\*/", "", line)
         comment = "/*" in code or (comment and "*/" not in code)
         is_code = not opened and not comment and not line.startswith("#") and line.rstrip()[-1:] != "\\"
-        if CONSTANT.match(line) or inside and is_code and "static inline" not in line and not line.startswith("__attribute__"):
+        is_statement = inside and is_code and "static inline" not in line and not line.startswith("__attribute__")
+        if is_statement or CONSTANT.match(line):
             for after in dict.fromkeys(changes(line)):
                 if after != line:
                     yield Mutant(number, line, after)

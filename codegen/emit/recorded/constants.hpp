@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of the code that are no gains: limits, bounds, thresholds. C knows each by a name, whose #define says where it
-// comes from.
+// Numbers of the code that are no gains: limits, bounds, thresholds. C knows each by a name, whose #define says where
+// it comes from.
 #pragma once
 
 #include <string>

@@ -31,16 +31,24 @@ std::string break_comment(const std::string& line, std::size_t indent, const std
   return out + blanks(indent) + current;
 }
 
+// A function and its first parameter may be too long together.
+std::string break_behind_bracket(const std::string& line, std::size_t indent) {
+  const std::size_t end = line.find('\n'), bracket = line.find('(');
+  if (columns(line.substr(0, end)) <= widest_line || bracket == std::string::npos || bracket > end) return line;
+  return line.substr(0, bracket + 1) + "\n" + blanks(indent + 4) + line.substr(bracket + 1);
+}
+
 std::string fit_line(const std::string& line) {
   if (columns(line) <= widest_line) return line;
   const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
-  if (line[indent] == '#' || line.back() == '\\') return line;
+  if (line.back() == '\\') return line;
   if (line.compare(0, 2, " *") == 0) return break_comment(line, 0, " * ");
   if (begins(line, indent, "/*")) return break_comment(line, indent, " * ");
   const std::size_t comment = line.find("  /* ");
   if (comment != std::string::npos)
     return fit_line(blanks(indent) + line.substr(comment + 2)) + "\n" + fit_line(line.substr(0, comment));
-  return trace::wrap(line, static_cast<int>(indent) + 4, static_cast<int>(widest_line));
+  if (line[indent] == '#') return line;
+  return break_behind_bracket(trace::wrap(line, static_cast<int>(indent) + 4, static_cast<int>(widest_line)), indent);
 }
 
 }  // namespace

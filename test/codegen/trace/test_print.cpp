@@ -144,7 +144,7 @@ void test_wrap_turns_spaces_into_line_ends_and_changes_nothing_else() {
 bool may_break(const std::string& before, const std::string& after) {
   const std::string start = after.substr(0, 2);
   return before.back() == ',' || start == "+ " || start == "- " || start == "? " || start == ": " || start == "< " ||
-         start == "&&" || start == "||";
+         start == "&&" || start == "* " || start == "/ " || start == "||";
 }
 
 void test_wrap_breaks_after_a_comma_or_before_an_operator_only() {
