@@ -123,12 +123,14 @@ std::string Printer::print(int node, int level) const {
     const std::string text = literal(at.value, graph_.target().is_double);
     return at.value < 0 ? bracketed(text, unary, level + 1) : text;
   }
+  if (at.op == Op::asked) return bracketed(name_of(node) + " != 0", comparison, level);
   return is_declared(node) ? name_of(node) : print_operation(node, level);
 }
 
 // How tightly the operator binds that a node is printed with; a name and a call are no operators.
 int Printer::binds(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::asked) return comparison;
   if (at.op == Op::constant || is_declared(node)) return unary;
   switch (at.op) {
     case Op::select: return any;
@@ -264,8 +266,9 @@ std::string Printer::question(int node) const {
                                                               literal(at.value, true) + "))";
   // A prover follows both answers from here on, but not those to the questions before: they would multiply.
   const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
-  return merge + wrap("    bool " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ") {\n" +
-         wrap("        " + name + " = " + answer + ";", 12) + "\n    }\n";
+  // 1 or 0: of a bool GCC 12 makes two more instructions for each output.
+  return merge + wrap("    int " + name + " = " + print(at.a, unary + 1) + " ? 1 : 0;", 8) + "\n    if (" + name +
+         " == 0) {\n" + wrap("        " + name + " = " + answer + " ? 1 : 0;", 12) + "\n    }\n";
 }
 
 // A status is chosen by statements: in C an expression that chooses among numbers has the type of the smallest one.

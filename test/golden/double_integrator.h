@@ -280,13 +280,14 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
     const float shared_35 = DOUBLE_INTEGRATOR_GATE_SQUARED * S_position;
     const float threshold_position = (shared_35 < DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION)
         ? shared_35 : DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION;
-    bool usable_position = ((measured_position * measured_position) < threshold_position)
-        && !(1.0f < widening_0);
-    if (!usable_position) {
-        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position);
+    int usable_position = (((measured_position * measured_position) < threshold_position)
+        && !(1.0f < widening_0)) ? 1 : 0;
+    if (usable_position == 0) {
+        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position)
+            ? 1 : 0;
     }
-    const float reciprocal_position = usable_position ? (1.0f / S_position) : 0.0f;
-    const float innovation_position = usable_position ? measured_position : 0.0f;
+    const float reciprocal_position = (usable_position != 0) ? (1.0f / S_position) : 0.0f;
+    const float innovation_position = (usable_position != 0) ? measured_position : 0.0f;
 
     /* output 0, position [m]: L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ */
     const float gain_1_position = P_10 * reciprocal_position;

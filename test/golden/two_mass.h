@@ -248,23 +248,23 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
 
     /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy1 = y_0 - x_0;
-    bool usable_dy1 = ((measured_dy1 * measured_dy1) < TWO_MASS_THRESHOLD_DY1)
-        && !(1.0f < widening_0);
-    if (!usable_dy1) {
+    int usable_dy1 = (((measured_dy1 * measured_dy1) < TWO_MASS_THRESHOLD_DY1)
+        && !(1.0f < widening_0)) ? 1 : 0;
+    if (usable_dy1 == 0) {
         usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1,
-            TWO_MASS_INNOVATION_VARIANCE_DY1);
+            TWO_MASS_INNOVATION_VARIANCE_DY1) ? 1 : 0;
     }
-    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
+    const float innovation_dy1 = (usable_dy1 != 0) ? measured_dy1 : 0.0f;
 
     /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy2 = y_1 - x_2;
-    bool usable_dy2 = ((measured_dy2 * measured_dy2) < TWO_MASS_THRESHOLD_DY2)
-        && !(1.0f < widening_1);
-    if (!usable_dy2) {
+    int usable_dy2 = (((measured_dy2 * measured_dy2) < TWO_MASS_THRESHOLD_DY2)
+        && !(1.0f < widening_1)) ? 1 : 0;
+    if (usable_dy2 == 0) {
         usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2,
-            TWO_MASS_INNOVATION_VARIANCE_DY2);
+            TWO_MASS_INNOVATION_VARIANCE_DY2) ? 1 : 0;
     }
-    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
+    const float innovation_dy2 = (usable_dy2 != 0) ? measured_dy2 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
     const float posterior_0 = x_0 + (0.7008788f * innovation_dy1) + (0.03500962f * innovation_dy2);
