@@ -138,7 +138,7 @@ static inline void double_integrator_init(double_integrator_t *self)
         {1.0f},  /* widening: of the variance of the first innovation, from P0, relative to S */
         0uL,  /* resets */
         0uL,  /* covariance_resets */
-        {0uL}  /* gated */
+        {0}  /* gated */
     };
 
     *self = initial;

@@ -151,7 +151,7 @@ static inline void two_mass_init(two_mass_t *self)
         {0.0f, 0.0f, 0.0f, 0.0f},  /* x: the initial state x0 */
         {4.0f, 32.0f},  /* widening: of the variance of the first innovation, from P0, relative to S */
         0uL,  /* resets */
-        {0uL, 0uL}  /* gated */
+        {0}  /* gated */
     };
 
     *self = initial;

@@ -190,12 +190,6 @@ std::string origin_of_initial(const std::string& field) {
   return field;
 }
 
-std::string zero_counters(int count) {
-  std::string zeros = "0uL";
-  for (int i = 1; i < count; ++i) zeros += ", 0uL";
-  return "{" + zeros + "}";
-}
-
 }  // namespace
 
 std::string initial_state(const Controller& controller) {
@@ -207,7 +201,7 @@ std::string initial_state(const Controller& controller) {
     const std::string value =
         is_number ? (field.kind == controller::Kind::total ? "0uL" : "0u")
         : field.kind == controller::Kind::counters
-            ? zero_counters(field.count)
+            ? "{0}"
             : initializer(field.initial.empty() ? zeros : field.initial, controller.target.is_double);
     values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "" : ",") + "  /* " +
               origin_of_initial(field.name) + " */\n";
