@@ -8,6 +8,7 @@ import argparse
 import fnmatch
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -48,18 +49,17 @@ def emit(lqgen, root, output):
     return made
 
 
-def findings(cppcheck, root, output, path, options):
+def findings(cppcheck, output, path, options):
     """{(file, rule): a line} of what is found in a file and in what it includes."""
     command = [cppcheck, "--std=c99", "--language=c", "--addon=misra", "--quiet", "--template={file}:{line}: {id}",
-               f"-I{root / 'include'}", f"-I{root / 'src'}", *options, path]
+               f"-I{output / 'include'}", f"-I{output / 'src'}", *options, path]
     result = subprocess.run(command, check=False, capture_output=True, text=True)
     found = {}
     for line in (result.stdout + result.stderr).splitlines():
         match = FINDING.match(line)
         if match:
-            file = pathlib.Path(match["file"]).resolve()
-            base = output if file.is_relative_to(output) else root
-            found[file.relative_to(base).as_posix(), match["rule"]] = match["line"]
+            file = pathlib.Path(match["file"]).resolve().relative_to(output)
+            found[file.as_posix(), match["rule"]] = match["line"]
     if result.returncode != 0:
         sys.exit(f"cppcheck failed for {path}: {result.stdout}{result.stderr}")
     return found
@@ -71,12 +71,15 @@ def main():
         parser.add_argument("--" + option, required=True, type=pathlib.Path)
     arguments = parser.parse_args()
     root, output = arguments.root.resolve(), arguments.output.resolve()
+    for folder in ["src", "include"]:  # cppcheck writes files beside those that it reads
+        shutil.rmtree(output / folder, ignore_errors=True)
+        shutil.copytree(root / folder, output / folder)
     variants = [[], ["-DLQG_REAL_DOUBLE", "-DLQG_FUSED"]]
-    files = [(path, options) for path in sorted((root / "src").glob("*.c")) for options in variants]
+    files = [(path, options) for path in sorted((output / "src").glob("*.c")) for options in variants]
     files += emit(arguments.lqgen, root, output)
     found = {}
     for path, options in files:
-        found.update(findings(arguments.cppcheck, root, output, path, options))
+        found.update(findings(arguments.cppcheck, output, path, options))
     if not found:
         sys.exit("nothing was found at all: does the addon work?")
     rows = rows_of(root / "test/misra/README.md")
