@@ -63,16 +63,16 @@ lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[
     return inverse;
 }
 
-/* T = [A U | G], nx × (nx + nq): with the weights [d | w] of its columns, A P Aᵀ + G diag(w) Gᵀ = T
+/* T = [A U | G], nx × (nx + nw): with the weights [d | W] of its columns, A P Aᵀ + G diag(W) Gᵀ = T
  * diag(weight) Tᵀ. */
-static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nq,
+static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nw,
                           const lqg_real G[], lqg_real T[])
 {
     for (unsigned i = 0; i < nx; i++) {
         for (unsigned j = 0; j < nx; j++)
             *T++ = row_times_U(A + i * nx, U, j);
-        for (unsigned q = 0; q < nq; q++)
-            *T++ = G[i * nq + q];
+        for (unsigned q = 0; q < nw; q++)
+            *T++ = G[i * nw + q];
     }
 }
 
@@ -104,15 +104,15 @@ static void orthogonalise(lqg_real U[], lqg_real d[], unsigned rows, unsigned co
     }
 }
 
-void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nq,
-                         const lqg_real G[], const lqg_real w[], lqg_real work[])
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw,
+                         const lqg_real G[], const lqg_real W[], lqg_real work[])
 {
-    const unsigned columns = nx + nq;
+    const unsigned columns = nx + nw;
     lqg_real *weight = work, *v = work + columns, *T = work + 2 * columns;
 
-    stack_factors(U, nx, A, nq, G, T);
+    stack_factors(U, nx, A, nw, G, T);
     copy(weight, d, nx);
-    copy(weight + nx, w, nq);
+    copy(weight + nx, W, nw);
     orthogonalise(U, d, nx, columns, T, weight, v);
 }
 

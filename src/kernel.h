@@ -10,6 +10,14 @@
 
 #include <math.h>
 
+/* What callers MUST do, for those who develop: see lqg/lqg.h. */
+#ifdef LQG_ASSERT_HEADER
+#include LQG_ASSERT_HEADER
+#endif
+#ifndef LQG_ASSERT
+#define LQG_ASSERT(condition) ((void)0)
+#endif
+
 LQG_STRICT_BEGIN
 
 /* a b + c */
@@ -55,7 +63,7 @@ static inline lqg_real absolute(lqg_real a)
 }
 
 /* |a| is below limits_i; where there are no limits, a is finite. */
-static inline int is_believable(lqg_real a, const lqg_real limits[], unsigned i)
+static inline int is_plausible(lqg_real a, const lqg_real limits[], unsigned i)
 {
     return limits ? absolute(a) < limits[i] : is_finite(a);
 }
