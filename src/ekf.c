@@ -16,17 +16,19 @@ static void check_contract(const lqg_ekf_t *ekf, const lqg_ekf_state_t *state)
     LQG_ASSERT(ekf->nx >= 1 && ekf->ny >= 1 && ekf->f && ekf->h);
     LQG_ASSERT(ekf->V && ekf->d0 && (!ekf->nw || (ekf->G && ekf->W)));
     LQG_ASSERT(state->x && state->d && (ekf->nx == 1 || state->U));
+    check_gate(ekf->gate, &state->gate);
 }
 
 static void begin_covariance(const lqg_ekf_t *ekf, lqg_ekf_state_t *state)
 {
-    begin(state->U, ekf->U0, LQG_STRICT_TRIANGLE(ekf->nx));
+    lqg_begin(state->U, ekf->U0, LQG_STRICT_TRIANGLE(ekf->nx));
     copy(state->d, ekf->d0, ekf->nx);
 }
 
 static void begin_estimate(const lqg_ekf_t *ekf, lqg_ekf_state_t *state)
 {
-    begin(state->x, ekf->x0, ekf->nx);
+    lqg_begin(state->x, ekf->x0, ekf->nx);
+    begin_widening(ekf->gate, &state->gate, ekf->ny);
     begin_covariance(ekf, state);
 }
 
@@ -34,7 +36,6 @@ void lqg_ekf_init(const lqg_ekf_t *ekf, lqg_ekf_state_t *state)
 {
     check_contract(ekf, state);
     begin_estimate(ekf, state);
-    lqg_gate_begin(ekf->gate, &state->gate, ekf->ny);
 }
 
 /* x̂ not finite: all begins anew. U or d not finite, or d no variances: they do, and x̂ stays. `factors`: they are
@@ -46,7 +47,6 @@ static lqg_status_t recover(const lqg_ekf_t *ekf, lqg_ekf_state_t *state, int fa
     add_finite(&check, state->x, ekf->nx);
     if (!is_within_bounds(&check)) {
         begin_estimate(ekf, state);
-        lqg_gate_forget(ekf->gate, &state->gate, ekf->ny);
         return LQG_STATE_RESET;
     }
     if (factors)
@@ -109,8 +109,8 @@ lqg_status_t lqg_ekf_partial_update(const lqg_ekf_t *ekf, lqg_ekf_state_t *state
     lqg_real *delta = C + ny * nx, *f = delta + nx;
     lqg_status_t status = LQG_OK;
 
-    begin(C, NULL, ny * nx);
-    begin(delta, NULL, nx);
+    lqg_begin(C, NULL, ny * nx);
+    lqg_begin(delta, NULL, nx);
     ekf->h(ekf->context, expected, C, state->x, u);
     subtract(ekf, innovation, y, expected);
 
@@ -118,7 +118,7 @@ lqg_status_t lqg_ekf_partial_update(const lqg_ekf_t *ekf, lqg_ekf_state_t *state
         if (used & 1ul)
             status |= update_output(ekf, state, i, delta, innovation[i], C + i * nx, &keeper, f);
         else
-            lqg_gate_skip(&keeper, i, 0);
+            skip(&keeper, i, 0);
         used = after_lowest(used);
     }
 
@@ -134,7 +134,7 @@ lqg_status_t lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_ekf_state_t *state, const
     const unsigned nx = ekf->nx;
     lqg_real *next = state->work, *A = next + nx, *scratch = A + nx * nx;
 
-    begin(A, NULL, nx * nx);
+    lqg_begin(A, NULL, nx * nx);
     ekf->f(ekf->context, next, A, state->x, u);
     copy(state->x, next, nx);
     lqg_factors_predict(state->U, state->d, nx, A, ekf->nw, ekf->G, ekf->W, scratch);

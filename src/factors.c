@@ -20,10 +20,10 @@ void lqg_factors_project(const lqg_real U[], unsigned nx, const lqg_real c[], in
     }
 }
 
-lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real v)
+lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real V)
 {
     LQG_STRICT_BODY
-    lqg_real s = v;
+    lqg_real s = V;
     for (unsigned j = 0; j < nx; j++) {
         const lqg_real g_j = d[j] * f[j];
         s = multiply_add(f[j], g_j, s);
@@ -36,12 +36,12 @@ lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[
  *     g_j = d_j f_j,  α_j = α_{j−1} + f_j g_j,  d_j ← d_j α_{j−1}/α_j,  U_j ← U_j − (f_j/α_{j−1}) b,  b ← b +
  *     g_j U_j
  *
- * from α = v and b = 0. 1/α is carried along: one division a column. */
-lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real v)
+ * from α = V and b = 0. 1/α is carried along: one division a column. */
+lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real V)
 {
     LQG_STRICT_BODY
     lqg_real *b = f; /* b_k takes the place of f_k, which column k was the last to need */
-    lqg_real alpha = v, inverse = 1 / v;
+    lqg_real alpha = V, inverse = 1 / V;
 
     for (unsigned j = 0; j < nx; j++) {
         const lqg_real f_j = f[j], g_j = d[j] * f_j;

@@ -3,23 +3,6 @@
 
 LQG_STRICT_BEGIN
 
-void lqg_gate_forget(const lqg_gate_t *gate, const lqg_gate_state_t *state, unsigned ny)
-{
-    if (!gate || !gate->widen)
-        return;
-    LQG_ASSERT(gate->narrow && state->widening);
-    for (unsigned i = 0; i < ny; i++)
-        state->widening[i] = gate->start ? gate->start[i] : 1;
-}
-
-void lqg_gate_begin(const lqg_gate_t *gate, const lqg_gate_state_t *state, unsigned ny)
-{
-    LQG_ASSERT(!gate || gate->sigma > 0);
-    lqg_gate_forget(gate, state, ny);
-    for (unsigned i = 0; state->gated && i < ny; i++)
-        state->gated[i] = 0;
-}
-
 /* The widening, from 1 to 2⁸⁰ whatever it was: a NaN is 1. */
 static lqg_real kept_width(lqg_real widening)
 {
@@ -61,18 +44,6 @@ lqg_status_t lqg_gate_weigh(const gatekeeper_t *keeper, unsigned i, int plausibl
     if (watch && watch->heard)
         watch->heard[i] = plausible && !gated;
     return gated ? LQG_OUTPUT_GATED : LQG_OK;
-}
-
-void lqg_gate_skip(const gatekeeper_t *keeper, unsigned i, int opens)
-{
-    const lqg_gate_t *gate = keeper->gate;
-
-    if (keeper->watch && keeper->watch->heard)
-        keeper->watch->heard[i] = 0;
-    if (gate && gate->widen && opens) {
-        lqg_real *widening = &keeper->state->widening[i];
-        *widening = kept_width(gate->widen[i] * kept_width(*widening));
-    }
 }
 
 LQG_STRICT_END

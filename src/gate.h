@@ -6,10 +6,7 @@
 #include "kernel.h"
 #include "lqg/kalman.h"
 
-#define lqg_gate_begin LQG_VARIANT(lqg_gate_begin)
-#define lqg_gate_forget LQG_VARIANT(lqg_gate_forget)
 #define lqg_gate_weigh LQG_VARIANT(lqg_gate_weigh)
-#define lqg_gate_skip LQG_VARIANT(lqg_gate_skip)
 
 /* A gate, what it remembers, and who watches. gate and watch MAY be NULL. */
 typedef struct {
@@ -18,19 +15,32 @@ typedef struct {
     const lqg_watch_t *watch;
 } gatekeeper_t;
 
-/* widening = start; nothing was gated yet. */
-void lqg_gate_begin(const lqg_gate_t *gate, const lqg_gate_state_t *state, unsigned ny);
-
-/* widening = start, as x̂ begins anew; what was gated still counts. */
-void lqg_gate_forget(const lqg_gate_t *gate, const lqg_gate_state_t *state, unsigned ny);
-
 /* Tells and remembers the innovation of output i, which is 0 if it is not plausible, and its variance s.
  * LQG_OUTPUT_GATED when the gate leaves it out. `opens`: the gate opens also for one that is not plausible. */
 lqg_status_t lqg_gate_weigh(const gatekeeper_t *keeper, unsigned i, int plausible, lqg_real innovation, lqg_real s,
                             int opens);
 
-/* Output i was not to be used, which `opens` the gate of a constant gain. */
-void lqg_gate_skip(const gatekeeper_t *keeper, unsigned i, int opens);
+/* What a caller MUST give of a gate, and of what it remembers. */
+static inline void check_gate(const lqg_gate_t *gate, const lqg_gate_state_t *state)
+{
+    (void)gate;
+    (void)state;
+    LQG_ASSERT(!gate || gate->sigma > 0);
+    LQG_ASSERT(!gate || !gate->widen || (gate->narrow && state->widening));
+}
+
+/* widening = start, where there is one; 0 counts as 1. */
+static inline void begin_widening(const lqg_gate_t *gate, const lqg_gate_state_t *state, unsigned ny)
+{
+    lqg_begin(state->widening, gate ? gate->start : NULL, ny);
+}
+
+/* Output i was not to be used, which `opens` the gate of a constant gain: as one that is not plausible, unreported. */
+static inline void skip(const gatekeeper_t *keeper, unsigned i, int opens)
+{
+    if (keeper->gate || keeper->watch)
+        (void)lqg_gate_weigh(keeper, i, 0, 0, 0, opens);
+}
 
 /* What the status says of output i. */
 static inline lqg_status_t rejected(unsigned i)

@@ -13,6 +13,7 @@ static void check_contract(const lqg_kalman_plain_t *kalman, const lqg_kalman_pl
     (void)state;
     LQG_ASSERT(kalman && state);
     check_plant(&kalman->plant, state->x, state->u_applied);
+    check_gate(kalman->gate, &state->gate);
     LQG_ASSERT(kalman->V && kalman->W && kalman->P0 && state->P);
     LQG_ASSERT(!kalman->M || (kalman->A_free && state->innovation));
 }
@@ -25,6 +26,7 @@ static void begin_covariance(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_
 static void begin_estimate(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_state_t *state)
 {
     lqg_plant_begin(&kalman->plant, kalman->x0, state->x, state->u_applied, state->innovation);
+    begin_widening(kalman->gate, &state->gate, kalman->plant.ny);
     begin_covariance(kalman, state);
 }
 
@@ -32,7 +34,6 @@ void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_st
 {
     check_contract(kalman, state);
     begin_estimate(kalman, state);
-    lqg_gate_begin(kalman->gate, &state->gate, kalman->plant.ny);
 }
 
 /* x̂ not within its bounds: all begins anew. P not within its own, or no covariance: P does, and x̂ stays. */
@@ -41,7 +42,6 @@ static lqg_status_t recover(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_s
 {
     if (!x_is_fit) {
         begin_estimate(kalman, state);
-        lqg_gate_forget(kalman->gate, &state->gate, kalman->plant.ny);
         return LQG_STATE_RESET;
     }
     if (!P_is_fit) {
@@ -85,7 +85,7 @@ static lqg_status_t update_output(const lqg_kalman_plain_t *kalman, lqg_kalman_p
     const lqg_real *c = kalman->plant.C + i * nx;
     lqg_real *x = state->x, *P = state->P, *f = state->work;
 
-    /* f = P cᵀ,  s = c P cᵀ + v */
+    /* f = P cᵀ,  s = c P cᵀ + V_i */
     for (unsigned j = 0; j < nx; j++)
         f[j] = symmetric_row_product(P, j, nx, c);
     const lqg_real s = add_row_product(kalman->V[i], c, 0, nx, f);
@@ -133,7 +133,7 @@ lqg_status_t lqg_kalman_plain_partial_update(const lqg_kalman_plain_t *kalman, l
         const lqg_status_t left_out = is_used ? update_output(kalman, state, i, outputs[i], &keeper) : LQG_OK;
         const int heard = is_used && !left_out;
         if (!is_used)
-            lqg_gate_skip(&keeper, i, 0);
+            skip(&keeper, i, 0);
         status |= left_out;
         if (kalman->M)
             state->innovation[i] = heard ? 1 : 0;

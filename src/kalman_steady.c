@@ -13,6 +13,7 @@ static void check_contract(const lqg_kalman_steady_t *kalman, const lqg_kalman_s
     (void)state;
     LQG_ASSERT(kalman && state);
     check_plant(&kalman->plant, state->x, state->u_applied);
+    check_gate(kalman->gate, &state->gate);
     LQG_ASSERT(kalman->L && (state->innovation || !kalman->M));
     LQG_ASSERT(kalman->S || !kalman->gate);
 }
@@ -20,13 +21,13 @@ static void check_contract(const lqg_kalman_steady_t *kalman, const lqg_kalman_s
 static void begin_estimate(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state)
 {
     lqg_plant_begin(&kalman->plant, kalman->x0, state->x, state->u_applied, state->innovation);
+    begin_widening(kalman->gate, &state->gate, kalman->plant.ny);
 }
 
 void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state)
 {
     check_contract(kalman, state);
     begin_estimate(kalman, state);
-    lqg_gate_begin(kalman->gate, &state->gate, kalman->plant.ny);
 }
 
 static lqg_status_t reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state)
@@ -38,7 +39,6 @@ static lqg_status_t reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_
         return LQG_OK;
 
     begin_estimate(kalman, state);
-    lqg_gate_forget(kalman->gate, &state->gate, kalman->plant.ny);
     return LQG_STATE_RESET;
 }
 
@@ -80,7 +80,7 @@ lqg_status_t lqg_kalman_steady_partial_update(const lqg_kalman_steady_t *kalman,
         if (used & 1ul)
             innovation[i] = innovate(kalman, state, i, y[i], &keeper, &status);
         else
-            lqg_gate_skip(&keeper, i, 1);
+            skip(&keeper, i, 1);
         used = after_lowest(used);
     }
 

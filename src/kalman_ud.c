@@ -13,6 +13,7 @@ static void check_contract(const lqg_kalman_ud_t *kalman, const lqg_kalman_ud_st
     (void)state;
     LQG_ASSERT(kalman && state);
     check_plant(&kalman->plant, state->x, state->u_applied);
+    check_gate(kalman->gate, &state->gate);
     LQG_ASSERT(kalman->V && kalman->d0 && state->d);
     LQG_ASSERT(kalman->plant.nx == 1 || (kalman->U0 && state->U));
     LQG_ASSERT(!kalman->nw || (kalman->G && kalman->W));
@@ -28,6 +29,7 @@ static void begin_covariance(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_state_
 static void begin_estimate(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_state_t *state)
 {
     lqg_plant_begin(&kalman->plant, kalman->x0, state->x, state->u_applied, state->innovation);
+    begin_widening(kalman->gate, &state->gate, kalman->plant.ny);
     begin_covariance(kalman, state);
 }
 
@@ -35,7 +37,6 @@ void lqg_kalman_ud_init(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_state_t *st
 {
     check_contract(kalman, state);
     begin_estimate(kalman, state);
-    lqg_gate_begin(kalman->gate, &state->gate, kalman->plant.ny);
 }
 
 /* x̂ not within its bounds: all begins anew. U or d not within theirs, or d no variances: they do, and x̂ stays. */
@@ -43,7 +44,6 @@ static lqg_status_t recover(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_state_t
 {
     if (!x_is_fit) {
         begin_estimate(kalman, state);
-        lqg_gate_forget(kalman->gate, &state->gate, kalman->plant.ny);
         return LQG_STATE_RESET;
     }
     if (!P_is_fit) {
@@ -107,7 +107,7 @@ lqg_status_t lqg_kalman_ud_partial_update(const lqg_kalman_ud_t *kalman, lqg_kal
         const lqg_status_t left_out = is_used ? update_output(kalman, state, i, outputs[i], &keeper) : LQG_OK;
         const int heard = is_used && !left_out;
         if (!is_used)
-            lqg_gate_skip(&keeper, i, 0);
+            skip(&keeper, i, 0);
         status |= left_out;
         if (kalman->M)
             state->innovation[i] = heard ? 1 : 0;

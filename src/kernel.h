@@ -18,6 +18,11 @@
 #define LQG_ASSERT(condition) ((void)0)
 #endif
 
+#define lqg_begin LQG_VARIANT(lqg_begin)
+
+/* to ← from, or ← 0 where there is no from; nothing where there is no to. */
+void lqg_begin(lqg_real to[], const lqg_real from[], unsigned length);
+
 LQG_STRICT_BEGIN
 
 /* a b + c */
@@ -103,13 +108,6 @@ static inline void copy(lqg_real to[], const lqg_real from[], unsigned length)
 {
     for (unsigned i = 0; i < length; i++)
         to[i] = from[i];
-}
-
-/* to ← from, or ← 0 where there is no from; nothing where there is no to. */
-static inline void begin(lqg_real to[], const lqg_real from[], unsigned length)
-{
-    for (unsigned i = 0; to && i < length; i++)
-        to[i] = from ? from[i] : 0;
 }
 
 LQG_STRICT_END

@@ -26,7 +26,7 @@ void lqg_loop_steady_init(const lqg_loop_steady_t *loop, lqg_loop_steady_state_t
 {
     check_contract(&loop->kalman.plant, &loop->lqr, state->u);
     lqg_kalman_steady_init(&loop->kalman, &state->kalman);
-    begin(state->u, NULL, loop->lqr.nu);
+    lqg_begin(state->u, NULL, loop->lqr.nu);
 }
 
 lqg_status_t lqg_loop_steady_step(const lqg_loop_steady_t *loop, lqg_loop_steady_state_t *state, const lqg_real y[])
@@ -45,7 +45,7 @@ void lqg_loop_plain_init(const lqg_loop_plain_t *loop, lqg_loop_plain_state_t *s
 {
     check_contract(&loop->kalman.plant, &loop->lqr, state->u);
     lqg_kalman_plain_init(&loop->kalman, &state->kalman);
-    begin(state->u, NULL, loop->lqr.nu);
+    lqg_begin(state->u, NULL, loop->lqr.nu);
 }
 
 lqg_status_t lqg_loop_plain_step(const lqg_loop_plain_t *loop, lqg_loop_plain_state_t *state, const lqg_real y[])
@@ -64,7 +64,7 @@ void lqg_loop_ud_init(const lqg_loop_ud_t *loop, lqg_loop_ud_state_t *state)
 {
     check_contract(&loop->kalman.plant, &loop->lqr, state->u);
     lqg_kalman_ud_init(&loop->kalman, &state->kalman);
-    begin(state->u, NULL, loop->lqr.nu);
+    lqg_begin(state->u, NULL, loop->lqr.nu);
 }
 
 lqg_status_t lqg_loop_ud_step(const lqg_loop_ud_t *loop, lqg_loop_ud_state_t *state, const lqg_real y[])

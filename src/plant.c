@@ -10,9 +10,9 @@ LQG_STRICT_BEGIN
 void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
                      lqg_real innovation[])
 {
-    begin(x, x0, plant->nx);
-    begin(u_applied, NULL, plant->nu);
-    begin(innovation, NULL, plant->ny);
+    lqg_begin(x, x0, plant->nx);
+    lqg_begin(u_applied, NULL, plant->nu);
+    lqg_begin(innovation, NULL, plant->ny);
 }
 
 lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[],
@@ -64,7 +64,8 @@ void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[
     copy(x, work, nx);
     if (u_applied)
         copy(u_applied, u, nu);
-    begin(innovation, NULL, ny);
+    if (innovation)
+        lqg_begin(innovation, NULL, ny);
 }
 
 LQG_STRICT_END

@@ -19,7 +19,7 @@ static void check_contract(const lqg_rls_t *rls, const lqg_rls_state_t *state)
 
 static void begin_covariance(const lqg_rls_t *rls, lqg_rls_state_t *state)
 {
-    begin(state->U, NULL, LQG_STRICT_TRIANGLE(rls->ntheta));
+    lqg_begin(state->U, NULL, LQG_STRICT_TRIANGLE(rls->ntheta));
     for (unsigned i = 0; i < rls->ntheta; i++) {
         const lqg_real wanted = rls->P0_diagonal[i];
         state->d[i] = rls->P_limits && wanted > rls->P_limits[i] ? rls->P_limits[i] : wanted;
@@ -29,7 +29,7 @@ static void begin_covariance(const lqg_rls_t *rls, lqg_rls_state_t *state)
 void lqg_rls_init(const lqg_rls_t *rls, lqg_rls_state_t *state)
 {
     check_contract(rls, state);
-    begin(state->theta, rls->theta0, rls->ntheta);
+    lqg_begin(state->theta, rls->theta0, rls->ntheta);
     begin_covariance(rls, state);
 }
 

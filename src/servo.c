@@ -20,16 +20,16 @@ static void check_contract(const lqg_servo_t *servo, const lqg_servo_state_t *st
 /* All but r. */
 static void begin_memory(const lqg_servo_t *servo, lqg_servo_state_t *state)
 {
-    begin(state->xi, NULL, servo->nxi);
-    begin(state->error, NULL, servo->nxi);
-    begin(state->demand, NULL, servo->nu);
-    begin(state->u_applied, NULL, servo->nu);
+    lqg_begin(state->xi, NULL, servo->nxi);
+    lqg_begin(state->error, NULL, servo->nxi);
+    lqg_begin(state->demand, NULL, servo->nu);
+    lqg_begin(state->u_applied, NULL, servo->nu);
 }
 
 void lqg_servo_init(const lqg_servo_t *servo, lqg_servo_state_t *state)
 {
     check_contract(servo, state);
-    begin(state->r, NULL, servo->nr);
+    lqg_begin(state->r, NULL, servo->nr);
     begin_memory(servo, state);
 }
 

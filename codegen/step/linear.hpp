@@ -46,7 +46,7 @@ Vector<S> heard_outputs(const LinearModel<S>& model, const LinearState<S>& state
   Vector<S> heard(y.size());
   for (int i = 0; i < y.size(); ++i) {
     listener.section("y, or what is expected where it is not finite", i);
-    auto usable = listener.accept(is_finite(S(y(i))), Event::output_not_finite);
+    auto usable = listener.accept(is_finite(S(y(i))), i);
     heard(i) = select(usable, S(y(i)), add_product(S(0), model.expected, i, state.z));
     listener.name(heard(i), "heard");
   }

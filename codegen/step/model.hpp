@@ -134,14 +134,29 @@ void begin_anew(const Model<S>& model, State<S>& state) {
 }
 
 enum class Event {
-  output_not_finite,
+  output_rejected,
   innovation_not_positive,
   input_limited,
   state_reset,
   reference_not_finite,
   output_gated,
-  covariance_reset
+  covariance_reset,
+  first_rejected,  // and seven more behind it: which outputs were rejected
 };
+
+// How many outputs are told apart, all from the last on together.
+inline constexpr int told_rejections = 8;
+
+// That output i was the one.
+inline Event rejection_of(int i) {
+  return static_cast<Event>(static_cast<int>(Event::first_rejected) + (i < told_rejections ? i : told_rejections - 1));
+}
+
+// The bits of all of these.
+inline unsigned all_rejections() {
+  return ((1u << told_rejections) - 1) << static_cast<unsigned>(Event::first_rejected) |
+         1u << static_cast<unsigned>(Event::output_rejected);
+}
 
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {
@@ -155,14 +170,21 @@ struct Listener {
   void raise(Event event, bool happened) {
     if (happened) events |= 1u << static_cast<unsigned>(event);
   }
-  // Says that an output was left out, and why, unless it is usable; returns whether it is.
-  bool accept(bool usable, Event reason) {
-    raise(reason, !usable);
+  // Output i was not believable.
+  void reject(int i, bool rejected) {
+    raise(Event::output_rejected, rejected);
+    raise(rejection_of(i), rejected);
+  }
+  // Says that output i was left out unless it is usable; returns whether it is.
+  bool accept(bool usable, int i) {
+    reject(i, !usable);
     return usable;
   }
-  // Likewise, with one reason if the innovation is believable and another if it is not.
-  bool accept(bool usable, bool believable, Event if_believable, Event if_not) {
-    return accept(usable, believable ? if_believable : if_not);
+  // Likewise; if the innovation is believable, it is its variance that is not positive.
+  bool accept(bool usable, bool believable, int i) {
+    raise(Event::innovation_not_positive, believable && !usable);
+    reject(i, !believable);
+    return usable;
   }
   // `condition`, and that the event did not happen in this call.
   bool without(Event event, bool condition) const {

@@ -30,7 +30,7 @@ Weighing<S> weighing_of(const Model<S>& model, int i) {
           S(model.gate_narrow(i))};
 }
 
-// w, from 1 to the widest whatever it was: a NaN is 1.
+// The widening, from 1 to the widest whatever it was: a NaN is 1.
 template <class S, class Listener>
 S kept_width(const S& width, Listener& listener) {
   const S widest = PowerOfTwo<S>::of(widest_gate_exponent);
@@ -39,21 +39,19 @@ S kept_width(const S& width, Listener& listener) {
   return select(is_less(least, widest), least, widest);
 }
 
-// Whether ν of the variance s is believable, and ν² ≤ gate² s w. Then w narrows. It widens where the gate left the output
+// Whether ν of the variance s is believable, and ν² ≤ gate² s widening. Then that narrows. It widens where the gate left the output
 // out: then x̂ is wrong, not the sensor, if that goes on. With a constant gain it widens, too, while nothing usable comes: P,
 // which is not carried, would grow.
 template <class S, class Listener>
 auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, const S& s, int i, Listener& listener) {
-  listener.section("w, at least 1");
+  listener.section("the widening, at least 1");
   const S width = kept_width(widening, listener);
   listener.name(width, "width");
-  listener.section("0 < S, |innovation| below its limit, innovation² ≤ gate² S w");
+  listener.section("0 < S, |innovation| below its limit, innovation² ≤ gate² S widening");
   auto believable = is_less(absolute(nu), weighing.limit);
   listener.name(believable, "believable");
-  auto usable = weighing.filter == Filter::plain
-                    ? listener.accept(both(believable, is_less(S(0), s)), believable, Event::innovation_not_positive,
-                                      Event::output_not_finite)
-                    : listener.accept(believable, Event::output_not_finite);
+  auto usable = weighing.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), s)), believable, i)
+                                                 : listener.accept(believable, i);
   auto beyond = is_less(S(S(weighing.square * s) * width), S(nu * nu));
   listener.name(beyond, "beyond");
   auto gated = both(usable, beyond);
@@ -61,7 +59,7 @@ auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, con
   listener.gate(gated, i);
   auto used = both(usable, negation(beyond));
   listener.name(used, "used");
-  listener.section("w widens or narrows");
+  listener.section("it widens or narrows");
   const S unheard = weighing.filter == Filter::steady ? weighing.widen : select(gated, weighing.widen, S(1));
   const S next = select(used, weighing.narrow, unheard) * width;
   listener.name(next, "next_width");
@@ -70,16 +68,15 @@ auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, con
 }
 
 // Whether output i is used, of its innovation ν. `variance` makes s, the variance of ν, which is `least` or more. Most are as
-// expected: ν² < gate² least while w is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
+// expected: ν² < gate² least while the widening is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
 // ν² < limit² for a power of two. It tells that s is positive, too.
 template <class S, class Variance, class Listener>
 auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, Variance variance, int i,
            Listener& listener) {
   if (is_zero(model.gate)) {
     auto believable = is_believable(model.nu_limit, i, nu);
-    return model.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), least)), believable,
-                                                           Event::innovation_not_positive, Event::output_not_finite)
-                                         : listener.accept(believable, Event::output_not_finite);
+    return model.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), least)), believable, i)
+                                         : listener.accept(believable, i);
   }
   const S most = S(model.gate * model.gate) * least, limit = model.nu_limit(i) * model.nu_limit(i);
   const S threshold = select(is_less(most, limit), most, limit);

@@ -95,9 +95,14 @@ Printer::Printer(const Graph& graph, const std::vector<int>& results) : graph_(g
 
 std::string Printer::operand(int node) const { return print(node, unary + 1); }
 
+bool Printer::is_parameter(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  return at.op == Op::input && at.text == at.name;
+}
+
 bool Printer::is_declared(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  if (at.op == Op::constant || at.op == Op::flag) return false;
+  if (at.op == Op::constant || at.op == Op::flag || is_parameter(node)) return false;
   return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1;
 }
 
@@ -175,7 +180,9 @@ std::string Printer::print_operation(int node, int level) const {
 // Where C reads the value from now on: by its name or, once all stores are done, where it has been stored or was loaded
 // from.
 std::vector<std::string> Printer::places(int node, const std::vector<Store>* stores) const {
-  if (!stores) return needs(node) && is_declared(node) ? std::vector{name_of(node)} : std::vector<std::string>();
+  if (!stores)
+    return needs(node) && (is_declared(node) || is_parameter(node)) ? std::vector{name_of(node)}
+                                                                    : std::vector<std::string>();
   std::vector<std::string> out;
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   bool is_overwritten = false;
@@ -233,7 +240,7 @@ std::string Printer::question(int node) const {
 std::string Printer::declaration(int node) const {
   if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked) return question(node);
   const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "int"
-                           : is_status(node)                                               ? "lqg_status"
+                           : is_status(node)                                               ? "lqg_status_t"
                            : graph_.target().is_double                                     ? "double"
                                                                                            : "float";
   return wrap("    const " + type + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";

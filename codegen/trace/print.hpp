@@ -49,6 +49,7 @@ class Printer {
   Operations operations() const;
 
  private:
+  bool is_parameter(int node) const;  // an input that C knows by its name already
   bool is_status(int node) const;
   std::string name_of(int node) const;
   std::string print(int node, int level) const;

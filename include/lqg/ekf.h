@@ -83,7 +83,7 @@ void lqg_ekf_init(const lqg_ekf_t *ekf, lqg_ekf_state_t *state);
 
 /* With ŷ = h(x̂, u) and C of the estimate before this sample's outputs: for each output i, with the row c of C,
  *
- *     s = c P cᵀ + v,   gain = P cᵀ/s,   innovation = y_i − ŷ_i − c δ,
+ *     s = c P cᵀ + V_i,   gain = P cᵀ/s,   innovation = y_i − ŷ_i − c δ,
  *     δ ← δ + gain innovation,   P ← P − gain (P cᵀ)ᵀ
  *
  * from δ = 0, and x̂ ← x̂ + δ.

@@ -77,20 +77,20 @@ typedef struct {
  * Without widening an x̂ that is far off is never corrected. */
 typedef struct {
     lqg_real sigma;         /* standard deviations, > 0 */
-    const lqg_real *start;  /* ny, widening after init, ≥ 1; NULL: 1 */
+    const lqg_real *start;  /* ny, widening after init and a reset, ≥ 1; NULL: 1 */
     const lqg_real *widen;  /* ny, > 1; NULL: the gate keeps its width */
     const lqg_real *narrow; /* ny, < 1; NULL when widen is */
 } lqg_gate_t;
 
 /* What a gate remembers. */
 typedef struct {
-    lqg_real *widening;     /* ny; MAY be NULL when there is no gate, or widen is NULL */
-    unsigned long *gated;   /* ny, how often the gate left each output out since init; NULL: not counted */
+    lqg_real *widening;     /* ny, 0 counts as 1; MAY be NULL when there is no gate, or widen is NULL */
+    unsigned long *gated;   /* ny, how often the gate left each output out, begun by the caller; NULL: not counted */
 } lqg_gate_state_t;
 
 /* What an update tells of itself. Each array MAY be NULL, and is then not written. */
 typedef struct {
-    lqg_real *innovation;   /* ny, out: of each output that is used or gated; 0: it was rejected */
+    lqg_real *innovation;   /* ny, out: of each output that is used or gated; 0 elsewhere */
     lqg_real *S;            /* ny, out: its variance */
     unsigned char *heard;   /* ny, out: 1 where the output was used, else 0 */
 } lqg_watch_t;
@@ -229,9 +229,9 @@ typedef struct {
 /* x̂ = x0, P = P0; nothing applied yet. */
 void lqg_kalman_plain_init(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_state_t *state);
 
-/* For each output i, with the row c of C and the variance v of V:
+/* For each output i, with the row c of C:
  *
- *     s = c P cᵀ + v,   gain = P cᵀ / s,   x̂ ← x̂ + gain (y'_i − c x̂ − D_i u),   P ← P − gain (P cᵀ)ᵀ
+ *     s = c P cᵀ + V_i,   gain = P cᵀ / s,   x̂ ← x̂ + gain (y'_i − c x̂ − D_i u),   P ← P − gain (P cᵀ)ᵀ
  *
  * y  in: the outputs. One that is rejected or gated, or whose s is not positive, is not used.
  *

@@ -46,7 +46,8 @@ static void run_hostile(const model_t *model, unsigned filter, lqg_form_t form, 
         TEST_ASSERT_TRUE(all_finite(&loop.state));
         TEST_ASSERT_TRUE(u[0] >= -1 && u[0] <= 1);
         if (which < NOT_FINITE) {
-            TEST_ASSERT_EQUAL_HEX(is_hostile ? expected_of(model, filter, output) : LQG_OK, status & ~LQG_INPUT_LIMITED);
+            TEST_ASSERT_EQUAL_HEX(is_hostile ? expected_of(model, filter, output) : LQG_OK,
+                                  status & ~LQG_INPUT_LIMITED);
         } else if (sample < when && when < SAMPLES) {
             TEST_ASSERT_EQUAL_UINT(LQG_OK, status & ~LQG_INPUT_LIMITED);
         }

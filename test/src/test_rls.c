@@ -241,7 +241,7 @@ static void test_parameter_that_is_not_finite_begins_all_anew(void)
 
     update(&rls, &s, phi, 1);
     s.theta[1] = NAN;
-    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0) | LQG_STATE_RESET, update(&rls, &s, phi, 1));
+    TEST_ASSERT_EQUAL_UINT(REJECTED(0) | LQG_STATE_RESET, update(&rls, &s, phi, 1));
     TEST_ASSERT_EQUAL_MEMORY(&first, &s, sizeof s);
 }
 
@@ -268,7 +268,7 @@ static void test_nothing_changes_to_the_bit_when_a_sample_is_hostile(void)
             const int squares_overflow = sizeof(lqg_real) == sizeof(float) || h < 3;
             *(i < 3 ? &phi[i] : &y) = h < 3 || i < 3 ? hostile[h] : INFINITY;
             if (squares_overflow) {
-                TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0), update(&rls, &s, phi, y));
+                TEST_ASSERT_EQUAL_UINT(REJECTED(0), update(&rls, &s, phi, y));
                 TEST_ASSERT_TRUE(memcmp(&before, &s, sizeof s) == 0);
             }
         }

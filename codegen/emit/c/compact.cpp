@@ -34,40 +34,32 @@ std::string noises(const Controller& controller) {
   return ", " + std::to_string(most);
 }
 
-// What the library is told beside the outputs, and what it tells: a gate, and which outputs it has used.
-std::string watch(const Controller& controller, bool tells_heard) {
-  const std::string heard = tells_heard ? "heard" : "NULL";
-  const char* const gate =
-      "{NULL, {gate}, self->gated, NULL, NULL, self->widening, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW, ";
-  Words words = common_words(controller);
-  words["gate"] = trace::literal(controller.gate.sigma, controller.target.is_double);
-  return controller.has.gate ? fill(gate, words) + heard + "}"
-                             : "{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, " + heard + "}";
+// The library's state of the filter over the members of NAME_t; `work` is its scratch.
+std::string state_of_filter(const Controller& controller, const std::string& work) {
+  const bool has_U = controller.size.nx > 1;
+  const std::string covariance = controller.filter == step::Filter::plain ? "self->P, "
+                                 : controller.filter != step::Filter::ud  ? ""
+                                 : has_U                                  ? "self->U, self->d, "
+                                                                          : "NULL, self->d, ";
+  return "{self->x, " + covariance + (controller.has.feedthrough ? "self->u_applied, " : "NULL, ") +
+         (controller.keeps.innovation ? "self->innovation, " : "NULL, ") +
+         (controller.has.gate ? "{self->widening, self->gated}, " : "{NULL, NULL}, ") + work + "}";
 }
 
 // The arguments of the filter's calls: its description, its state, and how long its scratch is.
 Words filter_words(const Controller& controller) {
   const Words common = common_words(controller);
+  const bool is_steady = controller.filter == step::Filter::steady;
   const std::string plant = fill(controller.has.stages ? "{name}_kalman(self)" : "&{NAME}_KALMAN", common);
-  const std::string covariance = controller.filter == step::Filter::plain ? "self->P, "
-                                 : controller.filter != step::Filter::ud  ? ""
-                                 : controller.size.nx > 1                 ? "self->U, self->d, "
-                                                                          : "NULL, self->d, ";
-  const char* const u_applied = controller.has.feedthrough ? "self->u_applied, " : "NULL, ";
-  Words words = {
-      {"FILTER", upper(filter_name(controller.filter))},
-      {"plant", plant},
-      {"first_stage", fill(controller.has.stages ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", common)},
-      {"kalman", controller.keeps.gain_row ? "&kalman" : plant},
-      {"state", "self->x, " + covariance + u_applied + (controller.keeps.innovation ? "self->innovation" : "NULL")},
-      {"u", controller.size.nu ? "u" : "NULL"},
-      {"nq", noises(controller)}};
-  if (controller.filter == step::Filter::steady)
-    words["variances"] =
-        fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + {filter_row} * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
-  else
-    words["variances"] = "";
-  words["watch"] = watch(controller, false);
+  Words words = {{"FILTER", upper(filter_name(controller.filter))},
+                 {"plant", plant},
+                 {"first_stage", fill(controller.has.stages ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", common)},
+                 {"kalman", controller.keeps.gain_row ? "&kalman" : plant},
+                 {"state", state_of_filter(controller, "work")},
+                 {"state_without_work", state_of_filter(controller, "NULL")},
+                 {"state_alone", state_of_filter(controller, is_steady ? "NULL" : "work")},
+                 {"u", controller.size.nu ? "u" : "NULL"},
+                 {"nw", noises(controller)}};
   if (controller.keeps.gain_row)
     words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
   return words;
@@ -83,20 +75,32 @@ std::string law_of_sample(const Controller& controller) {
                 {"has_H", controller.has.servo && gains[2].size() > 0}});
 }
 
-// The call of the law, and the arguments of what keeps its memory.
+// A law that changes nothing takes a copy of r: its NAME_t is const.
+bool copies_r(const Controller& controller) {
+  return controller.has.filter && controller.size.nr > 0 && !controller::control_changes_state(controller);
+}
+
+// The library's state of the law over the members of NAME_t.
+std::string state_of_law(const Controller& controller, bool copies) {
+  const bool integrates = controller.size.nxi > 0;
+  return std::string("{") +
+         (!controller.size.nr ? "NULL"
+          : copies            ? "r"
+                              : "self->r") +
+         (integrates ? ", self->xi, self->error, self->demand, " : ", NULL, NULL, NULL, ") +
+         (controller.has.last_input ? "self->u_applied}" : "NULL}");
+}
+
+// The call of the law, and the state that it shares with what keeps its memory.
 Words law_words(const Controller& controller) {
-  const bool integrates = controller.size.nxi > 0, has_table = has_law_table(controller);
-  const std::string last_input = controller.has.last_input ? "self->u_applied" : "NULL";
+  const bool has_table = has_law_table(controller);
   Words words = common_words(controller);
   words["servo"] = has_table ? "&servo" : fill("&{NAME}_SERVO", words);
   words["lqr"] = has_table ? "&lqr" : fill("&{NAME}_LQR", words);
-  words["memory"] = (integrates ? "self->xi, self->error, self->demand, " : "NULL, NULL, NULL, ") + last_input;
-  words["before"] = (integrates ? "self->xi, self->demand, " : "NULL, NULL, ") + last_input;
-  words["r"] = controller.size.nr ? "self->r" : "NULL";
+  words["memory"] = state_of_law(controller, false);
   words["x"] = controller.has.filter ? "self->x" : "x";
   words["law"] = fill(
-      controller.has.servo ? "lqg_servo_control({servo}, {x}, {r}, {before}, u)" : "lqg_lqr_control({lqr}, {x}, u)",
-      words);
+      controller.has.servo ? "lqg_servo_control({servo}, &memory, {x}, u)" : "lqg_lqr_control({lqr}, {x}, u)", words);
   if (has_table) words["law_of_sample"] = law_of_sample(controller);
   return words;
 }
@@ -110,25 +114,18 @@ std::string init_body(const Controller& controller) {
 }
 
 std::string update_body(const Controller& controller) {
-  const bool integrates = controller.size.nxi > 0;
   Words words = filter_words(controller);
-  words["watch"] = watch(controller, integrates);
+  words["memory"] = state_of_law(controller, false);
   words["y"] = controller.has.range ? "said" : "y";
-  if (!controller.has.gate && controller.filter == step::Filter::steady) words["variances"] = "NULL, ";
-  return write_body(templates::compact_update, controller, words, {{"watches", controller.has.gate || integrates}});
+  return write_body(templates::compact_update, controller, words);
 }
 
 // The update by one output, and r − y of it where it is integrated.
 std::string update_alone_body(const Controller& controller, int output) {
   Words words = filter_words(controller);
-  const std::string variances = controller.filter != step::Filter::steady ? ""
-                                : controller.has.gate                     ? words["variances"]
-                                                                          : "NULL, ";
   words["i"] = std::to_string(output);
   words["given"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
   words["y"] = controller.has.range ? "said" : words["given"];
-  words["watched"] = variances + (controller.has.gate ? "&watch" : "NULL") +
-                     (controller.filter == step::Filter::steady ? "" : ", work");
   const TracedFunction observation = trace_observation(controller, output);
   words["observation"] = statements(observation);
   return write_body(templates::compact_update_alone, controller, words, {{"observes", !observation.stores.empty()}});
@@ -144,8 +141,15 @@ std::string predict_body(const Controller& controller) {
 }
 
 std::string control_body(const Controller& controller) {
-  return write_body(templates::compact_control, controller, law_words(controller),
-                    {{"feedthrough_or_table", controller.has.feedthrough || has_law_table(controller)}});
+  Words words = law_words(controller);
+  const bool copies = copies_r(controller);
+  words["memory"] = state_of_law(controller, copies);
+  for (int i = 0; copies && i < controller.size.nr; ++i)
+    words["references"] += (i ? ", self->r[" : "self->r[") + std::to_string(i) + "]";
+  return write_body(
+      templates::compact_control, controller, words,
+      {{"copies_r", copies},
+       {"needs_empty_line", controller.has.feedthrough || has_law_table(controller) || controller.has.servo}});
 }
 
 // a b added to y[i], in C.

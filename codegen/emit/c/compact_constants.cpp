@@ -9,6 +9,7 @@
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
 #include "emit/text/wording.hpp"
+#include "trace/print.hpp"
 
 namespace lqg::emit {
 
@@ -84,12 +85,18 @@ void add_range(const Controller& controller, Tables& tables) {
   tables.add("Y_MAX", limits_row(estimator.output_max, -1, controller.target.is_double));
 }
 
-std::string bound_fields(const Controller& controller, Tables& tables) {
+std::string gate_name(const Controller& controller) {
+  return controller.has.gate ? "&" + upper(controller.problem.name) + "_KALMAN_GATE" : "NULL";
+}
+
+// The bounds and the gate, with which a description ends; `variances` are those that a constant gain has behind it.
+std::string last_fields(const Controller& controller, Tables& tables, const std::string& variances = "") {
   const Eigen::VectorXd& limits = controller.bounds.innovation;
   return "    " +
          fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
-                 numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables)}) +
-         "  /* x_scale, innovation_limit */\n";
+                 numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables), gate_name(controller)}) +
+         (variances.empty() ? "" : ", " + variances) + "  /* x_scale, innovation_limit, gate" +
+         (variances.empty() ? "" : ", S") + " */\n";
 }
 
 std::string initial_state(const Controller& controller, Tables& tables) {
@@ -110,12 +117,12 @@ RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
 
 std::string steady_fields(const Controller& controller, const design::SampledPlant& plant, Tables& tables) {
   std::string out = plant_fields(controller, plant, plant.C, plant.D, tables);
-  if (controller.has.gate) tables.add("S", stacked(controller.filters, 2));
+  const std::string S = controller.has.gate ? tables.add("S", stacked(controller.filters, 2)) : "NULL";
   return out + "    " +
          fields({tables.add("L", stacked(controller.filters, 0)),
                  controller.keeps.innovation ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
                  initial_state(controller, tables)}) +
-         ",  /* L, M, x0 */\n" + bound_fields(controller, tables);
+         ",  /* L, M, x0 */\n" + last_fields(controller, tables, S);
 }
 
 std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
@@ -135,16 +142,16 @@ std::string online_fields(const Controller& controller, const design::SampledPla
     out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
     add_rest();
     return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(first.P0))}) +
-           ",  /* x0, P0 */\n" + bound_fields(controller, tables);
+           ",  /* x0, P0 */\n" + last_fields(controller, tables);
   }
   out += "    " +
          fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
-         ",  /* nq, G, w */\n";
+         ",  /* nw, G, W */\n";
   add_rest();
   return out + "    " +
          fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
                  tables.add("D0", as_row(first.D0))}) +
-         ",  /* x0, U0, d0 */\n" + bound_fields(controller, tables);
+         ",  /* x0, U0, d0 */\n" + last_fields(controller, tables);
 }
 
 // The limits of the file; nothing is defined for those that no input has.
@@ -191,6 +198,13 @@ void add_gate(const Controller& controller, Tables& tables) {
   add("WIDENING", controller.gate.start);
   add("WIDEN", controller.gate.widen);
   add("NARROW", controller.gate.narrow);
+  Words words = common_words(controller);
+  words["sigma"] = trace::literal(controller.gate.sigma, controller.target.is_double);
+  tables.text += fill(R"(static const lqg_gate_t {NAME}_KALMAN_GATE = {
+    {sigma}, {NAME}_KALMAN_WIDENING, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW  /* sigma, start, widen, narrow */
+};
+)",
+                      words);
 }
 
 }  // namespace

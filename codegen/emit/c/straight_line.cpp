@@ -69,7 +69,7 @@ std::string status(const Controller& controller, const Printed& printed) {
         return {name}_{recover}(self, status);
     return status;
 )",
-              {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
+              {{"status", trace::wrap("    const lqg_status_t status = " + raised + ";", 8)},
                {"unless_sound", unless_sound(controller, printed)},
                {"recover", function.checks_covariance ? "recover" : "reset"},
                {"name", controller.problem.name}});
@@ -108,7 +108,7 @@ std::string body(const Controller& controller, const TracedFunction& function,
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
   return "    LQG_STRICT_BODY\n" + unused + tables +
-         (!function.asked.empty() ? "    lqg_status status = LQG_OK;\n" : "") +
+         (!function.asked.empty() ? "    lqg_status_t status = LQG_OK;\n" : "") +
          printed.printer.statements(function.stores) + (end.empty() ? "" : "\n") + end;
 }
 
@@ -146,9 +146,10 @@ std::string statements(const TracedFunction& function) { return Printed(function
 std::string collect_lost(const TracedFunction& function) {
   const Printed printed(function);
   std::string out = printed.printer.statements({});
-  for (std::size_t i = 0; i < function.lost.size(); ++i)
-    out +=
-        "    lost |= " + printed.printer.expression(function.lost[i]) + " ? 1ul << " + std::to_string(i) + " : 0ul;\n";
+  for (int i = 0; i < static_cast<int>(function.lost.size()); ++i)
+    out += "    if ((used & " + std::to_string(1ul << i) + "ul) != 0ul && " +
+           printed.printer.expression(function.lost[static_cast<std::size_t>(i)]) +
+           ")\n        rejected |= " + rejection(i) + ";\n";
   return out;
 }
 

@@ -5,9 +5,12 @@ namespace lqg::emit {
 
 using trace::Condition;
 
-const char* status_name(step::Event event) {
+std::string status_name(step::Event event) {
+  if (event >= step::Event::first_rejected)
+    return "LQG_OUTPUT_REJECTED_BIT(" +
+           std::to_string(static_cast<int>(event) - static_cast<int>(step::Event::first_rejected)) + ")";
   switch (event) {
-    case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
+    case step::Event::output_rejected: return "LQG_OUTPUT_REJECTED";
     case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
     case step::Event::input_limited: return "LQG_INPUT_LIMITED";
     case step::Event::output_gated: return "LQG_OUTPUT_GATED";
@@ -15,6 +18,10 @@ const char* status_name(step::Event event) {
     case step::Event::covariance_reset: return "LQG_COVARIANCE_RESET";
     default: return "LQG_STATE_RESET";
   }
+}
+
+std::string rejection(int output) {
+  return "(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(" + (output < 0 ? "i" : std::to_string(output)) + "))";
 }
 
 void TraceListener::section(const std::string& equation, int output) {
@@ -30,14 +37,14 @@ void TraceListener::raise(step::Event event, const Condition& condition) {
     function_.statuses.push_back(choice(condition, function_.graph->flag(status_name(event)), flag_ok()));
 }
 
-Condition TraceListener::accept(const Condition& usable, step::Event reason) {
-  return accept_or(usable, function_.graph->flag(status_name(reason)));
+Condition TraceListener::accept(const Condition& usable, int output) {
+  return accept_or(usable, function_.graph->flag(rejection(output)));
 }
 
-Condition TraceListener::accept(const Condition& usable, const Condition& finite, step::Event if_finite,
-                                step::Event if_not) {
-  const int one = function_.graph->flag(status_name(if_finite)), other = function_.graph->flag(status_name(if_not));
-  return accept_or(usable, choice(finite, one, other));
+Condition TraceListener::accept(const Condition& usable, const Condition& believable, int output) {
+  const int one = function_.graph->flag(status_name(step::Event::innovation_not_positive)),
+            other = function_.graph->flag(rejection(output));
+  return accept_or(usable, choice(believable, one, other));
 }
 
 // The status knows: no condition has to wait for the end of the function.

@@ -23,9 +23,8 @@ class TraceListener {
   }
   void raise(step::Event event, const trace::Condition& condition);
   // The fault is decided where it is found and asked for afterwards: one comparison on the way of an honest output.
-  trace::Condition accept(const trace::Condition& usable, step::Event reason);
-  trace::Condition accept(const trace::Condition& usable, const trace::Condition& finite, step::Event if_finite,
-                          step::Event if_not);
+  trace::Condition accept(const trace::Condition& usable, int output);
+  trace::Condition accept(const trace::Condition& usable, const trace::Condition& believable, int output);
   trace::Condition without(step::Event event, const trace::Condition& condition);
   void gate(const trace::Condition& gated, int output);
   // NAME_weigh answers where the innovation is not as expected.
@@ -47,7 +46,10 @@ class TraceListener {
 };
 
 // "LQG_STATE_RESET"
-const char* status_name(step::Event event);
+std::string status_name(step::Event event);
+
+// "(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0))", of a negative output that of i.
+std::string rejection(int output);
 
 // With an empty graph for the target's numbers.
 TracedFunction new_function(const Controller& controller);

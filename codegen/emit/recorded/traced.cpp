@@ -101,7 +101,7 @@ TracedFunction trace_weigh(const Controller& controller) {
   of_output(weighing.widen, controller.gate.widen, "widen[i]", "wider");
   of_output(weighing.narrow, controller.gate.narrow, "narrow[i]", "narrower");
   Expr widening = input("self->widening[i]", "widening");
-  const Expr nu = input("nu", "innovation"), variance = input("S", "variance");
+  const Expr nu = input("innovation", "innovation"), variance = input("S", "variance");
   function.answer = step::weigh_unexpected(weighing, widening, nu, variance, -1, listener).node;
   store(function, "self->widening[i]", widening);
   return function;
@@ -115,7 +115,7 @@ TracedFunction trace_innovation(const Controller& controller) {
   const State state = load_state(model, covariance_pattern(controller));
   TraceListener listener(controller, function);
   const Symbols nu = step::innovations(model, state, load(*function.graph, "y", "y", model.ny), listener);
-  for (int i = 0; i < model.ny; ++i) store(function, element("nu", i), nu(i));
+  for (int i = 0; i < model.ny; ++i) store(function, element("innovation", i), nu(i));
   if (!controller.has.variance) return function;
   for (int i = 0; i < model.ny; ++i) {
     listener.section("S = C P Cᵀ + V", i);
@@ -179,7 +179,7 @@ TracedFunction trace_lost_outputs(const Controller& controller) {
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
-  for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "nu", "nu", model.ny),
+  for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "innovation", "innovation", model.ny),
                                                          load(*function.graph, "there", "y", model.ny), listener))
     function.lost.push_back(lost.node);
   return function;

@@ -158,7 +158,7 @@ std::string bits_test(const Controller& controller) {
   return std::string(
              "\nstatic void test_{name}_has_every_bit_of_the_host(void)\n{\n"
              "    uint32_t hash = 2166136261u;\n") +
-         (counts_limited ? "    lqg_status status;\n    int limited = 0;\n" : "") + begin(controller) +
+         (counts_limited ? "    lqg_status_t status;\n    int limited = 0;\n" : "") + begin(controller) +
          "    for (int k = 0; k < SAMPLES; k++) {\n" +
          sample(controller, hash_of_state(controller), control, counts_limited) +
          "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n" +
@@ -178,7 +178,7 @@ std::string hostile_sample(const Controller& controller) {
       is_told_what_acts(controller) ? "                memcpy(self.u_applied, u_out[k], sizeof self.u_applied);\n" : "";
   const std::string update = R"(                status = {name}_update(&self, y);
                 if (k % 3 == 1 && what < 5)
-                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
+                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_REJECTED);
 )";
   return (controller.is_predictor ? act + recorded + update : update + act) +
          "                (void){name}_predict(&self" + (controller.size.nu ? ", u_out[k]" : "") + R"();
@@ -208,7 +208,7 @@ static void test_{name}_stays_{stays}_whatever_a_sensor_says(void)
 
             {name}_init(&self);
             for (int k = 0; k < SAMPLES; k++) {
-                lqg_status status;
+                lqg_status_t status;
 
                 memcpy(y, y_in[k], sizeof y);
                 y[bad] = k % 3 == 1 ? hostile[what] : y[bad];
@@ -301,7 +301,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["samples_at_limits"] = std::to_string(vectors.limited);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
   words["gated"] = !controller.has.gate        ? ""
-                   : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE)"
+                   : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_REJECTED)"
                                                : " & ~LQG_OUTPUT_GATED";
   words["huge"] = controller.target.is_double ? "1e308" : "3e38f";
   words["tiny"] = controller.target.is_double ? "5e-324" : "1e-45f";

@@ -84,7 +84,8 @@ class Script {
     unsigned out = 0;
     for (std::size_t i = 0; i < told_events.size(); ++i)
       out |= (events >> static_cast<unsigned>(told_events[i]) & 1u) << i;
-    return out;
+    const unsigned rejected = (events & step::all_rejections()) >> static_cast<unsigned>(step::Event::first_rejected);
+    return out | rejected << 8;  // where the status has them
   }
   // Beyond the output that is too much for the state come those that nobody believes.
   static bool is_heard(Call call) {
