@@ -1,6 +1,6 @@
 /* double_integrator: mass on a frictionless axis
  *
- * Made by lqgen 0.1.0 from double_integrator.toml with the SHA-256
+ * Made by lqgen 0.2.0 from double_integrator.toml with the SHA-256
  * 9735ad7912f2b8fda1a8144a1e4e7cb6b5e0d8dc3f96c5e226f711c04c46fd48.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
  *
@@ -57,8 +57,8 @@
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 2
-#error "double_integrator.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on double_integrator.toml again."
+#if LQG_HEADER_FORMAT != 3
+#error "double_integrator.h was made by lqgen 0.2.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on double_integrator.toml again."
 #endif
 
 #define DOUBLE_INTEGRATOR_NX 2  /* states */
@@ -115,7 +115,7 @@ static inline void double_integrator_init(double_integrator_t *self)
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status status)
+static lqg_status_t double_integrator_reset(double_integrator_t *self, lqg_status_t status)
 {
     const unsigned long resets = self->resets + 1;
     const unsigned long covariance_resets = self->covariance_resets;
@@ -136,7 +136,7 @@ static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status 
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status double_integrator_recover(double_integrator_t *self, lqg_status status)
+static lqg_status_t double_integrator_recover(double_integrator_t *self, lqg_status_t status)
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -156,32 +156,32 @@ static lqg_status double_integrator_recover(double_integrator_t *self, lqg_statu
     return status | LQG_COVARIANCE_RESET;
 }
 
-/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
- * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+/* Whether output i is used, whose innovation is not as expected: it is not where that is not believable, or beyond
+ * 300 σ √widening, σ² = S. The widening is 1 as long as all is well, and what was left out too often is heard
+ * again. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
+static int double_integrator_weigh(double_integrator_t *self, lqg_status_t *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
-    const float innovation = nu;
     const float variance = S;
 
-    /* w, at least 1 */
+    /* the widening, at least 1 */
     const float wide = 1.0f < widening ? widening : 1.0f;
     const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
 
-    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S widening */
     const int believable = fabsf(innovation) < 8589934592.0f;
-    const lqg_status fault = believable && 0.0f < variance ? LQG_OK : believable
-        ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
+    const lqg_status_t fault = believable && 0.0f < variance ? LQG_OK : believable
+        ? LQG_INNOVATION_NOT_POSITIVE : (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(i));
     const int usable = fault == LQG_OK;
     const int beyond = 90000.0f * variance * width < innovation * innovation;
     const int gated = usable && beyond;
     const int used = usable && !beyond;
 
-    /* w widens or narrows */
+    /* it widens or narrows */
     const float next_width = (used ? 0.75f : gated ? 1.5f : 1.0f) * width;
     const float wide_a = 1.0f < next_width ? next_width : 1.0f;
 
@@ -196,11 +196,11 @@ static int double_integrator_weigh(double_integrator_t *self, lqg_status *status
  *
  * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is left out of this sample.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
-static inline lqg_status double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
+static inline lqg_status_t double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float P_00 = self->P[0];
@@ -250,7 +250,7 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
  * u  out: the inputs, in their units: finite and within the limits, whatever came in
  *
  * Status: LQG_INPUT_LIMITED. */
-static inline lqg_status double_integrator_control(const double_integrator_t *self, float u[DOUBLE_INTEGRATOR_NU])
+static inline lqg_status_t double_integrator_control(const double_integrator_t *self, float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -273,7 +273,7 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
  * u  in: what was applied, in its units; not what was asked for, where the two differ
  *
  * Status: LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
-static inline lqg_status double_integrator_predict(double_integrator_t *self, const float u[DOUBLE_INTEGRATOR_NU])
+static inline lqg_status_t double_integrator_predict(double_integrator_t *self, const float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -303,16 +303,16 @@ static inline lqg_status double_integrator_predict(double_integrator_t *self, co
     self->P[2] = prior_11;
     const float sum_c = sum_b + prior_11;
 
-    const lqg_status status = LQG_OK;
+    const lqg_status_t status = LQG_OK;
     if (!(sum_c < 1.8446744e+19f && !(prior_00 < 0.0f) && !(prior_11 < 0.0f)))
         return double_integrator_recover(self, status);
     return status;
 }
 
 /* One sample: update, control and predict, for an actuator that applies u as it is. */
-static inline lqg_status double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY], float u[DOUBLE_INTEGRATOR_NU])
+static inline lqg_status_t double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY], float u[DOUBLE_INTEGRATOR_NU])
 {
-    lqg_status status = double_integrator_update(self, y);
+    lqg_status_t status = double_integrator_update(self, y);
 
     status |= double_integrator_control(self, u);
     status |= double_integrator_predict(self, u);
@@ -324,8 +324,8 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
  *
  * y_position  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
-static inline lqg_status double_integrator_update_position(double_integrator_t *self, const float y_position)
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
+static inline lqg_status_t double_integrator_update_position(double_integrator_t *self, const float y_position)
 {
     return double_integrator_update(self, &y_position);
 }
@@ -333,12 +333,12 @@ static inline lqg_status double_integrator_update_position(double_integrator_t *
 /* How far the outputs are from what is expected, y − C x̂ and the variance of each, C P Cᵀ + V:
  * to be called before update by those who watch the health of sensors and model.
  *
- * y   in: the outputs, in their units
- * nu  out: the innovations
- * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ * y           in: the outputs, in their units
+ * innovation  out: y less what is expected
+ * S           out: the variances; innovation²/S is 1 in the mean as long as the model holds
  */
 static inline void double_integrator_innovation(const double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
-    float nu[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
+    float innovation[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -347,7 +347,7 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
 
     /* output 0, position [m]: innovation = y − C x̂ */
     const float innovation_position = y_0 - x_0;
-    nu[0] = innovation_position;
+    innovation[0] = innovation_position;
 
     /* output 0, position [m]: S = C P Cᵀ + V */
     const float S_position = 1e-06f + P_00;
@@ -359,7 +359,7 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
  * x  in: the state, in its units
  *
  * Status: LQG_STATE_RESET, when x is not within DOUBLE_INTEGRATOR_X_BOUNDS. */
-static inline lqg_status double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
+static inline lqg_status_t double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
 {
     LQG_STRICT_BODY
     const float x_0 = x[0];
@@ -372,7 +372,7 @@ static inline lqg_status double_integrator_set_state(double_integrator_t *self, 
     self->x[0] = x_0;
     self->x[1] = x_1;
 
-    const lqg_status status = LQG_OK;
+    const lqg_status_t status = LQG_OK;
     if (!(sum_a < 1.8446744e+19f))
         return double_integrator_reset(self, status);
     return status;

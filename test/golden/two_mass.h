@@ -1,6 +1,6 @@
 /* two_mass: two masses, spring and damper
  *
- * Made by lqgen 0.1.0 from two_mass.toml with the SHA-256
+ * Made by lqgen 0.2.0 from two_mass.toml with the SHA-256
  * 46860654c241d4662f7925e59e28b72728299719d8f3760ea0a0858f9525b9e5.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
  *
@@ -68,8 +68,8 @@
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 2
-#error "two_mass.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on two_mass.toml again."
+#if LQG_HEADER_FORMAT != 3
+#error "two_mass.h was made by lqgen 0.2.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on two_mass.toml again."
 #endif
 
 #define TWO_MASS_NX 4  /* states */
@@ -125,7 +125,7 @@ static inline void two_mass_init(two_mass_t *self)
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
+static lqg_status_t two_mass_reset(two_mass_t *self, lqg_status_t status)
 {
     const unsigned long resets = self->resets + 1;
     unsigned long gated[TWO_MASS_NY];
@@ -139,31 +139,32 @@ static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
     return status | LQG_STATE_RESET;
 }
 
-/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
- * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+/* Whether output i is used, whose innovation is not as expected: it is not where that is not believable, or beyond
+ * 300 σ √widening, σ² = S. The widening is 1 as long as all is well, and what was left out too often is heard
+ * again. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
+static int two_mass_weigh(two_mass_t *self, lqg_status_t *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
-    const float innovation = nu;
     const float variance = S;
 
-    /* w, at least 1 */
+    /* the widening, at least 1 */
     const float wide = 1.0f < widening ? widening : 1.0f;
     const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
 
-    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S widening */
     const int believable = fabsf(innovation) < 2199023255552.0f;
-    const lqg_status fault = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const lqg_status_t fault = believable ? LQG_OK
+        : (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(i));
     const int usable = fault == LQG_OK;
     const int beyond = 90000.0f * variance * width < innovation * innovation;
     const int gated = usable && beyond;
     const int used = usable && !beyond;
 
-    /* w widens or narrows */
+    /* it widens or narrows */
     const float next_width = (used ? 0.72558594f : 1.5f) * width;
     const float wide_a = 1.0f < next_width ? next_width : 1.0f;
 
@@ -178,11 +179,11 @@ static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu,
  *
  * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is taken as having come as expected.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+static inline lqg_status_t two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float x_2 = self->x[2];
@@ -230,7 +231,7 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
  * u  out: the inputs, in their units: finite, whatever came in
  *
  * Status: LQG_INPUT_LIMITED. */
-static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
+static inline lqg_status_t two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -253,7 +254,7 @@ static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MA
  * u  in: what was applied, in its units; not what was asked for, where the two differ
  *
  * Status: LQG_STATE_RESET. */
-static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
+static inline lqg_status_t two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -280,16 +281,16 @@ static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MA
     self->x[3] = next_3;
     const float sum_c = sum_b + next_3 * next_3;
 
-    const lqg_status status = LQG_OK;
+    const lqg_status_t status = LQG_OK;
     if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;
 }
 
 /* One sample: update, control and predict, for an actuator that applies u as it is. */
-static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
+static inline lqg_status_t two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
 {
-    lqg_status status = two_mass_update(self, y);
+    lqg_status_t status = two_mass_update(self, y);
 
     status |= two_mass_control(self, u);
     status |= two_mass_predict(self, u);
@@ -301,11 +302,11 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
  *
  * y_dy1  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1)
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+static inline lqg_status_t two_mass_update_dy1(two_mass_t *self, const float y_dy1)
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float x_2 = self->x[2];
@@ -344,11 +345,11 @@ static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1
  *
  * y_dy2  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2)
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+static inline lqg_status_t two_mass_update_dy2(two_mass_t *self, const float y_dy2)
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
     const float x_2 = self->x[2];
@@ -385,12 +386,12 @@ static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2
 /* How far the outputs are from what is expected, y − C x̂ and the steady variance of each:
  * to be called before update by those who watch the health of sensors and model.
  *
- * y   in: the outputs, in their units
- * nu  out: the innovations
- * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ * y           in: the outputs, in their units
+ * innovation  out: y less what is expected
+ * S           out: the variances; innovation²/S is 1 in the mean as long as the model holds
  */
 static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO_MASS_NY],
-    float nu[TWO_MASS_NY], float S[TWO_MASS_NY])
+    float innovation[TWO_MASS_NY], float S[TWO_MASS_NY])
 {
     LQG_STRICT_BODY
     const float x_0 = self->x[0];
@@ -400,11 +401,11 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
 
     /* output 0, dy1 [m]: innovation = y − C x̂ */
     const float innovation_dy1 = y_0 - x_0;
-    nu[0] = innovation_dy1;
+    innovation[0] = innovation_dy1;
 
     /* output 1, dy2 [m]: innovation = y − C x̂ */
     const float innovation_dy2 = y_1 - x_2;
-    nu[1] = innovation_dy2;
+    innovation[1] = innovation_dy2;
 
     S[0] = 0.0033618314f;
     S[1] = 0.0013654674f;
@@ -416,23 +417,25 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
  * y     in: the outputs, in their units; those that are not used are not looked at
  * used  in: which of them are there, a bit each: 1ul << TWO_MASS_Y_DY1
  *
- * Status: LQG_OUTPUT_NOT_FINITE, of those that are used, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
+ * Status: LQG_OUTPUT_REJECTED, of those that are used, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+static inline lqg_status_t two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
 {
     LQG_STRICT_BODY
-    float there[TWO_MASS_NY], nu[TWO_MASS_NY], S[TWO_MASS_NY];
-    unsigned long lost = 0;
+    float there[TWO_MASS_NY], innovation[TWO_MASS_NY], S[TWO_MASS_NY];
+    lqg_status_t rejected = LQG_OK;
 
     for (int i = 0; i < TWO_MASS_NY; i++)
         there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
-    two_mass_innovation(self, there, nu, S);
-    const float nu_0 = nu[0];
-    const float nu_1 = nu[1];
-    lost |= !(fabsf(nu_0) < 2199023255552.0f) ? 1ul << 0 : 0ul;
-    lost |= !(fabsf(nu_1) < 2199023255552.0f) ? 1ul << 1 : 0ul;
+    two_mass_innovation(self, there, innovation, S);
+    const float innovation_0 = innovation[0];
+    const float innovation_1 = innovation[1];
+    if ((used & 1ul) != 0ul && !(fabsf(innovation_0) < 2199023255552.0f))
+        rejected |= (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0));
+    if ((used & 2ul) != 0ul && !(fabsf(innovation_1) < 2199023255552.0f))
+        rejected |= (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(1));
 
-    const lqg_status status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
-    return used & lost ? status | LQG_OUTPUT_NOT_FINITE : status;
+    const lqg_status_t status = two_mass_update(self, there);
+    return (status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)) | rejected;
 }
 
 /* x̂ ← x, by hand.
@@ -440,7 +443,7 @@ static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y
  * x  in: the state, in its units
  *
  * Status: LQG_STATE_RESET, when x is not within TWO_MASS_X_BOUNDS. */
-static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
+static inline lqg_status_t two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
 {
     LQG_STRICT_BODY
     const float x_0 = x[0];
@@ -459,7 +462,7 @@ static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_
     self->x[2] = x_2;
     self->x[3] = x_3;
 
-    const lqg_status status = LQG_OK;
+    const lqg_status_t status = LQG_OK;
     if (!(sum_c < 1.2089258e+24f))
         return two_mass_reset(self, status);
     return status;

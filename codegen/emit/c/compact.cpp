@@ -6,6 +6,7 @@
 #include "emit/c/function_bodies.hpp"
 #include "emit/c/straight_line.hpp"
 #include "emit/c/templates.hpp"
+#include "emit/recorded/trace_listener.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 
@@ -75,9 +76,9 @@ std::string law_of_sample(const Controller& controller) {
                 {"has_H", controller.has.servo && gains[2].size() > 0}});
 }
 
-// A law that changes nothing takes a copy of r: its NAME_t is const.
-bool copies_r(const Controller& controller) {
-  return controller.has.filter && controller.size.nr > 0 && !controller::control_changes_state(controller);
+// A law that changes nothing takes copies of what it reads: its NAME_t is const.
+bool copies_memory(const Controller& controller) {
+  return controller.has.filter && controller.has.servo && !controller::control_changes_state(controller);
 }
 
 // The library's state of the law over the members of NAME_t.
@@ -88,7 +89,9 @@ std::string state_of_law(const Controller& controller, bool copies) {
           : copies            ? "r"
                               : "self->r") +
          (integrates ? ", self->xi, self->error, self->demand, " : ", NULL, NULL, NULL, ") +
-         (controller.has.last_input ? "self->u_applied}" : "NULL}");
+         (!controller.has.last_input ? "NULL}"
+          : copies                   ? "last}"
+                                     : "self->u_applied}");
 }
 
 // The call of the law, and the state that it shares with what keeps its memory.
@@ -142,13 +145,19 @@ std::string predict_body(const Controller& controller) {
 
 std::string control_body(const Controller& controller) {
   Words words = law_words(controller);
-  const bool copies = copies_r(controller);
+  const bool copies = copies_memory(controller);
+  const auto entries = [](const char* array, int count) {
+    std::string out;
+    for (int i = 0; i < count; ++i) out += (i ? ", " : "") + element(array, i);
+    return "{" + out + "}";
+  };
   words["memory"] = state_of_law(controller, copies);
-  for (int i = 0; copies && i < controller.size.nr; ++i)
-    words["references"] += (i ? ", self->r[" : "self->r[") + std::to_string(i) + "]";
+  words["references"] = entries("self->r", controller.size.nr);
+  words["last_input"] = entries("self->u_applied", controller.size.nu);
   return write_body(
       templates::compact_control, controller, words,
-      {{"copies_r", copies},
+      {{"copies_r", copies && controller.size.nr > 0},
+       {"copies_u", copies && controller.has.last_input},
        {"needs_empty_line", controller.has.feedthrough || has_law_table(controller) || controller.has.servo}});
 }
 
