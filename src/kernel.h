@@ -11,9 +11,6 @@
 #include <math.h>
 
 /* What callers MUST do, for those who develop: see lqg/lqg.h. */
-#ifdef LQG_ASSERT_HEADER
-#include LQG_ASSERT_HEADER
-#endif
 #ifndef LQG_ASSERT
 #define LQG_ASSERT(condition) ((void)0)
 #endif

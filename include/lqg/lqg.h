@@ -83,7 +83,7 @@
  *   LQG_REAL_DOUBLE, LQG_FUSED   see lqg/arithmetic.h; where library and firmware differ, the program does not link.
  *   LQG_ASSERT(condition)        called by the library with what its callers MUST do: no NULL matrix, dimensions ≥ 1,
  *                                i < ny … Empty unless defined. For development:
- *                                -D'LQG_ASSERT(c)=assert(c)' -D'LQG_ASSERT_HEADER=<assert.h>'
+ *                                -include assert.h -D'LQG_ASSERT(c)=assert(c)'
  */
 #ifndef LQG_LQG_H
 #define LQG_LQG_H

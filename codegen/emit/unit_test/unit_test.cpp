@@ -300,9 +300,10 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["every"] = std::to_string(samples_per_covariance);
   words["samples_at_limits"] = std::to_string(vectors.limited);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
-  words["gated"] = !controller.has.gate        ? ""
-                   : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_REJECTED)"
-                                               : " & ~LQG_OUTPUT_GATED";
+  words["gated"] = !controller.has.gate ? ""
+                   : mixes_outputs(controller)
+                       ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)"
+                       : " & ~LQG_OUTPUT_GATED";
   words["huge"] = controller.target.is_double ? "1e308" : "3e38f";
   words["tiny"] = controller.target.is_double ? "5e-324" : "1e-45f";
   words["within"] = "";
