@@ -99,7 +99,7 @@ int main(int count, char *arguments[])
         const int fine = is_definite(&loop, &beginning);
         status |= predict(&loop, &seed);
         if (!fine || !is_definite(&loop, &beginning) || !is_well_within_bounds(&loop) ||
-            (status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_GATED))) {
+            (status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS | LQG_OUTPUT_GATED))) {
             printf("sample %lu: %s\n", sample, lqg_status_text(status));
             return 1;
         }

@@ -54,7 +54,7 @@ int main(int count, char *arguments[])
             size = fmax(size, fabs((double)u[i]));
         if (sample < BEGINNING)
             largest = fmax(largest, size);
-        if ((status & ~LQG_OUTPUT_REJECTED) || !(size <= 2 * largest)) {
+        if ((status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)) || !(size <= 2 * largest)) {
             printf("sample %lu: %s, |u| = %g\n", sample, lqg_status_text(status), size);
             return 1;
         }
