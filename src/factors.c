@@ -20,10 +20,10 @@ void lqg_factors_project(const lqg_real U[], unsigned nx, const lqg_real c[], in
     }
 }
 
-lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real v)
+lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real V)
 {
     LQG_STRICT_BODY
-    lqg_real s = v;
+    lqg_real s = V;
     for (unsigned j = 0; j < nx; j++) {
         const lqg_real g_j = d[j] * f[j];
         s = multiply_add(f[j], g_j, s);
@@ -36,12 +36,12 @@ lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[
  *     g_j = d_j f_j,  α_j = α_{j−1} + f_j g_j,  d_j ← d_j α_{j−1}/α_j,  U_j ← U_j − (f_j/α_{j−1}) b,  b ← b +
  *     g_j U_j
  *
- * from α = v and b = 0. 1/α is carried along: one division a column. */
-lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real v)
+ * from α = V and b = 0. 1/α is carried along: one division a column. */
+lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real V)
 {
     LQG_STRICT_BODY
     lqg_real *b = f; /* b_k takes the place of f_k, which column k was the last to need */
-    lqg_real alpha = v, inverse = 1 / v;
+    lqg_real alpha = V, inverse = 1 / V;
 
     for (unsigned j = 0; j < nx; j++) {
         const lqg_real f_j = f[j], g_j = d[j] * f_j;
@@ -63,16 +63,16 @@ lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[
     return inverse;
 }
 
-/* T = [A U | G], nx × (nx + nq): with the weights [d | w] of its columns, A P Aᵀ + G diag(w) Gᵀ = T
+/* T = [A U | G], nx × (nx + nw): with the weights [d | W] of its columns, A P Aᵀ + G diag(W) Gᵀ = T
  * diag(weight) Tᵀ. */
-static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nq,
+static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nw,
                           const lqg_real G[], lqg_real T[])
 {
     for (unsigned i = 0; i < nx; i++) {
         for (unsigned j = 0; j < nx; j++)
             *T++ = row_times_U(A + i * nx, U, j);
-        for (unsigned q = 0; q < nq; q++)
-            *T++ = G[i * nq + q];
+        for (unsigned q = 0; q < nw; q++)
+            *T++ = G[i * nw + q];
     }
 }
 
@@ -104,15 +104,15 @@ static void orthogonalise(lqg_real U[], lqg_real d[], unsigned rows, unsigned co
     }
 }
 
-void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nq,
-                         const lqg_real G[], const lqg_real w[], lqg_real work[])
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw,
+                         const lqg_real G[], const lqg_real W[], lqg_real work[])
 {
-    const unsigned columns = nx + nq;
+    const unsigned columns = nx + nw;
     lqg_real *weight = work, *v = work + columns, *T = work + 2 * columns;
 
-    stack_factors(U, nx, A, nq, G, T);
+    stack_factors(U, nx, A, nw, G, T);
     copy(weight, d, nx);
-    copy(weight + nx, w, nq);
+    copy(weight + nx, W, nw);
     orthogonalise(U, d, nx, columns, T, weight, v);
 }
 

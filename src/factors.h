@@ -16,16 +16,16 @@
 /* f = Uᵀ cᵀ, or 0 where the output is not usable. */
 void lqg_factors_project(const lqg_real U[], unsigned nx, const lqg_real c[], int usable, lqg_real f[]);
 
-/* s = v + Σ_j d_j f_j² = c P cᵀ + v: rounded like the s of lqg_factors_update. */
-lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real v);
+/* s = V + Σ_j d_j f_j² = c P cᵀ + V: rounded like the s of lqg_factors_update. */
+lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[], lqg_real V);
 
-/* Bierman's update of U and d by an output with f = Uᵀ cᵀ and noise variance v > 0. f = 0 leaves all as it
- * is, to the bit. Returns 1/s, s = c P cᵀ + v; f becomes P cᵀ of the prior P: the gain is f/s. */
-lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real v);
+/* Bierman's update of U and d by an output with f = Uᵀ cᵀ and noise variance V > 0. f = 0 leaves all as it
+ * is, to the bit. Returns 1/s, s = c P cᵀ + V; f becomes P cᵀ of the prior P: the gain is f/s. */
+lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real V);
 
-/* U diag(d) Uᵀ ← A U diag(d) Uᵀ Aᵀ + G diag(w) Gᵀ, G nx × nq (Thornton). Scratch: work[(nx + 2)(nx + nq)]. */
-void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nq,
-                         const lqg_real G[], const lqg_real w[], lqg_real work[]);
+/* U diag(d) Uᵀ ← A U diag(d) Uᵀ Aᵀ + G diag(W) Gᵀ, G nx × nw (Thornton). Scratch: work[(nx + 2)(nx + nw)]. */
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw,
+                         const lqg_real G[], const lqg_real W[], lqg_real work[]);
 
 LQG_STRICT_BEGIN
 
@@ -42,15 +42,15 @@ static inline void add_factors(bounds_check_t *check, const lqg_real U[], const 
     }
 }
 
-/* Bierman's update, lqg_factors_update, of x as well: gain = f/s of the f that it leaves, x ← x + gain ν. */
-static inline void update_with_factors(lqg_real x[], lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real nu,
-                                       lqg_real v)
+/* Bierman's update, lqg_factors_update, of x as well: gain = f/s of the f that it leaves, x ← x + gain innovation. */
+static inline void update_with_factors(lqg_real x[], lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[],
+                                       lqg_real innovation, lqg_real V)
 {
     LQG_STRICT_BODY
-    const lqg_real inverse = lqg_factors_update(U, d, nx, f, v);
+    const lqg_real inverse = lqg_factors_update(U, d, nx, f, V);
 
     for (unsigned j = 0; j < nx; j++)
-        x[j] = multiply_add(f[j] * inverse, nu, x[j]);
+        x[j] = multiply_add(f[j] * inverse, innovation, x[j]);
 }
 
 LQG_STRICT_END

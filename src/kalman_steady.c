@@ -1,98 +1,121 @@
 /* SPDX-License-Identifier: MIT */
 /* The Kalman filter with constant gain. */
 #include "bounds_check.h"
+#include "gate.h"
 #include "kernel.h"
 #include "plant.h"
 
 LQG_STRICT_BEGIN
 
-void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
-                            lqg_real innovation[])
+static void check_contract(const lqg_kalman_steady_t *kalman, const lqg_kalman_steady_state_t *state)
 {
-    lqg_plant_begin(&kalman->plant, kalman->x0, x, u_applied, innovation);
+    (void)kalman;
+    (void)state;
+    LQG_ASSERT(kalman && state);
+    check_plant(&kalman->plant, state->x, state->u_applied);
+    check_gate(kalman->gate, &state->gate);
+    LQG_ASSERT(kalman->L && (state->innovation || !kalman->M));
+    LQG_ASSERT(kalman->S || !kalman->gate);
 }
 
-static lqg_status reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
-                                       lqg_real innovation[])
+static void begin_estimate(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state)
+{
+    lqg_plant_begin(&kalman->plant, kalman->x0, state->x, state->u_applied, state->innovation);
+    begin_widening(kalman->gate, &state->gate, kalman->plant.ny);
+}
+
+void lqg_kalman_steady_init(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state)
+{
+    check_contract(kalman, state);
+    begin_estimate(kalman, state);
+}
+
+static lqg_status_t reset_unless_bounded(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state)
 {
     bounds_check_t check = {0, 0, 0};
 
-    lqg_bounds_check_add(&check, x, kalman->x_scale, kalman->plant.nx);
+    lqg_bounds_check_add(&check, state->x, kalman->x_scale, kalman->plant.nx);
     if (is_within_bounds(&check))
         return LQG_OK;
 
-    lqg_kalman_steady_init(kalman, x, u_applied, innovation);
+    begin_estimate(kalman, state);
     return LQG_STATE_RESET;
 }
 
-/* y_i − C_i x̂ − D_i u, 0 where output i is left out: it is treated as an innovation of 0. */
-static lqg_real innovate(const lqg_kalman_steady_t *kalman, unsigned i, const lqg_real x[],
-                         const lqg_real u_applied[], lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch,
-                         lqg_status *status)
+/* y_i − C_i x̂ − D_i u, 0 where output i is not used: it is treated as an innovation of 0. */
+static lqg_real innovate(const lqg_kalman_steady_t *kalman, const lqg_kalman_steady_state_t *state, unsigned i,
+                         lqg_real y_i, const gatekeeper_t *keeper, lqg_status_t *status)
 {
-    const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, x, u_applied, y_i);
-    const int believable = is_believable(measured, kalman->innovation_limit, i);
-    const lqg_real nu = believable ? measured : 0;
-    const lqg_real variance = s ? s[i] : 0;
-    lqg_status left_out = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
+    const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, state->x, state->u_applied, y_i);
+    const int plausible = is_plausible(measured, kalman->innovation_limit, i);
+    const lqg_real innovation = plausible ? measured : 0;
+    const lqg_real variance = kalman->S ? kalman->S[i] : 0;
+    lqg_status_t left_out = plausible ? LQG_OK : rejected(i);
 
-    if (!believable || !lqg_watch_expects(watch, i, nu, variance))
-        left_out |= lqg_watch_output(watch, i, believable, nu, variance, 1);
+    if (!plausible || !is_expected(keeper, i, innovation, variance))
+        left_out |= lqg_gate_weigh(keeper, i, plausible, innovation, variance, 1);
 
     *status |= left_out;
-    return left_out ? 0 : nu;
+    return left_out ? 0 : innovation;
 }
 
-lqg_status lqg_kalman_steady_update(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
-                                    lqg_real innovation[], const lqg_real y[], lqg_real work[])
+lqg_status_t lqg_kalman_steady_update(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state,
+                                      const lqg_real y[])
 {
-    return lqg_kalman_steady_update_watched(kalman, x, u_applied, innovation, y, NULL, NULL, work);
+    return lqg_kalman_steady_partial_update(kalman, state, y, LQG_ALL_OUTPUTS, NULL);
 }
 
-lqg_status lqg_kalman_steady_update_watched(const lqg_kalman_steady_t *kalman, lqg_real x[],
-                                            lqg_real u_applied[], lqg_real innovation[], const lqg_real y[],
-                                            const lqg_real s[], const lqg_watch_t *watch, lqg_real work[])
+lqg_status_t lqg_kalman_steady_partial_update(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state,
+                                              const lqg_real y[], unsigned long used, const lqg_watch_t *watch)
 {
+    check_contract(kalman, state);
+    LQG_ASSERT(y && state->work);
     const lqg_plant_t *plant = &kalman->plant;
-    lqg_real *nu = kalman->M ? innovation : work; /* predict needs them only for M */
-    lqg_status status = LQG_OK;
+    const gatekeeper_t keeper = {kalman->gate, &state->gate, watch};
+    lqg_real *innovation = kalman->M ? state->innovation : state->work; /* predict needs them only for M */
+    lqg_status_t status = LQG_OK;
 
     for (unsigned i = 0; i < plant->ny; i++) {
-        nu[i] = 0;
-        if (lqg_watch_uses(watch, i))
-            nu[i] = innovate(kalman, i, x, u_applied, y[i], s, watch, &status);
+        innovation[i] = 0;
+        if (used & 1ul)
+            innovation[i] = innovate(kalman, state, i, y[i], &keeper, &status);
         else
-            lqg_watch_silence(watch, i, 1);
+            skip(&keeper, i, 1);
+        used = after_lowest(used);
     }
 
     /* x̂ ← x̂ + L innovation */
     for (unsigned j = 0; j < plant->nx; j++)
-        x[j] = add_row_product(x[j], kalman->L, j, plant->ny, nu);
+        state->x[j] = add_row_product(state->x[j], kalman->L, j, plant->ny, innovation);
 
-    return status | reset_unless_bounded(kalman, x, u_applied, innovation);
+    return status | reset_unless_bounded(kalman, state);
 }
 
-lqg_status lqg_kalman_steady_update_output(const lqg_kalman_steady_t *kalman, lqg_real x[],
-                                           lqg_real u_applied[], lqg_real innovation[], unsigned i,
-                                           lqg_real y_i, const lqg_real s[], const lqg_watch_t *watch)
+lqg_status_t lqg_kalman_steady_update_output(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state,
+                                             const lqg_real *y_i, unsigned i, const lqg_watch_t *watch)
 {
+    check_contract(kalman, state);
+    LQG_ASSERT(y_i && i < kalman->plant.ny);
     const lqg_plant_t *plant = &kalman->plant;
-    lqg_status status = LQG_OK;
-    const lqg_real nu = innovate(kalman, i, x, u_applied, y_i, s, watch, &status);
+    const gatekeeper_t keeper = {kalman->gate, &state->gate, watch};
+    lqg_status_t status = LQG_OK;
+    const lqg_real innovation = innovate(kalman, state, i, *y_i, &keeper, &status);
 
     for (unsigned j = 0; j < plant->nx; j++)
-        x[j] = multiply_add(kalman->L[j * plant->ny + i], nu, x[j]);
+        state->x[j] = multiply_add(kalman->L[j * plant->ny + i], innovation, state->x[j]);
     if (kalman->M)
-        innovation[i] = nu;
+        state->innovation[i] = innovation;
 
-    return status | reset_unless_bounded(kalman, x, u_applied, innovation);
+    return status | reset_unless_bounded(kalman, state);
 }
 
-lqg_status lqg_kalman_steady_predict(const lqg_kalman_steady_t *kalman, lqg_real x[], lqg_real u_applied[],
-                                     lqg_real innovation[], const lqg_real u[], lqg_real work[])
+lqg_status_t lqg_kalman_steady_predict(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state,
+                                       const lqg_real u[])
 {
-    lqg_plant_predict(&kalman->plant, kalman->M, x, u_applied, innovation, u, work);
-    return reset_unless_bounded(kalman, x, u_applied, innovation);
+    check_contract(kalman, state);
+    LQG_ASSERT((u || !kalman->plant.nu) && state->work);
+    lqg_plant_predict(&kalman->plant, kalman->M, state->x, state->u_applied, state->innovation, u, state->work);
+    return reset_unless_bounded(kalman, state);
 }
 
 LQG_STRICT_END

@@ -10,6 +10,16 @@
 
 #include <math.h>
 
+/* What callers MUST do, for those who develop: see lqg/lqg.h. */
+#ifndef LQG_ASSERT
+#define LQG_ASSERT(condition) ((void)0)
+#endif
+
+#define lqg_begin LQG_VARIANT(lqg_begin)
+
+/* to ← from, or ← 0 where there is no from; nothing where there is no to. */
+void lqg_begin(lqg_real to[], const lqg_real from[], unsigned length);
+
 LQG_STRICT_BEGIN
 
 /* a b + c */
@@ -55,7 +65,7 @@ static inline lqg_real absolute(lqg_real a)
 }
 
 /* |a| is below limits_i; where there are no limits, a is finite. */
-static inline int is_believable(lqg_real a, const lqg_real limits[], unsigned i)
+static inline int is_plausible(lqg_real a, const lqg_real limits[], unsigned i)
 {
     return limits ? absolute(a) < limits[i] : is_finite(a);
 }
@@ -95,13 +105,6 @@ static inline void copy(lqg_real to[], const lqg_real from[], unsigned length)
 {
     for (unsigned i = 0; i < length; i++)
         to[i] = from[i];
-}
-
-/* to ← from, or ← 0 where there is no from; nothing where there is no to. */
-static inline void begin(lqg_real to[], const lqg_real from[], unsigned length)
-{
-    for (unsigned i = 0; to && i < length; i++)
-        to[i] = from ? from[i] : 0;
 }
 
 LQG_STRICT_END

@@ -6,9 +6,10 @@
 
 LQG_STRICT_BEGIN
 
-lqg_status lqg_lqr_control(const lqg_lqr_t *lqr, const lqg_real x[], lqg_real u[])
+lqg_status_t lqg_lqr_control(const lqg_lqr_t *lqr, const lqg_real x[], lqg_real u[])
 {
-    lqg_status status = LQG_OK;
+    LQG_ASSERT(lqr && lqr->nx >= 1 && lqr->nu >= 1 && lqr->K && x && u);
+    lqg_status_t status = LQG_OK;
 
     for (unsigned i = 0; i < lqr->nu; i++) {
         const lqg_real law = subtract_row_product(0, lqr->K, i, lqr->nx, x);

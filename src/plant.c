@@ -10,9 +10,9 @@ LQG_STRICT_BEGIN
 void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
                      lqg_real innovation[])
 {
-    begin(x, x0, plant->nx);
-    begin(u_applied, NULL, plant->nu);
-    begin(innovation, NULL, plant->ny);
+    lqg_begin(x, x0, plant->nx);
+    lqg_begin(u_applied, NULL, plant->nu);
+    lqg_begin(innovation, NULL, plant->ny);
 }
 
 lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[],
@@ -64,54 +64,8 @@ void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[
     copy(x, work, nx);
     if (u_applied)
         copy(u_applied, u, nu);
-    begin(innovation, NULL, ny);
-}
-
-int lqg_watch_uses(const lqg_watch_t *watch, unsigned i)
-{
-    return !watch || !watch->used || watch->used[i];
-}
-
-/* w, from 1 to 2⁸⁰ whatever it was: a NaN is 1. */
-static lqg_real kept_width(lqg_real w)
-{
-    LQG_STRICT_BODY
-    const lqg_real widest = (lqg_real)1208925819614629174706176.0f; /* 2⁸⁰ */
-    const lqg_real least = 1 < w ? w : 1;
-
-    return least < widest ? least : widest;
-}
-
-lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, int believable, lqg_real innovation, lqg_real s,
-                            int opens)
-{
-    LQG_STRICT_BODY
-    if (!watch)
-        return LQG_OK;
-
-    /* |ν| > gate √(s w) */
-    const lqg_real w = watch->widening ? kept_width(watch->widening[i]) : 1;
-    const int gated = believable && watch->gate > 0 && watch->gate * watch->gate * s * w < innovation * innovation;
-    if (watch->nu)
-        watch->nu[i] = innovation;
-    if (watch->s)
-        watch->s[i] = s;
-    if (watch->gated)
-        watch->gated[i] += gated ? 1 : 0;
-    if (watch->heard)
-        watch->heard[i] = believable && !gated;
-    if (watch->widening)
-        watch->widening[i] =
-            kept_width((believable && !gated ? watch->narrow[i] : gated || opens ? watch->widen[i] : 1) * w);
-    return gated ? LQG_OUTPUT_GATED : LQG_OK;
-}
-
-void lqg_watch_silence(const lqg_watch_t *watch, unsigned i, int opens)
-{
-    if (watch->heard)
-        watch->heard[i] = 0;
-    if (watch->widening && opens)
-        watch->widening[i] = kept_width(watch->widen[i] * kept_width(watch->widening[i]));
+    if (innovation)
+        lqg_begin(innovation, NULL, ny);
 }
 
 LQG_STRICT_END

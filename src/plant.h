@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What all filters do with the plant and with a watch, which MAY be NULL. Not for firmware. */
+/* What all filters do with the plant. Not for firmware. */
 #ifndef LQG_PLANT_H
 #define LQG_PLANT_H
 
@@ -12,9 +12,6 @@
 #define lqg_plant_decorrelate_alone LQG_VARIANT(lqg_plant_decorrelate_alone)
 #define lqg_plant_keep_residuals LQG_VARIANT(lqg_plant_keep_residuals)
 #define lqg_plant_predict LQG_VARIANT(lqg_plant_predict)
-#define lqg_watch_uses LQG_VARIANT(lqg_watch_uses)
-#define lqg_watch_output LQG_VARIANT(lqg_watch_output)
-#define lqg_watch_silence LQG_VARIANT(lqg_watch_silence)
 
 /* x = x0 (NULL: 0), u_applied = 0, innovation = 0; the latter two where there are any. */
 void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[], lqg_real u_applied[],
@@ -40,35 +37,15 @@ void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], cons
 void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[], lqg_real u_applied[],
                        lqg_real innovation[], const lqg_real u[], lqg_real work[]);
 
-/* Output i is to be used. */
-int lqg_watch_uses(const lqg_watch_t *watch, unsigned i);
-
-LQG_STRICT_BEGIN
-
-/* The innovation ν of output i, of a variance of s at least, is within the gate, which is no wider than its σ, and nobody looks:
- * there is nothing to write down but that it was heard. Most samples are like that. */
-static inline int lqg_watch_expects(const lqg_watch_t *watch, unsigned i, lqg_real innovation, lqg_real s)
+/* What a caller MUST give of a plant and of what a filter remembers: nothing, unless LQG_ASSERT checks it. */
+static inline void check_plant(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[])
 {
-    LQG_STRICT_BODY
-    if (!watch)
-        return 1;
-    if (watch->nu || watch->s || !watch->widening)
-        return 0;
-    if (!(innovation * innovation < watch->gate * watch->gate * s) || 1 < watch->widening[i])
-        return 0;
-    if (watch->heard)
-        watch->heard[i] = 1;
-    return 1;
+    (void)plant;
+    (void)x;
+    (void)u_applied;
+    LQG_ASSERT(plant->nx >= 1 && plant->ny >= 1);
+    LQG_ASSERT(plant->A && plant->C && (plant->B || !plant->nu));
+    LQG_ASSERT(x && (u_applied || !plant->D || !plant->nu));
 }
-
-LQG_STRICT_END
-
-/* Writes down the innovation of output i, which is 0 if it is not believable, and its variance s. LQG_OUTPUT_GATED when
- * the gate leaves it out, which is counted and opens the gate. `opens`: one that is not believable does, too. */
-lqg_status lqg_watch_output(const lqg_watch_t *watch, unsigned i, int believable, lqg_real innovation, lqg_real s,
-                            int opens);
-
-/* Output i was not used, which `opens` the gate of a constant gain. */
-void lqg_watch_silence(const lqg_watch_t *watch, unsigned i, int opens);
 
 #endif

@@ -7,19 +7,30 @@
 
 LQG_STRICT_BEGIN
 
-static void begin_covariance(const lqg_rls_t *rls, lqg_real U[], lqg_real d[])
+static void check_contract(const lqg_rls_t *rls, const lqg_rls_state_t *state)
 {
-    begin(U, NULL, LQG_STRICT_TRIANGLE(rls->ntheta));
+    (void)rls;
+    (void)state;
+    LQG_ASSERT(rls && state);
+    LQG_ASSERT(rls->ntheta >= 1 && rls->P0_diagonal && rls->V > 0);
+    LQG_ASSERT(rls->forgetting > 0 && rls->forgetting <= 1);
+    LQG_ASSERT(state->theta && state->d && (rls->ntheta == 1 || state->U));
+}
+
+static void begin_covariance(const lqg_rls_t *rls, lqg_rls_state_t *state)
+{
+    lqg_begin(state->U, NULL, LQG_STRICT_TRIANGLE(rls->ntheta));
     for (unsigned i = 0; i < rls->ntheta; i++) {
         const lqg_real wanted = rls->P0_diagonal[i];
-        d[i] = rls->P_limits && wanted > rls->P_limits[i] ? rls->P_limits[i] : wanted;
+        state->d[i] = rls->P_limits && wanted > rls->P_limits[i] ? rls->P_limits[i] : wanted;
     }
 }
 
-void lqg_rls_init(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+void lqg_rls_init(const lqg_rls_t *rls, lqg_rls_state_t *state)
 {
-    begin(theta, rls->theta0, rls->ntheta);
-    begin_covariance(rls, U, d);
+    check_contract(rls, state);
+    lqg_begin(state->theta, rls->theta0, rls->ntheta);
+    begin_covariance(rls, state);
 }
 
 /* P_ii = d_i + Σ_{j>i} d_j U_ij² */
@@ -52,48 +63,49 @@ static void limit_variances(const lqg_rls_t *rls, lqg_real U[], lqg_real d[], in
 }
 
 /* θ not finite: all begins anew. U or d not finite, or d no variances: they do, and θ stays. */
-static lqg_status recover(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[])
+static lqg_status_t recover(const lqg_rls_t *rls, lqg_rls_state_t *state)
 {
     bounds_check_t check = {0, 0, 0};
 
-    add_finite(&check, theta, rls->ntheta);
+    add_finite(&check, state->theta, rls->ntheta);
     if (!is_within_bounds(&check)) {
-        lqg_rls_init(rls, theta, U, d);
+        lqg_rls_init(rls, state);
         return LQG_STATE_RESET;
     }
-    add_factors(&check, U, d, NULL, rls->ntheta);
+    add_factors(&check, state->U, state->d, NULL, rls->ntheta);
     if (!is_within_bounds(&check)) {
-        begin_covariance(rls, U, d);
+        begin_covariance(rls, state);
         return LQG_COVARIANCE_RESET;
     }
     return LQG_OK;
 }
 
-lqg_status lqg_rls_update(const lqg_rls_t *rls, lqg_real theta[], lqg_real U[], lqg_real d[],
-                          const lqg_real phi[], lqg_real y, lqg_real work[])
+lqg_status_t lqg_rls_update(const lqg_rls_t *rls, lqg_rls_state_t *state, lqg_real y, const lqg_real phi[])
 {
     LQG_STRICT_BODY
+    check_contract(rls, state);
+    LQG_ASSERT(phi && state->work);
     const unsigned ntheta = rls->ntheta;
     const lqg_real v = rls->forgetting * rls->V;
-    lqg_real *f = work;
+    lqg_real *theta = state->theta, *U = state->U, *d = state->d, *f = state->work;
 
     /* f = Uᵀ φ,  s = λV + φᵀ P φ; with f = 0 the sample is left out */
     lqg_factors_project(U, ntheta, phi, 1, f);
     const lqg_real error = subtract_row_product(y, phi, 0, ntheta, theta);
     const int usable = is_finite(error) && is_finite(lqg_factors_variance(d, ntheta, f, v));
-    const lqg_real nu = usable ? error : 0, lambda = usable ? rls->forgetting : 1;
+    const lqg_real innovation = usable ? error : 0, lambda = usable ? rls->forgetting : 1;
     lqg_factors_project(U, ntheta, phi, usable, f);
 
     /* gain = P φ/s,  θ ← θ + gain (y − φᵀ θ),  P ← (P − gain (P φ)ᵀ)/λ */
     const lqg_real inverse = lqg_factors_update(U, d, ntheta, f, v);
     for (unsigned i = 0; i < ntheta; i++) {
-        theta[i] = multiply_add(f[i] * inverse, nu, theta[i]);
+        theta[i] = multiply_add(f[i] * inverse, innovation, theta[i]);
         d[i] = d[i] / lambda;
     }
     if (rls->P_limits)
-        limit_variances(rls, U, d, usable, work);
+        limit_variances(rls, U, d, usable, f);
 
-    return (usable ? LQG_OK : LQG_OUTPUT_NOT_FINITE) | recover(rls, theta, U, d);
+    return (usable ? LQG_OK : LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0)) | recover(rls, state);
 }
 
 LQG_STRICT_END

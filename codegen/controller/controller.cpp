@@ -229,4 +229,8 @@ bool can_update_alone(const Controller& controller, int output) {
   });
 }
 
+bool has_update_alone(const Controller& controller, int output) {
+  return controller.problem.code.updates == design::Updates::each && can_update_alone(controller, output);
+}
+
 }  // namespace lqg::controller

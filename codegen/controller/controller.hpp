@@ -141,5 +141,7 @@ inline bool control_changes_state(const Controller& controller) {
 bool can_set_input(const Controller& controller);
 // No other output is needed to make the noise of this one independent.
 bool can_update_alone(const Controller& controller, int output);
+// There is a function for it: the design asks for those.
+bool has_update_alone(const Controller& controller, int output);
 
 }  // namespace lqg::controller

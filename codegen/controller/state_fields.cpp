@@ -21,13 +21,13 @@ void add_estimate(const Controller& controller, Fields& fields) {
       model_of<double>(controller, [&](const design::Real& value) { return rounded_to_target(value, is_double); });
   const auto size = [](const std::vector<double>& values) { return static_cast<int>(values.size()); };
   add_reals(fields, "x", model.nx, "{NAME}_NX",
-            "x̂, the estimate: of this sample after update, of the next after predict",
+            "estimate x̂: of this sample after update, of the next one after predict",
             {model.x0.data(), model.x0.data() + model.nx});
   add_reals(fields, "P", size(model.P0), std::to_string(model.P0.size()),
-            "covariance of its error: lower triangle, row by row, P_ij at [i*(i+1)/2 + j]", model.P0);
+            "covariance of the error of x̂: lower triangle, P_ij at [i*(i+1)/2 + j]", model.P0);
   add_reals(fields, "U", size(model.U0), std::to_string(model.U0.size()),
-            "P = U diag(d) Uᵀ: strict upper triangle, column by column, U_ij at [j*(j-1)/2 + i]", model.U0);
-  add_reals(fields, "d", size(model.D0), "{NAME}_NX", "", model.D0);
+            "P = U diag(d) Uᵀ: strict upper triangle, U_ij at [j*(j-1)/2 + i]", model.U0);
+  add_reals(fields, "d", size(model.D0), "{NAME}_NX", "diagonal of P = U diag(d) Uᵀ", model.D0);
 }
 
 // The gate at the start.
@@ -38,27 +38,26 @@ std::vector<double> start_of_gate(const Controller& controller) {
 
 void add_law(const Controller& controller, Fields& fields) {
   const int nxi = controller.size.nxi;
-  add_reals(fields, "r", controller.size.nr, "{NAME}_NR", "what the outputs should be: write it at any time");
-  add_reals(fields, "xi", nxi, std::to_string(nxi), "ξ, the integral of r − y");
-  add_reals(fields, "error", nxi, std::to_string(nxi), "r − y of this sample, which predict adds to ξ");
-  add_reals(fields, "demand", nxi ? controller.size.nu : 0, "{NAME}_NU", "what the law asked for, before its limits");
+  add_reals(fields, "r", controller.size.nr, "{NAME}_NR", "references: write them at any time between two calls");
+  add_reals(fields, "xi", nxi, std::to_string(nxi), "ξ, integral of r − y");
+  add_reals(fields, "error", nxi, std::to_string(nxi), "r − y of this sample; predict integrates it");
+  add_reals(fields, "demand", nxi ? controller.size.nu : 0, "{NAME}_NU", "u of the law, before the limits");
 }
 
 void add_linear_state(const Controller& controller, Fields& fields) {
   std::vector<double> z0;
   for (int i = 0; i < controller.size.nz; ++i)
     z0.push_back(rounded_to_target(controller.linear->z0(i), controller.target.is_double));
-  add_reals(fields, "z", controller.size.nz, "{NAME}_NZ", "the numbers that stand for x̂, see above", z0);
+  add_reals(fields, "z", controller.size.nz, "{NAME}_NZ", "the state of the linear system, see above", z0);
   if (!controller.is_predictor)
-    add_reals(fields, "y", controller.size.ny, "{NAME}_NY", "the outputs that control has heard, for advance");
+    add_reals(fields, "y", controller.size.ny, "{NAME}_NY", "outputs of this sample, for advance");
 }
 
 }  // namespace
 
 std::vector<Field> state_fields(const Controller& controller) {
   Fields fields;
-  const Field resets = {"resets", Kind::total, 1, "", "how often it began anew, since init; after ULONG_MAX comes 0",
-                        {}};
+  const Field resets = {"resets", Kind::total, 1, "", "resets of the state since init; wraps to 0", {}};
   if (controller.linear) {
     add_linear_state(controller, fields);
     fields.push_back(resets);
@@ -66,31 +65,28 @@ std::vector<Field> state_fields(const Controller& controller) {
   }
   if (controller.has.filter) add_estimate(controller, fields);
   if (controller.keeps.input)
-    add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU",
-              "the input that acts: of the last predict or control");
+    add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU", "input that acts: of the last predict or control");
   if (controller.has.gate)
     add_reals(fields, "widening", controller.size.ny, "{NAME}_NY",
-              "how much wider than its σ the gate is, squared: more while an output is left out",
-              start_of_gate(controller));
+              "w ≥ 1, widening of the gate: it grows while the output is rejected", start_of_gate(controller));
   if (controller.keeps.innovation)
-    add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY",
-              "what predict has yet to hear of the last outputs");
+    add_reals(fields, "innovation", controller.size.ny, "{NAME}_NY", "of the last outputs, for predict");
   if (controller.has.servo) add_law(controller, fields);
   if (controller.keeps.sample)
-    fields.push_back({"sample",
-                      Kind::counter,
-                      1,
-                      "",
-                      "how many samples are over; stops with the last that has gains of its own",
-                      {}});
+    fields.push_back(
+        {"sample", Kind::counter, 1, "", "number of the sample; stops at the last that has gains of its own", {}});
   if (controller.keeps.gain_row)
-    fields.push_back({"gain_row", Kind::counter, 1, "", "the same for the filter's gains; 0 after a reset", {}});
+    fields.push_back({"gain_row", Kind::counter, 1, "", "row of the filter's gains; 0 after a reset", {}});
   if (controller.has.filter) fields.push_back(resets);
   if (controller.solution.online)
-    fields.push_back({"covariance_resets", Kind::total, 1, "", "how often P alone began anew, likewise", {}});
+    fields.push_back({"covariance_resets", Kind::total, 1, "", "resets of P alone since init; wraps to 0", {}});
   if (controller.has.gate)
-    fields.push_back(
-        {"gated", Kind::counters, controller.size.ny, "{NAME}_NY", "how often the gate left an output out", {}});
+    fields.push_back({"gated",
+                      Kind::counters,
+                      controller.size.ny,
+                      "{NAME}_NY",
+                      "how often the gate has rejected an output; wraps to 0",
+                      {}});
   return fields;
 }
 

@@ -126,6 +126,7 @@ struct Requirements {
 enum class Scalar { float32, float64 };
 enum class Arithmetic { plain, fused };
 enum class Style { automatic, unrolled, compact };
+enum class Updates { all, each };                              // of all outputs at once, or of each alone, too
 enum class Realisation { physical, folded, modal, cheapest };  // which numbers the controller keeps: x̂, or others
 
 struct Code {
@@ -133,6 +134,7 @@ struct Code {
   Arithmetic arithmetic = Arithmetic::plain;
   Style style = Style::automatic;
   Realisation realisation = Realisation::physical;
+  Updates updates = Updates::all;
   long flash = 16384;  // bytes
 };
 

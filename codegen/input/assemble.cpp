@@ -213,6 +213,7 @@ design::Code code(const Values& values) {
   if (realisation == "folded") result.realisation = design::Realisation::folded;
   if (realisation == "modal") result.realisation = design::Realisation::modal;
   if (realisation == "cheapest") result.realisation = design::Realisation::cheapest;
+  if (values.text("code.updates") == "each") result.updates = design::Updates::each;
   result.flash = static_cast<long>(values.number("code.flash", static_cast<double>(result.flash)));
   return result;
 }

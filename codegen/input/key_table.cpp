@@ -219,6 +219,9 @@ std::vector<KeyRule> table_of_keys() {
        "`physical`: the controller keeps x̂. `folded`, `modal`: it keeps other numbers, which takes fewer operations. "
        "`cheapest`: the one with the fewest multiply-adds.",
        "", "README.md#other-numbers-than-x̂"},
+      {"code.updates", Type::word, no, no, optional, {"all", "each"},
+       "`each`: also a function `NAME_update_OUTPUT` for each output, for sensors with their own rates. Without it "
+       "`NAME_partial_update` updates with some of the outputs."},
       {"code.flash", Type::whole, no, no, optional, {},
        "Flash in bytes that code and constants of the controller may take.", "16384",
        "README.md#what-it-states-of-flash-and-stack"},

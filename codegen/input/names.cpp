@@ -151,6 +151,16 @@ Complaint check_signal_name(const std::string& key, const std::string& name) {
   return {};
 }
 
+Complaint check_limit_name(const std::string& key, const std::string& name,
+                           const std::map<std::string, std::size_t>& others) {
+  if (key != "plant.inputs" && key != "plant.outputs") return {};
+  const std::string capitals = in_capitals(name);
+  for (const std::string prefix : {"MIN_", "MAX_", "STEP_"})
+    if (capitals.rfind(prefix, 0) == 0 && others.count(capitals.substr(prefix.size())) > 0)
+      return "expected a name that is not that of a limit of " + in_quotes(name.substr(prefix.size())) + found(name);
+  return {};
+}
+
 std::string in_capitals(std::string name) {
   for (char& c : name)
     if (is_lower(c)) c = static_cast<char>(c - 'a' + 'A');

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,10 @@ std::string in_capitals(std::string name);
 
 // The constant NAME_X_STATE, or NAME_U_INPUT, NAME_Y_OUTPUT, of a signal of "plant.states" …: no other has its name.
 Complaint check_signal_name(const std::string& key, const std::string& name);
+
+// The constants NAME_U_MIN_INPUT, NAME_Y_MAX_OUTPUT …: no input or output among `others`, in capitals, has their name.
+Complaint check_limit_name(const std::string& key, const std::string& name,
+                           const std::map<std::string, std::size_t>& others);
 
 // "dy1 [m]" into a name, a C identifier, and a unit.
 Complaint parse_signal(const std::string& text, design::Signal& signal);

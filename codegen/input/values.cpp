@@ -250,6 +250,9 @@ class ValueReader {
       else
         signals.push_back(signal);
     }
+    for (std::size_t i = 0; i < signals.size() && signals.size() == node.items.size(); ++i)
+      if (const Complaint complaint = check_limit_name(rule.path, signals[i].name, seen))
+        report_.error(rule.path + "[" + std::to_string(i) + "]", node.items[i].where, *complaint);
     if (signals.size() == node.items.size()) values_.signals[rule.path] = signals;
   }
 

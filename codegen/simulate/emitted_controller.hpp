@@ -65,10 +65,9 @@ class EmittedController {
     step::Listener listener;
     const auto lost =
         step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), there, listener);
-    const unsigned not_finite = 1u << static_cast<unsigned>(step::Event::output_not_finite);
-    const unsigned events = update(there) & ~not_finite;
+    const unsigned events = update(there) & ~step::all_rejections();
     for (Eigen::Index i = 0; i < there.size(); ++i)
-      listener.raise(step::Event::output_not_finite, is_used(i) && lost[static_cast<std::size_t>(i)]);
+      listener.reject(static_cast<int>(i), is_used(i) && lost[static_cast<std::size_t>(i)]);
     return events | listener.events;
   }
   // The variances are empty where the header has none.

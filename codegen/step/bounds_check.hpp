@@ -4,9 +4,15 @@
 
 #include <vector>
 
-#include "step/scalar.hpp"
+#include "step/model.hpp"
 
 namespace lqg::step {
+
+// What stands beside the equation of a block in which x̂ is checked, too.
+inline const char* and_check(const std::vector<int>& bounds) {
+  return bounds.empty() ? ";  sum_to_x_k = Σ x̂_i, i ≤ k, is finite where each x̂_i is"
+                        : ";  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b";
+}
 
 // Σ (x_i/b_i)² + Σ P_ii/b_i² < 1 with bounds b that are powers of two, no P_ii negative, and all that has no bound finite.
 // No term is negative and rounding is monotone, so each |x_i| is below b_i and each P_ii below b_i²; a NaN is not below
@@ -21,27 +27,27 @@ class BoundsCheck {
  public:
   using Condition = decltype(is_less(S(), S()));
 
-  // Part i of a vector whose bounds are 2^bounds; an empty one: it has to be finite.
+  // Part place.i of a vector whose bounds are 2^bounds; an empty one: it has to be finite.
   template <class Listener>
-  void add(const S& part, const std::vector<int>& bounds, int i, Listener& listener) {
-    if (bounds.empty()) return add(part, listener);
-    sum_ = multiply_add(part, part, in_units_of(bounds[static_cast<std::size_t>(i)]));
-    listener.name(sum_, "sum");
+  void add(const S& part, const std::vector<int>& bounds, const Place& place, Listener& listener) {
+    if (bounds.empty()) return add(part, place, listener);
+    sum_ = multiply_add(part, part, in_units_of(bounds[static_cast<std::size_t>(place.i)]));
+    listener.name(sum_, "squares_to", place);
   }
-  // Likewise P_ii of part i.
+  // Likewise P_ii of part i, or what stands for it.
   template <class Listener>
-  void add_variance(const S& variance, const std::vector<int>& bounds, int i, Listener& listener) {
+  void add_variance(const S& variance, const std::vector<int>& bounds, const Place& place, Listener& listener) {
     require(negation(is_less(variance, S(0))));
-    if (bounds.empty()) return add(variance, listener);
-    sum_ = in_units_of(bounds[static_cast<std::size_t>(i)]) + variance;
-    listener.name(sum_, "sum");
+    if (bounds.empty()) return add(variance, place, listener);
+    sum_ = in_units_of(bounds[static_cast<std::size_t>(place.i)]) + variance;
+    listener.name(sum_, "squares_to", place);
   }
   // What has to be finite.
   template <class Listener>
-  void add(const S& part, Listener& listener) {
+  void add(const S& part, const Place& place, Listener& listener) {
     others_ = has_others_ ? S(others_ + part) : part;
     has_others_ = true;
-    listener.name(others_, "others");
+    listener.name(others_, "sum_to", place);
   }
 
   // What has to be true besides.

@@ -17,11 +17,11 @@ std::vector<S> covariance(const Model<S>& model, const State<S>& state, Listener
       S sum = i == j ? S(state.D[i]) : S(state.U[strict_triangle(j, i)] * state.D[i]);
       for (int k = i + 1; k < model.nx; ++k) {
         const S weighted = state.U[strict_triangle(j, k)] * state.D[k];
-        listener.name(weighted, "weighted", j, k);
+        listener.name(weighted, "Ud", of_entry(j, k));
         const S term = weighted * state.U[strict_triangle(i, k)];
         sum = sum + term;
       }
-      listener.name(sum, "P", i, j);
+      listener.name(sum, "P", of_entry(i, j));
       P.push_back(sum);
     }
   return P;

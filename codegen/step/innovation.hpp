@@ -7,12 +7,13 @@
 namespace lqg::step {
 
 // Uᵀ C_iᵀ
-template <class S>
-Vector<S> projection(const Model<S>& model, const State<S>& state, int i) {
+template <class S, class Listener>
+Vector<S> projection(const Model<S>& model, const State<S>& state, int i, Listener& listener) {
   Vector<S> f(model.nx);
   for (int j = 0; j < model.nx; ++j) {
     f(j) = model.C(i, j);
     for (int k = 0; k < j; ++k) f(j) = multiply_add(S(state.U[strict_triangle(k, j)]), S(model.C(i, k)), S(f(j)));
+    listener.hint(f(j), "f", of_entry(j));
   }
   return f;
 }
@@ -22,30 +23,31 @@ template <class S, class Listener>
 S innovation_variance(const Model<S>& model, const State<S>& state, int i, Listener& listener) {
   if (model.filter == Filter::steady) return model.variance(i);
   if (model.filter == Filter::ud) {
-    const S variance = variance_ud(model, state, projection(model, state, i), i);
-    listener.name(variance, "S");
+    const S variance = variance_ud(model, state, projection(model, state, i, listener), i);
+    listener.name(variance, "variance");
     return variance;
   }
   S variance = model.V(i);
   for (int j = 0; j < model.nx; ++j) {
     S sum = S(0);
     for (int k = 0; k < model.nx; ++k) sum = multiply_add(S(state.P[triangle(j, k)]), S(model.C(i, k)), sum);
+    listener.hint(sum, "cov", of_state(j));
     variance = multiply_add(S(model.C(i, j)), sum, variance);
   }
-  listener.name(variance, "S");
+  listener.name(variance, "variance");
   return variance;
 }
 
 // y_i − C_i x̂ − D_i u of each output by itself, before the update, with C, D and V of the outputs as they are.
 template <class S, class Listener>
 Vector<S> innovations(const Model<S>& model, const State<S>& state, const Vector<S>& y, Listener& listener) {
-  Vector<S> nu(model.ny);
+  Vector<S> innovation(model.ny);
   for (int i = 0; i < model.ny; ++i) {
     listener.section(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂", i);
-    nu(i) = residual(model, state, S(y(i)), i);
-    listener.name(nu(i), "innovation");
+    innovation(i) = residual(model, state, S(y(i)), i);
+    listener.name(innovation(i), "innovation");
   }
-  return nu;
+  return innovation;
 }
 
 }  // namespace lqg::step

@@ -15,8 +15,8 @@ auto update_online_output(const Model<S>& model, State<S>& state, const S& y, in
 
 template <class S, class Listener>
 void check_estimate(const Model<S>& model, const State<S>& state, BoundsCheck<S>& check, Listener& listener) {
-  listener.section("Σ x̂² in units of a bound");
-  for (int j = 0; j < model.nx; ++j) check.add(S(state.x(j)), model.x_bound, j, listener);
+  listener.section("x̂ within its bounds", -1, and_check(model.x_bound));
+  for (int j = 0; j < model.nx; ++j) check.add(S(state.x(j)), model.x_bound, of_state(j, "x"), listener);
 }
 
 // After an update: x̂ is within its bounds, and no S was found that is not positive. Of a covariance S is V at least.

@@ -10,39 +10,39 @@ namespace lqg::step {
 template <class S, class Listener>
 auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const int nx = model.nx;
-  listener.section("S = C P Cᵀ + V, P Cᵀ first", i);
+  listener.section("cov(x̂, y) = P Cᵀ,  S = C P Cᵀ + V", i);
   Vector<S> f(nx);
   for (int j = 0; j < nx; ++j) {
     S sum = state.P[triangle(j, 0)] * model.C(i, 0);
     for (int k = 1; k < nx; ++k) sum = multiply_add(S(state.P[triangle(j, k)]), S(model.C(i, k)), sum);
-    listener.name(sum, "PC", j);
+    listener.name(sum, "cov", of_state(j));
     f(j) = sum;
   }
   S variance = model.V(i);
   for (int k = 0; k < nx; ++k) variance = multiply_add(S(model.C(i, k)), S(f(k)), variance);
-  listener.name(variance, "S");
+  listener.name(variance, "variance");
 
   listener.section(model.D.cols() ? "innovation = y − C x̂ − D u; a gain of 0 leaves the output out"
                                   : "innovation = y − C x̂; a gain of 0 leaves the output out",
                    i);
-  S nu = residual(model, state, y, i);
-  listener.name(nu, "measured");
-  auto usable = weigh(model, state, nu, variance, [&] { return variance; }, i, listener);
+  S innovation = residual(model, state, y, i);
+  listener.name(innovation, "raw_innovation");
+  auto usable = weigh(model, state, innovation, variance, [&] { return variance; }, i, listener);
   S reciprocal = select(usable, S(1) / variance, S(0));
   listener.name(reciprocal, "reciprocal");
-  nu = select(usable, nu, S(0));
-  listener.name(nu, "innovation");
+  innovation = select(usable, innovation, S(0));
+  listener.name(innovation, "innovation");
 
   listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ", i);
   for (int j = nx - 1; j >= 0; --j) {  // from the last row up: few P Cᵀ outlive the entry of P that they may be
     S gain = f(j) * reciprocal;
-    listener.name(gain, "gain", j);
-    state.x(j) = multiply_add(gain, nu, S(state.x(j)));
-    listener.name(state.x(j), "x", j);
+    listener.name(gain, "gain", of_state(j));
+    state.x(j) = multiply_add(gain, innovation, S(state.x(j)));
+    listener.name(state.x(j), "x", of_state(j));
     for (int l = j; l >= 0; --l) {
       S& entry = state.P[triangle(j, l)];
       entry = multiply_subtract(gain, S(f(l)), entry);
-      listener.name(entry, "P", j, l);
+      listener.name(entry, "P", of_entry(j, l));
     }
   }
   return usable;
@@ -52,22 +52,22 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
 template <class S, class Listener>
 void predict_plain_covariance(const Model<S>& model, State<S>& state, BoundsCheck<S>& bounds, Listener& listener) {
   const int nx = model.nx;
-  listener.section("P ← A P Aᵀ + G W Gᵀ, lower triangle");
+  listener.section("P ← A P Aᵀ + G W Gᵀ, lower triangle;  squares_to_P_kk adds P_kk");
   std::vector<S> next(state.P.size());
   for (int i = 0; i < nx; ++i) {
     Vector<S> AP(nx);
     for (int j = 0; j < nx; ++j) {
       S sum = model.A_free(i, 0) * state.P[triangle(0, j)];
       for (int k = 1; k < nx; ++k) sum = multiply_add(S(model.A_free(i, k)), S(state.P[triangle(k, j)]), sum);
-      listener.name(sum, "AP", i, j);
+      listener.name(sum, "AP", of_entry(i, j));
       AP(j) = sum;
     }
     for (int j = 0; j <= i; ++j) {
       S sum = model.W(i, j);
       for (int k = 0; k < nx; ++k) sum = multiply_add(S(AP(k)), S(model.A_free(j, k)), sum);
-      listener.name(sum, "prior", i, j);
+      listener.name(sum, "prior_P", of_entry(i, j));
       next[triangle(i, j)] = sum;
-      if (i == j) bounds.add_variance(sum, model.x_bound, i, listener);  // |P_ij| ≤ √(P_ii P_jj)
+      if (i == j) bounds.add_variance(sum, model.x_bound, of_entry(i, i, "P"), listener);  // |P_ij| ≤ √(P_ii P_jj)
     }
   }
   state.P = next;

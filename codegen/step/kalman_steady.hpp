@@ -17,27 +17,27 @@ template <class S, class Listener>
 Innovation<S> innovate(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   listener.section(
       std::string(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + ", 0 if it is not used", i);
-  S nu = residual(model, state, y, i);
-  listener.name(nu, "measured");
+  const S raw = residual(model, state, y, i);
+  listener.name(raw, "raw_innovation");
   const S variance = is_zero(model.gate) ? S(0) : S(model.variance(i));
-  auto used = weigh(model, state, nu, variance, [&] { return variance; }, i, listener);
-  nu = select(used, nu, S(0));
-  listener.name(nu, "innovation");
-  return {nu, used};
+  auto used = weigh(model, state, raw, variance, [&] { return variance; }, i, listener);
+  const S innovation = select(used, raw, S(0));
+  listener.name(innovation, "innovation");
+  return {innovation, used};
 }
 
 // x̂ ← x̂ + L innovation over the outputs from `first` on.
 template <class S, class Listener>
 auto correct_steady(const Model<S>& model, State<S>& state, const Vector<S>& innovation, int first,
                     Listener& listener) {
-  listener.section("x̂ ← x̂ + L innovation");
+  listener.section("x̂ ← x̂ + L innovation", -1, and_check(model.x_bound));
   BoundsCheck<S> bounds;
   for (int j = 0; j < model.nx; ++j) {
     S sum = state.x(j);
     for (int i = 0; i < innovation.size(); ++i) sum = multiply_add(S(model.L(j, first + i)), S(innovation(i)), sum);
-    listener.name(sum, "posterior", j);
+    listener.name(sum, "posterior", of_state(j));
     state.x(j) = sum;
-    bounds.add(sum, model.x_bound, j, listener);
+    bounds.add(sum, model.x_bound, of_state(j, "x"), listener);
   }
   return bounds.is_within();
 }

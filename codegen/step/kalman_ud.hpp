@@ -27,72 +27,74 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
     S sum = model.C(i, j);
     for (int k = 0; k < j; ++k) sum = multiply_add(S(state.U[strict_triangle(k, j)]), S(model.C(i, k)), sum);
     f(j) = sum;
-    if (!is_zero(model.gate)) listener.name(f(j), "projected", j);
+    if (!is_zero(model.gate)) listener.name(f(j), "projected", of_entry(j));
   }
   const char* const equation = model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂";
   listener.section(std::string(equation) + ", 0 if it is not used", i);
-  S nu = residual(model, state, y, i);
-  listener.name(nu, "measured");
+  S innovation = residual(model, state, y, i);
+  listener.name(innovation, "raw_innovation");
   // S is V at least, and asked for only where that is not enough.
-  auto usable = weigh(model, state, nu, S(model.V(i)), [&] { return variance_ud(model, state, f, i); }, i, listener);
-  nu = select(usable, nu, S(0));
-  listener.name(nu, "innovation");
+  const auto variance = [&] { return variance_ud(model, state, f, i); };
+  auto usable = weigh(model, state, innovation, S(model.V(i)), variance, i, listener);
+  innovation = select(usable, innovation, S(0));
+  listener.name(innovation, "innovation");
 
-  listener.section("f, 0 leaves the output out;  g = D f", i);
+  listener.section("f, 0 leaves the output out;  g = d f", i);
   for (int j = 0; j < nx; ++j) {
     f(j) = select(usable, S(f(j)), S(0));
-    listener.name(f(j), "f", j);
+    listener.name(f(j), "f", of_entry(j));
     g(j) = state.D[j] * f(j);
-    listener.name(g(j), "g", j);
+    listener.name(g(j), "g", of_entry(j));
   }
 
-  listener.section("α ← α + f g from α = V to S;  D ← D α₋₁/α,  U ← U − (f/α₋₁) bᵀ,  b = U g", i);
+  listener.section("α ← α + f g from α = V to S;  d ← d α₋₁/α,  U ← U − λ bᵀ,  λ = f/α₋₁,  b = U g", i);
   S alpha = model.V(i);
   S reciprocal = S(1) / alpha;
   for (int j = 0; j < nx; ++j) {
     S next = multiply_add(f(j), g(j), alpha);
-    listener.name(next, "alpha", j);
+    listener.name(next, "alpha", of_entry(j));
     S ratio = alpha / next;
-    listener.name(ratio, "ratio", j);
+    listener.name(ratio, "ratio", of_entry(j));
     state.D[j] = state.D[j] * ratio;
-    listener.name(state.D[j], "D", j);
+    listener.name(state.D[j], "d", of_entry(j));
     S lambda = f(j) * reciprocal;
-    listener.name(lambda, "lambda", j);
+    listener.name(lambda, "lambda", of_entry(j));
     for (int k = 0; k < j; ++k) {
       S& entry = state.U[strict_triangle(k, j)];
       const S before = entry;
       entry = multiply_subtract(lambda, S(b(k)), before);
-      listener.name(entry, "U", k, j);
+      listener.name(entry, "U", of_entry(k, j));
       b(k) = multiply_add(g(j), before, S(b(k)));
-      listener.name(b(k), "b", k, j);
+      listener.name(b(k), "b", of_entry(k, j));
     }
     b(j) = g(j);
     reciprocal = reciprocal * ratio;
-    listener.name(reciprocal, "reciprocal", j);
+    listener.name(reciprocal, "reciprocal_alpha", of_entry(j));
     alpha = next;
   }
 
   listener.section("L = b / S,  x̂ ← x̂ + L innovation", i);
   for (int j = 0; j < nx; ++j) {
     S gain = b(j) * reciprocal;
-    listener.name(gain, "gain", j);
-    state.x(j) = multiply_add(gain, nu, S(state.x(j)));
-    listener.name(state.x(j), "x", j);
+    listener.name(gain, "gain", of_state(j));
+    state.x(j) = multiply_add(gain, innovation, S(state.x(j)));
+    listener.name(state.x(j), "x", of_state(j));
   }
   return usable;
 }
 
-// [A U | G], the rows that Thornton makes orthogonal under the weights diag(D, w).
+// [A U | G], the rows that Thornton makes orthogonal under the weights [d | w].
 template <class S, class Listener>
 Matrix<S> rows_of_the_prior(const Model<S>& model, const State<S>& state, Listener& listener) {
   const int nx = model.nx, nq = static_cast<int>(model.G.cols());
-  listener.section("rows T = [A U | G] with the weights [D | w]");
+  listener.section(
+      "rows [A U | G] with the weights [d | w];  squares_to_d_k adds d_k, and sum_to_U_jk is finite where each U is");
   Matrix<S> T(nx, nx + nq);
   for (int i = 0; i < nx; ++i) {
     for (int j = 0; j < nx; ++j) {
       S sum = model.A_free(i, j);
       for (int k = 0; k < j; ++k) sum = multiply_add(S(model.A_free(i, k)), S(state.U[strict_triangle(k, j)]), sum);
-      listener.name(sum, "T", i, j);
+      listener.name(sum, "AU", of_entry(i, j));
       T(i, j) = sum;
     }
     for (int q = 0; q < nq; ++q) T(i, nx + q) = model.G(i, q);
@@ -110,30 +112,30 @@ void predict_ud_covariance(const Model<S>& model, State<S>& state, BoundsCheck<S
   Vector<S> v(nt);
   for (int i = nx - 1; i >= 0; --i) {
     listener.section("row " + std::to_string(i) +
-                     ": D = Σ weight T²;  U of the rows above = Σ weight T T / D, which is taken out of them");
+                     ": d = Σ weight row²;  each row j above it: U = Σ weight row row_j / d,  row_j ← row_j − U row");
     for (int k = 0; k < nt; ++k) {
       v(k) = weight[k] * T(i, k);
-      listener.name(v(k), "v", i, k);
+      listener.name(v(k), k < nx ? "dAU" : "wG", of_entry(i, k < nx ? k : k - nx));
     }
     S diagonal = T(i, 0) * v(0);
     for (int k = 1; k < nt; ++k) diagonal = multiply_add(S(T(i, k)), S(v(k)), diagonal);
-    listener.name(diagonal, "prior_D", i);
+    listener.name(diagonal, "prior_d", of_entry(i));
     state.D[i] = diagonal;
-    bounds.add_variance(diagonal, model.x_bound, i, listener);
+    bounds.add_variance(diagonal, model.x_bound, of_entry(i, -1, "d"), listener);
     S reciprocal = S(1) / diagonal;  // not finite when the variance of a state has died out: nothing depends on it then
-    listener.name(reciprocal, "inverse", i);
+    listener.name(reciprocal, "raw_reciprocal_d", of_entry(i));
     reciprocal = select(is_finite(reciprocal), reciprocal, S(0));
-    listener.name(reciprocal, "reciprocal", i);
+    listener.name(reciprocal, "reciprocal_d", of_entry(i));
     for (int j = 0; j < i; ++j) {
       S sum = T(j, 0) * v(0);
       for (int k = 1; k < nt; ++k) sum = multiply_add(S(T(j, k)), S(v(k)), sum);
       S entry = sum * reciprocal;
-      listener.name(entry, "prior_U", j, i);
+      listener.name(entry, "prior_U", of_entry(j, i));
       state.U[strict_triangle(j, i)] = entry;
-      bounds.add(entry, listener);
+      bounds.add(entry, of_entry(j, i, "U"), listener);
       for (int k = 0; k < nt; ++k) {
         T(j, k) = multiply_subtract(entry, S(T(i, k)), S(T(j, k)));
-        listener.name(T(j, k), "T", j, k);
+        listener.name(T(j, k), k < nx ? "AU" : "G", of_entry_without(i, j, k < nx ? k : k - nx));
       }
     }
   }

@@ -32,6 +32,8 @@ LinearState<S> initial_state(const LinearModel<S>& model) {
   return {model.z0, Vector<S>(Vector<S>::Constant(model.predictor_form ? 0 : model.B.cols(), S(0)))};
 }
 
+constexpr const char* sum_of_z = ";  sum_to_z_k = Σ z_i, i ≤ k, is finite where each z_i is";
+
 // sum + row i of M times v
 template <class S>
 S add_product(S sum, const Matrix<S>& M, int i, const Vector<S>& v) {
@@ -46,7 +48,7 @@ Vector<S> heard_outputs(const LinearModel<S>& model, const LinearState<S>& state
   Vector<S> heard(y.size());
   for (int i = 0; i < y.size(); ++i) {
     listener.section("y, or what is expected where it is not finite", i);
-    auto usable = listener.accept(is_finite(S(y(i))), Event::output_not_finite);
+    auto usable = listener.accept(is_finite(S(y(i))), i);
     heard(i) = select(usable, S(y(i)), add_product(S(0), model.expected, i, state.z));
     listener.name(heard(i), "heard");
   }
@@ -60,12 +62,12 @@ Vector<S> act_on(const LinearModel<S>& model, const LinearState<S>& state, const
   Vector<S> u(model.C.rows());
   for (int i = 0; i < u.size(); ++i) {
     const S sum = add_product(add_product(S(0), model.C, i, state.z), model.D, i, y);
-    listener.name(sum, "law", i);
+    listener.name(sum, "law", of_input(i));
     auto finite = is_finite(sum);
-    listener.name(finite, "finite", i);
+    listener.name(finite, "finite", of_input(i));
     listener.raise(Event::input_limited, negation(finite));
     u(i) = select(finite, sum, S(0));
-    listener.name(u(i), "u", i);
+    listener.name(u(i), "u", of_input(i));
   }
   return u;
 }
@@ -87,13 +89,13 @@ auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const 
   u.resize(model.C.rows());
   for (int i = 0; i < u.size(); ++i) {
     u(i) = add_product(add_product(S(0), model.C, i, state.z), model.D, i, y);
-    listener.name(u(i), "law", i);
-    bounds.add(S(u(i)), listener);
+    listener.name(u(i), "law", of_input(i));
+    bounds.add(S(u(i)), of_input(i, "u"), listener);
   }
   for (int j = 0; j < model.D.cols(); ++j) {
     bool shown = false;
     for (int i = 0; i < u.size(); ++i) shown = shown || !is_zero(S(model.D(i, j)));
-    if (!shown) bounds.add(S(y(j)), listener);
+    if (!shown) bounds.add(S(y(j)), of_output(j, "y"), listener);
   }
   if (!model.predictor_form) state.y = y;
   return bounds.is_within();
@@ -102,13 +104,13 @@ auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const 
 // z ← A z + B y with outputs that are finite; the condition says that z is.
 template <class S, class Listener>
 auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Listener& listener) {
-  listener.section("z ← A z + B y");
+  listener.section("z ← A z + B y", -1, sum_of_z);
   BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {
     next(i) = add_product(add_product(S(0), model.A, i, state.z), model.B, i, y);
-    listener.name(next(i), "next", i);
-    bounds.add(S(next(i)), listener);
+    listener.name(next(i), "next_z", of_entry(i));
+    bounds.add(S(next(i)), of_entry(i, -1, "z"), listener);
   }
   state.z = next;
   return bounds.is_within();
@@ -121,7 +123,7 @@ Vector<S> estimate(const LinearModel<S>& model, const LinearState<S>& state, Lis
   Vector<S> x(model.estimate.rows());
   for (int i = 0; i < x.size(); ++i) {
     x(i) = add_product(add_product(S(0), model.estimate, i, state.z), model.heard, i, state.y);
-    listener.name(x(i), "x", i);
+    listener.name(x(i), "x", of_state(i));
   }
   return x;
 }
@@ -129,13 +131,13 @@ Vector<S> estimate(const LinearModel<S>& model, const LinearState<S>& state, Lis
 // z of a state that is set by hand; the condition says that it is finite.
 template <class S, class Listener>
 auto set_state(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& x, Listener& listener) {
-  listener.section("z of x");
+  listener.section("z of x", -1, sum_of_z);
   BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {
     next(i) = add_product(add_product(S(0), model.of_state, i, x), model.keep, i, state.z);
-    listener.name(next(i), "next", i);
-    bounds.add(S(next(i)), listener);
+    listener.name(next(i), "next_z", of_entry(i));
+    bounds.add(S(next(i)), of_entry(i, -1, "z"), listener);
   }
   state.z = next;
   return bounds.is_within();

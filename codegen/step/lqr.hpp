@@ -13,9 +13,10 @@ Vector<S> reference(const Model<S>& model, const State<S>& state, Listener& list
   Vector<S> r(model.nr);
   for (int j = 0; j < model.nr; ++j) {
     auto finite = is_finite(S(state.r(j)));
+    listener.hint(finite, "finite_r", of_reference(j));
     listener.raise(Event::reference_not_finite, negation(finite));
     r(j) = select(finite, S(state.r(j)), S(0));
-    listener.name(r(j), "wanted", j);
+    listener.name(r(j), "reference", of_reference(j));
   }
   return r;
 }
@@ -33,11 +34,13 @@ S law(const Model<S>& model, const State<S>& state, const Vector<S>& r, int i) {
   return sum;
 }
 
-// The nearest number to `value` within [low, high].
+// The nearest number to `value` within [low, high], of input i.
 template <class S, class Listener>
-S within(const S& low, const S& value, const S& high, Listener& listener) {
+S within(const S& low, const S& value, const S& high, const char* below, const char* above, int i, Listener& listener) {
   auto is_low = is_less(value, low);
   auto is_high = is_less(high, value);
+  listener.hint(is_low, below, of_input(i));
+  listener.hint(is_high, above, of_input(i));
   listener.raise(Event::input_limited, either(is_low, is_high));
   return select(is_low, low, select(is_high, high, value));
 }
@@ -60,21 +63,23 @@ Vector<S> control(const Model<S>& model, State<S>& state, Listener& listener) {
   Vector<S> u(model.nu);
   for (int i = 0; i < model.nu; ++i) {
     S sum = law(model, state, r, i);
-    listener.name(sum, "law", i);
+    listener.name(sum, "law", of_input(i));
     auto finite = is_finite(sum);
-    listener.name(finite, "finite", i);
+    listener.name(finite, "finite", of_input(i));
     listener.raise(Event::input_limited, negation(finite));
     S value = select(finite, sum, S(0));
-    listener.name(value, "demand", i);
+    listener.name(value, "demand", of_input(i));
     if (state.demand.size()) state.demand(i) = value;
     if (model.u_step.size()) {
-      const S last = state.u(i);
-      value = within(S(last - model.u_step(i)), value, S(last + model.u_step(i)), listener);
-      listener.name(value, "reached", i);
+      const S last = state.u(i), highest = last + model.u_step(i), lowest = last - model.u_step(i);
+      listener.hint(lowest, "lowest", of_input(i));
+      listener.hint(highest, "highest", of_input(i));
+      value = within(lowest, value, highest, "below_lowest", "above_highest", i, listener);
+      listener.name(value, "reached", of_input(i));
     }
     if (model.u_min.size()) {
-      value = within(S(model.u_min(i)), value, S(model.u_max(i)), listener);
-      listener.name(value, "limited", i);
+      value = within(S(model.u_min(i)), value, S(model.u_max(i)), "below", "above", i, listener);
+      listener.name(value, "limited", of_input(i));
     }
     u(i) = value;
   }

@@ -134,35 +134,101 @@ void begin_anew(const Model<S>& model, State<S>& state) {
 }
 
 enum class Event {
-  output_not_finite,
+  output_rejected,
   innovation_not_positive,
   input_limited,
   state_reset,
   reference_not_finite,
   output_gated,
-  covariance_reset
+  covariance_reset,
+  first_rejected,  // and seven more behind it: which outputs were rejected
 };
+
+// Which one of several a value is: that of a state, an input, an output, of the integral or the reference of one; an
+// entry of a vector or a matrix; the entry of a row that is independent of row `without`. `of` is what it is one of, if
+// that is not clear: the "P" of "the squares up to P_00".
+struct Place {
+  enum class Kind { single, state, input, output, integral, reference, entry };
+  Kind kind = Kind::single;
+  int i = -1, j = -1;
+  const char* of = "";
+  int without = -1;
+};
+inline Place of_state(int i, const char* of = "") { return {Place::Kind::state, i, -1, of, -1}; }
+inline Place of_input(int i, const char* of = "") { return {Place::Kind::input, i, -1, of, -1}; }
+inline Place of_output(int i, const char* of = "") { return {Place::Kind::output, i, -1, of, -1}; }
+inline Place of_integral(int i, const char* of = "") { return {Place::Kind::integral, i, -1, of, -1}; }
+inline Place of_reference(int i) { return {Place::Kind::reference, i, -1, "", -1}; }
+inline Place of_entry(int i, int j = -1, const char* of = "") { return {Place::Kind::entry, i, j, of, -1}; }
+inline Place of_entry_without(int without, int i, int j) { return {Place::Kind::entry, i, j, "", without}; }
+// What a number is that is no gain.
+enum class Quantity {
+  u_min,
+  u_max,
+  u_step,
+  y_min,
+  y_max,
+  innovation_limit,
+  innovation_limit_squared,
+  innovation_variance,
+  gate,
+  gate_squared,
+  gate_widen,
+  gate_narrow,
+  threshold,
+  error_limit,
+  sample_time
+};
+// How many outputs are told apart, all from the last on together.
+inline constexpr int told_rejections = 8;
+
+// That output i was the one.
+inline Event rejection_of(int i) {
+  return static_cast<Event>(static_cast<int>(Event::first_rejected) + (i < told_rejections ? i : told_rejections - 1));
+}
+
+// The bits of all of these.
+inline unsigned all_rejections() {
+  return ((1u << told_rejections) - 1) << static_cast<unsigned>(Event::first_rejected) |
+         1u << static_cast<unsigned>(Event::output_rejected);
+}
 
 // Who listens to a step. This one only keeps the events; the printer of C keeps names and equations.
 struct Listener {
   unsigned events = 0;
 
-  // A new block of the algorithm: its equation, and the output it belongs to (−1: none).
-  void section(const std::string&, int = -1) {}
-  // `value` is called `base`, with indices where they are not −1.
+  // A new block of the algorithm: its equation, the output it belongs to (−1: none), and what follows the equation.
+  template <class Text>
+  void section(const Text&, int = -1, const char* = "") {}
+  // `value` is called `base`, of a place.
   template <class Value>
-  void name(const Value&, const char*, int = -1, int = -1) {}
+  void name(const Value&, const char*, const Place& = {}) {}
+  // Likewise, if it is called anything: a value that only one other is made of may stay without a name.
+  template <class Value>
+  void hint(const Value&, const char*, const Place& = {}) {}
+  // `value`, which is such a number of signal i (−1: of all) unless it depends on the state.
+  template <class S>
+  S constant(const S& value, Quantity, int = -1) const {
+    return value;
+  }
   void raise(Event event, bool happened) {
     if (happened) events |= 1u << static_cast<unsigned>(event);
   }
-  // Says that an output was left out, and why, unless it is usable; returns whether it is.
-  bool accept(bool usable, Event reason) {
-    raise(reason, !usable);
+  // Output i was not believable.
+  void reject(int i, bool rejected) {
+    raise(Event::output_rejected, rejected);
+    raise(rejection_of(i), rejected);
+  }
+  // Says that output i was left out unless it is usable; returns whether it is.
+  bool accept(bool usable, int i) {
+    reject(i, !usable);
     return usable;
   }
-  // Likewise, with one reason if the innovation is believable and another if it is not.
-  bool accept(bool usable, bool believable, Event if_believable, Event if_not) {
-    return accept(usable, believable ? if_believable : if_not);
+  // Likewise; if the innovation is believable, it is its variance that is not positive.
+  bool accept(bool usable, bool believable, int i) {
+    raise(Event::innovation_not_positive, believable && !usable);
+    reject(i, !believable);
+    return usable;
   }
   // `condition`, and that the event did not happen in this call.
   bool without(Event event, bool condition) const {

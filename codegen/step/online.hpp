@@ -12,7 +12,7 @@ S decorrelate(const Model<S>& model, const Vector<S>& y, int i, Listener& listen
   S sum = y(i);
   for (int j = 0; j < i; ++j)
     if (!is_zero(model.E(i, j))) sum = multiply_add(S(model.E(i, j)), S(y(j)), sum);
-  if (i > 0) listener.name(sum, "uncorrelated", i);
+  if (i > 0) listener.name(sum, "uncorrelated", of_output(i));
   return sum;
 }
 template <class S, class Listener>

@@ -10,11 +10,13 @@ namespace lqg::step {
 // those that are not believable, and those whose noise only one that is lost itself would make independent.
 template <class S, class Listener>
 auto lost_outputs(const Model<S>& model, Vector<S> innovations, const Vector<S>& y, Listener& listener) {
-  for (int i = 0; i < model.ny && model.y_min.size(); ++i)
+  for (int i = 0; i < model.ny && model.y_min.size(); ++i) {
     innovations(i) = select(is_in_range(model, S(y(i)), i), S(innovations(i)), not_a_number(S(y(i))));
-  const Vector<S> nu = model.E.size() ? decorrelate(model, innovations, listener) : innovations;
-  std::vector<decltype(is_less(nu(0), nu(0)))> lost;
-  for (int i = 0; i < model.ny; ++i) lost.push_back(negation(is_believable(model.nu_limit, i, S(nu(i)))));
+    listener.hint(innovations(i), "innovation_in_range", of_output(i));
+  }
+  const Vector<S> independent = model.E.size() ? decorrelate(model, innovations, listener) : innovations;
+  std::vector<decltype(is_less(S(), S()))> lost;
+  for (int i = 0; i < model.ny; ++i) lost.push_back(negation(is_believable(model.nu_limit, i, S(independent(i)))));
   return lost;
 }
 

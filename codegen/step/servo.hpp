@@ -16,9 +16,9 @@ void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Con
     if (model.integral[i] != output) continue;
     listener.section("r − y, which predict adds to ξ; 0 if the output is not used, or it is not believable", output);
     S error = state.r(model.wanted[i]) - y;
-    listener.name(error, "error");
+    listener.name(error, "raw_error");
     error = select(both(used, is_believable(model.error_limit, static_cast<int>(i), error)), error, S(0));
-    listener.name(error, "kept_error");
+    listener.name(error, "error");
     state.error(static_cast<Eigen::Index>(i)) = error;
   }
 }
@@ -41,8 +41,8 @@ S corrected(const Matrix<S>& H, const Vector<S>& xi, const Vector<S>& u, const V
 // Adds ξ and the input that is kept.
 template <class S, class Listener>
 void check_memory(const Model<S>& model, const State<S>& state, BoundsCheck<S>& bounds, Listener& listener) {
-  for (int i = 0; i < state.xi.size(); ++i) bounds.add(S(state.xi(i)), model.xi_bound, i, listener);
-  for (int i = 0; i < model.nu && continues(model); ++i) bounds.add(S(state.u(i)), listener);
+  for (int i = 0; i < state.xi.size(); ++i) bounds.add(S(state.xi(i)), model.xi_bound, of_integral(i, "xi"), listener);
+  for (int i = 0; i < model.nu && continues(model); ++i) bounds.add(S(state.u(i)), of_input(i, "u"), listener);
 }
 
 // ξ ← ξ + H (u − what the law asked for) + T (r − y) with the u that was applied; that u is kept where it is needed.
@@ -52,7 +52,7 @@ void remember(const Model<S>& model, State<S>& state, const Vector<S>& u, Bounds
   const int nxi = static_cast<int>(model.integral.size());
   for (int i = 0; i < nxi; ++i) {
     state.xi(i) = multiply_add(model.T, S(state.error(i)), corrected(model.H, state.xi, u, state.demand, i));
-    listener.name(state.xi(i), "xi", i);
+    listener.name(state.xi(i), "next_xi", of_integral(i));
     state.error(i) = S(0);
   }
   if (nxi) state.demand = u;
@@ -72,7 +72,7 @@ auto act(const Model<S>& model, State<S>& state, Vector<S>& u, Listener& listene
     for (int j = 0; j < model.nx; ++j) sum = multiply_add(S(model.C(i, j)), S(state.x(j)), sum);
     for (int j = 0; j < model.D.cols(); ++j) sum = multiply_add(S(model.D(i, j)), S(u(j)), sum);
     y(i) = sum;
-    listener.name(y(i), "y", i);
+    listener.name(y(i), "y", of_output(i));
   }
   const auto always = is_less(S(0), S(1));
   observe(model, state, y, std::vector<decltype(is_less(S(), S()))>(static_cast<std::size_t>(y.size()), always),
@@ -88,10 +88,11 @@ template <class S, class Listener>
 auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   const int nxi = static_cast<int>(model.integral.size());
   BoundsCheck<S> bounds;
+  if (model.delayed) listener.section("the inputs on their way", -1, and_check(model.x_bound));
   for (int i = 0; i < model.delayed; ++i) {
     const int at = model.nx - model.delayed + i;
     state.x(at) = u(i % model.nu);
-    if (!model.x_bound.empty()) bounds.add(S(state.x(at)), model.x_bound, at, listener);
+    if (!model.x_bound.empty()) bounds.add(S(state.x(at)), model.x_bound, of_state(at, "x"), listener);
   }
   if (state.u.size()) state.u = u;
   if (nxi) {
@@ -100,17 +101,17 @@ auto set_input(const Model<S>& model, State<S>& state, const Vector<S>& u, Liste
     Vector<S> v(model.nu), xi(nxi);
     for (int i = 0; i < model.nu; ++i) {
       v(i) = law(model, state, r, i);
-      listener.name(v(i), "law", i);
+      listener.name(v(i), "law", of_input(i));
     }
     for (int i = 0; i < nxi; ++i) {
       xi(i) = corrected(model.H_input, state.xi, u, v, i);
-      listener.name(xi(i), "xi", i);
-      bounds.add(S(xi(i)), model.xi_bound, i, listener);
+      listener.name(xi(i), "next_xi", of_integral(i));
+      bounds.add(S(xi(i)), model.xi_bound, of_integral(i, "xi"), listener);
     }
     state.xi = xi;
     state.demand = u;
   }
-  for (int i = 0; i < model.nu; ++i) bounds.add(S(u(i)), listener);
+  for (int i = 0; i < model.nu; ++i) bounds.add(S(u(i)), of_input(i, "u"), listener);
   return bounds.is_within();
 }
 

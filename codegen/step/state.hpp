@@ -30,30 +30,28 @@ Weighing<S> weighing_of(const Model<S>& model, int i) {
           S(model.gate_narrow(i))};
 }
 
-// w, from 1 to the widest whatever it was: a NaN is 1.
+// The widening, from 1 to the widest whatever it was: a NaN is 1.
 template <class S, class Listener>
-S kept_width(const S& width, Listener& listener) {
+S kept_width(const S& width, const char* lower_end, Listener& listener) {
   const S widest = PowerOfTwo<S>::of(widest_gate_exponent);
   const S least = select(is_less(S(1), width), width, S(1));
-  listener.name(least, "wide");
+  listener.name(least, lower_end);
   return select(is_less(least, widest), least, widest);
 }
 
-// Whether ν of the variance s is believable, and ν² ≤ gate² s w. Then w narrows. It widens where the gate left the output
+// Whether ν of the variance s is believable, and ν² ≤ gate² s widening. Then that narrows. It widens where the gate left the output
 // out: then x̂ is wrong, not the sensor, if that goes on. With a constant gain it widens, too, while nothing usable comes: P,
 // which is not carried, would grow.
 template <class S, class Listener>
 auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, const S& s, int i, Listener& listener) {
-  listener.section("w, at least 1");
-  const S width = kept_width(widening, listener);
+  listener.section("the widening, at least 1");
+  const S width = kept_width(widening, "width_or_1", listener);
   listener.name(width, "width");
-  listener.section("0 < S, |innovation| below its limit, innovation² ≤ gate² S w");
+  listener.section("0 < S, |innovation| below its limit, innovation² ≤ gate² S widening");
   auto believable = is_less(absolute(nu), weighing.limit);
   listener.name(believable, "believable");
-  auto usable = weighing.filter == Filter::plain
-                    ? listener.accept(both(believable, is_less(S(0), s)), believable, Event::innovation_not_positive,
-                                      Event::output_not_finite)
-                    : listener.accept(believable, Event::output_not_finite);
+  auto usable = weighing.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), s)), believable, i)
+                                                 : listener.accept(believable, i);
   auto beyond = is_less(S(S(weighing.square * s) * width), S(nu * nu));
   listener.name(beyond, "beyond");
   auto gated = both(usable, beyond);
@@ -61,28 +59,29 @@ auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, con
   listener.gate(gated, i);
   auto used = both(usable, negation(beyond));
   listener.name(used, "used");
-  listener.section("w widens or narrows");
+  listener.section("it widens or narrows");
   const S unheard = weighing.filter == Filter::steady ? weighing.widen : select(gated, weighing.widen, S(1));
   const S next = select(used, weighing.narrow, unheard) * width;
   listener.name(next, "next_width");
-  widening = kept_width(next, listener);
+  widening = kept_width(next, "next_width_or_1", listener);
   return used;
 }
 
 // Whether output i is used, of its innovation ν. `variance` makes s, the variance of ν, which is `least` or more. Most are as
-// expected: ν² < gate² least while w is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
+// expected: ν² < gate² least while the widening is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
 // ν² < limit² for a power of two. It tells that s is positive, too.
 template <class S, class Variance, class Listener>
 auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, Variance variance, int i,
            Listener& listener) {
   if (is_zero(model.gate)) {
     auto believable = is_believable(model.nu_limit, i, nu);
-    return model.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), least)), believable,
-                                                           Event::innovation_not_positive, Event::output_not_finite)
-                                         : listener.accept(believable, Event::output_not_finite);
+    return model.filter == Filter::plain ? listener.accept(both(believable, is_less(S(0), least)), believable, i)
+                                         : listener.accept(believable, i);
   }
-  const S most = S(model.gate * model.gate) * least, limit = model.nu_limit(i) * model.nu_limit(i);
-  const S threshold = select(is_less(most, limit), most, limit);
+  const S square = listener.constant(S(model.gate * model.gate), Quantity::gate_squared), most = square * least;
+  listener.hint(most, "gate_square");
+  const S limit = listener.constant(S(model.nu_limit(i) * model.nu_limit(i)), Quantity::innovation_limit_squared, i);
+  const S threshold = listener.constant(select(is_less(most, limit), most, limit), Quantity::threshold, i);
   listener.name(threshold, "threshold");
   auto expected = both(is_less(S(nu * nu), threshold), negation(is_less(S(1), S(state.widening(i)))));
   auto used = listener.weigh(expected, i, nu, variance, [&] {
@@ -119,16 +118,17 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, B
                    Listener& listener) {
   listener.section(model.M.cols() ? "x̂ ← A x̂ + B u + M (what the outputs told of w)"
                    : model.nu     ? "x̂ ← A x̂ + B u"
-                                  : "x̂ ← A x̂");
+                                  : "x̂ ← A x̂",
+                   -1, and_check(model.x_bound));
   Vector<S> next(model.nx);
   for (int i = 0; i < model.nx; ++i) {
     S sum = model.A(i, 0) * state.x(0);
     for (int j = 1; j < model.nx; ++j) sum = multiply_add(S(model.A(i, j)), S(state.x(j)), sum);
     for (int j = 0; j < model.nu; ++j) sum = multiply_add(S(model.B(i, j)), S(u(j)), sum);
     for (int j = 0; j < model.M.cols(); ++j) sum = multiply_add(S(model.M(i, j)), S(state.innovation(j)), sum);
-    listener.name(sum, "next", i);
+    listener.name(sum, "next", of_state(i));
     next(i) = sum;
-    bounds.add(sum, model.x_bound, i, listener);
+    bounds.add(sum, model.x_bound, of_state(i, "x"), listener);
   }
   state.x = next;
   for (int j = 0; j < model.M.cols(); ++j) state.innovation(j) = S(0);

@@ -65,6 +65,17 @@ int Graph::constant(double value) {
   return at->second;
 }
 
+int Graph::constant(double value, const std::string& name) {
+  const auto [at, is_new] = named_constants_.try_emplace(prefix_ + name, -1);
+  if (is_new) {
+    Node node;
+    node.value = value + 0.0;  // −0 is 0
+    node.text = at->first;
+    at->second = insert(std::move(node));
+  }
+  return at->second;
+}
+
 int Graph::input(const std::string& text, const std::string& name) {
   Node node;
   node.op = Op::input;
@@ -207,11 +218,11 @@ void Graph::section(const std::string& equation, const std::string& suffix) { se
 
 void Graph::name(int node, const std::string& base) {
   if (nodes_[node].op == Op::constant || !nodes_[node].name.empty()) return;
-  const std::string wanted = base + sections_.back().suffix;
-  std::string name = wanted;
-  for (int i = 1; !taken_.insert(name).second; ++i)
-    name = wanted + (i <= 26 ? std::string("_") + static_cast<char>('a' + i - 1) : "_again" + std::to_string(i));
-  nodes_[node].name = name;
+  nodes_[node].name = base + sections_.back().suffix;
+}
+
+void Graph::hint(int node, const std::string& base) {
+  if (nodes_[node].hint.empty()) nodes_[node].hint = base + sections_.back().suffix;
 }
 
 }  // namespace lqg::trace

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace lqg::trace {
@@ -40,8 +41,9 @@ struct Node {
   Op op = Op::constant;
   int a = -1, b = -1, c = -1;
   double value = 0;  // of a constant, representable in the target's real
-  std::string text;  // of an input or a flag: its C expression
-  std::string name;  // empty: printed inside the expression that uses it
+  std::string text;  // its C expression: of an input, of a flag, of a constant that has a name in C
+  std::string name;  // empty: printed inside the expression that uses it, or shared by several under its hint
+  std::string hint;
   int section = 0;
 };
 
@@ -58,9 +60,14 @@ struct Target {
 // constants alone. Nothing is reassociated.
 class Graph {
  public:
-  explicit Graph(Target target) : target_(target) { sections_.push_back({}); }
+  // `prefix` begins the names of constants in C: "SERVO_".
+  explicit Graph(Target target, std::string prefix = "") : target_(target), prefix_(std::move(prefix)) {
+    sections_.push_back({});
+  }
 
   int constant(double value);
+  // The constant that C knows by the graph's prefix and `name`. It folds like any other; what it folds to has no name.
+  int constant(double value, const std::string& name);
   int input(const std::string& text, const std::string& name);
   int flag(const std::string& text);
   // `condition`, or else what the call `function`, b, c) answers: "weigh(self, 0". Printed as two statements. In either case
@@ -73,12 +80,19 @@ class Graph {
 
   // Nodes made from now on stand under `equation`; names get `suffix`.
   void section(const std::string& equation, const std::string& suffix);
-  // The first name a node gets is kept; one that is taken gets a letter behind it.
+  // The first name a node gets is kept. Two nodes may get the same: `names_of` tells them apart.
   void name(int node, const std::string& base);
+  // The name of a node that has none and is used more than once; this gives it no statement of its own.
+  void hint(int node, const std::string& base);
+  // Names that no node may have, since C knows something else by them.
+  void reserve(const std::set<std::string>& names) { reserved_.insert(names.begin(), names.end()); }
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::string& equation(int section) const { return sections_[section].equation; }
+  const std::set<std::string>& reserved() const { return reserved_; }
   Target target() const { return target_; }
+  // The constants with a name in C, and their nodes.
+  const std::map<std::string, int>& named_constants() const { return named_constants_; }
 
  private:
   struct Section {
@@ -95,12 +109,14 @@ class Graph {
   int fold_multiply_subtract(int a, int b, int c);
 
   Target target_;
+  std::string prefix_;
   std::vector<Node> nodes_;
   std::vector<Section> sections_;
   std::map<Key, int> known_;
   std::map<double, int> constants_;
+  std::map<std::string, int> named_constants_;
   std::map<std::string, int> flags_;
-  std::set<std::string> taken_;
+  std::set<std::string> reserved_;
 };
 
 }  // namespace lqg::trace

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "trace/consequences.hpp"
+#include "trace/names.hpp"
 
 namespace lqg::trace {
 
@@ -24,6 +25,9 @@ bool prints_twice(const Node& node, int operand) {
   return node.op == Op::finite || (node.op == Op::usable && operand == node.a);
 }
 
+// Of the function: it has its name already.
+bool is_parameter(const Node& node) { return node.op == Op::input && node.name == node.text; }
+
 // Columns, not bytes: a continuation byte of UTF-8 takes none.
 int columns(const std::string& text, std::size_t from, std::size_t to) {
   int count = 0;
@@ -37,19 +41,45 @@ bool breaks_before(const std::string& line, std::size_t i, const char* signs) {
          std::strchr(signs, line[i + 1]);
 }
 
-// The last place before `width` where the line may break: before ? and : if it has any, else before + and −, else after
-// a comma; the first place behind `width` if there is none before it.
-std::size_t break_before(const std::string& line, std::size_t start, int width) {
-  constexpr std::size_t none = std::string::npos;
-  std::size_t choice = none, sum = none, comma = none;
-  for (std::size_t i = start + 1; i < line.size(); ++i) {
-    const bool has_one = choice != none || sum != none || comma != none;
-    if (has_one && columns(line, start, i) >= width) break;
-    if (breaks_before(line, i, "?:")) choice = i;
-    if (breaks_before(line, i, "+-")) sum = i;
-    if (line[i] == ' ' && line[i - 1] == ',') comma = i;
+// A comment above a block; its lines end between words.
+std::string heading(const std::string& equation) {
+  constexpr int width = 117;  // and " */" behind it
+  std::string out = "\n    /* ", rest = equation;
+  while (columns(rest, 0, rest.size()) > width - 7) {
+    std::size_t end = rest.find(' ');
+    for (std::size_t i = end; i != std::string::npos && columns(rest, 0, i) <= width - 7; i = rest.find(' ', i + 1))
+      end = i;
+    if (end == std::string::npos) break;
+    out += rest.substr(0, end) + "\n     * ";
+    rest = rest.substr(rest.find_first_not_of(' ', end));
   }
-  return choice != none ? choice : sum != none ? sum : comma;
+  return out + rest + " */\n";
+}
+
+// How well a line breaks at its character i, the more the better; −1: it does not.
+int worth_of_break(const std::string& line, std::size_t i) {
+  if (breaks_before(line, i, ":") && line.find(" ? ", i) != std::string::npos) return 6;  // of a choice of choices
+  if (breaks_before(line, i, "?:")) return 5;
+  if (line.compare(i, 4, " && ") == 0 || line.compare(i, 4, " || ") == 0) return 4;
+  if (breaks_before(line, i, "+-")) return 3;
+  if (line[i] != ' ') return -1;
+  if (line[i - 1] == ',') return 2;
+  if (breaks_before(line, i, "<*/")) return 1;
+  return i > 1 && line[i - 1] == '=' && line[i - 2] == ' ' ? 0 : -1;  // behind the = of an assignment
+}
+
+// The last of the best places before `width` where the line may break; the first place behind it if there is none.
+std::size_t break_before(const std::string& line, std::size_t start, int width) {
+  std::size_t best = std::string::npos;
+  int worth = -1;
+  for (std::size_t i = start + 1; i < line.size(); ++i) {
+    if (worth >= 0 && columns(line, start, i) >= width) break;
+    const int found = worth_of_break(line, i);
+    if (found < 0 || found < worth) continue;
+    best = i;
+    worth = found;
+  }
+  return best;
 }
 
 }  // namespace
@@ -91,36 +121,67 @@ Printer::Printer(const Graph& graph, const std::vector<int>& results) : graph_(g
     for (const int operand : {node.a, node.b, node.c})
       if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : 1;
   }
+  std::vector<bool> needed, declared;
+  for (int node = 0; node < static_cast<int>(uses_.size()); ++node) {
+    needed.push_back(needs(node));
+    declared.push_back(needs(node) && is_declared(node));
+  }
+  names_ = names_of(graph, needed, declared);
 }
 
 std::string Printer::operand(int node) const { return print(node, unary + 1); }
 
 bool Printer::is_declared(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  if (at.op == Op::constant || at.op == Op::flag) return false;
+  if (at.op == Op::constant || at.op == Op::flag || is_parameter(at)) return false;
   return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1;
-}
-
-std::string Printer::name_of(int node) const {
-  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  return at.name.empty() ? "shared_" + std::to_string(node) : at.name;
 }
 
 std::string Printer::print(int node, int level) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::constant && !at.text.empty()) return at.text;
   if (at.op == Op::constant) {
     const std::string text = literal(at.value, graph_.target().is_double);
     return at.value < 0 ? bracketed(text, unary, level + 1) : text;
   }
+  if (at.op == Op::asked) return bracketed(name_of(node) + " != 0", comparison, level);
   return is_declared(node) ? name_of(node) : print_operation(node, level);
+}
+
+// How tightly the operator binds that a node is printed with; a name and a call are no operators.
+int Printer::binds(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (at.op == Op::asked) return comparison;
+  if (at.op == Op::constant || is_declared(node)) return unary;
+  switch (at.op) {
+    case Op::select: return any;
+    case Op::either:
+    case Op::both: return logical;
+    case Op::finite:
+    case Op::less:
+    case Op::usable:
+    case Op::same: return comparison;
+    case Op::add:
+    case Op::subtract: return sum;
+    case Op::multiply:
+    case Op::divide: return product;
+    case Op::multiply_add:
+    case Op::multiply_subtract: return graph_.target().is_fused ? unary : sum;
+    default: return unary;
+  }
+}
+
+// An operand, in brackets if it is an operation of another kind: nobody has to know what binds tighter.
+std::string Printer::first_operand(int node, int level) const {
+  return print(node, binds(node) == level ? level : unary);
 }
 
 std::string Printer::print_multiply_add(const Node& node, int level) const {
   const bool subtracts = node.op == Op::multiply_subtract;
   if (!graph_.target().is_fused)
-    return bracketed(
-        print(node.c, sum) + (subtracts ? " - " : " + ") + print(node.a, product) + " * " + print(node.b, unary), sum,
-        level);
+    return bracketed(first_operand(node.c, sum) + (subtracts ? " - (" : " + (") + first_operand(node.a, product) +
+                         " * " + print(node.b, unary) + ")",
+                     sum, level);
   // The sign goes to a factor that is no number: for -0.5f compilers load another constant beside 0.5f.
   const bool second = subtracts && graph_.is_constant(node.a), first = subtracts && !second;
   const auto factor = [&](int operand, bool has_sign) {
@@ -131,23 +192,31 @@ std::string Printer::print_multiply_add(const Node& node, int level) const {
 }
 
 std::string Printer::print_comparison(const Node& node) const {
-  if (node.op == Op::less) return print(node.a, comparison) + " < " + print(node.b, comparison + 1);
-  const std::string difference = print(node.a, sum) + " - " + print(node.a, product);
-  if (node.op == Op::usable) return difference + " < " + print(node.b, sum);
+  if (node.op == Op::less) return print(node.a, unary) + " < " + print(node.b, unary);
+  const std::string difference = "(" + print(node.a, unary) + " - " + print(node.a, unary) + ")";
+  if (node.op == Op::usable) return difference + " < " + print(node.b, unary);
   return difference + " == " + literal(0, graph_.target().is_double);
+}
+
+// a + −0.5 is a − 0.5, to the bit.
+std::string Printer::print_sum(const Node& node, int level) const {
+  const Node& second = graph_.nodes()[static_cast<std::size_t>(node.b)];
+  const bool subtracts = second.op == Op::constant && second.text.empty() && second.value < 0;
+  const std::string right = subtracts ? literal(-second.value, graph_.target().is_double) : print(node.b, unary);
+  return bracketed(first_operand(node.a, sum) + (subtracts ? " - " : " + ") + right, sum, level);
 }
 
 std::string Printer::print_operation(int node, int level) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   const auto binary = [&](const char* sign, int binds) {
-    return bracketed(print(at.a, binds) + sign + print(at.b, binds + 1), binds, level);
+    return bracketed(first_operand(at.a, binds) + sign + print(at.b, unary), binds, level);
   };
   const auto chained = [&](const char* sign) {  // a && b && c; brackets where && and || meet
     const bool continues = graph_.nodes()[static_cast<std::size_t>(at.a)].op == at.op;
-    return bracketed(print(at.a, continues ? logical : comparison) + sign + print(at.b, comparison), logical, level);
+    return bracketed(print(at.a, continues ? logical : unary) + sign + print(at.b, unary), logical, level);
   };
   switch (at.op) {
-    case Op::add: return binary(" + ", sum);
+    case Op::add: return print_sum(at, level);
     case Op::subtract: return binary(" - ", sum);
     case Op::multiply: return binary(" * ", product);
     case Op::divide: return binary(" / ", product);
@@ -156,7 +225,7 @@ std::string Printer::print_operation(int node, int level) const {
     case Op::multiply_add:
     case Op::multiply_subtract: return print_multiply_add(at, level);
     case Op::select:
-      return bracketed(print(at.a, logical) + " ? " + print(at.b, logical) + " : " + print(at.c, any), any, level);
+      return bracketed(print(at.a, unary) + " ? " + print(at.b, unary) + " : " + first_operand(at.c, any), any, level);
     case Op::finite:
     case Op::less:
     case Op::usable: {
@@ -175,9 +244,10 @@ std::string Printer::print_operation(int node, int level) const {
 // Where C reads the value from now on: by its name or, once all stores are done, where it has been stored or was loaded
 // from.
 std::vector<std::string> Printer::places(int node, const std::vector<Store>* stores) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  if (!stores && is_parameter(at)) return {at.text};
   if (!stores) return needs(node) && is_declared(node) ? std::vector{name_of(node)} : std::vector<std::string>();
   std::vector<std::string> out;
-  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   bool is_overwritten = false;
   for (const Store& store : *stores) {
     if (store.node == node) out.push_back(store.target);
@@ -226,14 +296,38 @@ std::string Printer::question(int node) const {
                                                               literal(at.value, true) + "))";
   // A prover follows both answers from here on, but not those to the questions before: they would multiply.
   const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
-  return merge + wrap("    int " + name + " = " + print(at.a, any) + ";", 8) + "\n    if (!" + name + ")\n" +
-         wrap("        " + name + " = " + answer + ";", 12) + "\n";
+  // 1 or 0: of a bool GCC 12 makes two more instructions for each output.
+  return merge + wrap("    int " + name + " = " + print(at.a, unary + 1) + " ? 1 : 0;", 8) + "\n    if (" + name +
+         " == 0) {\n" + wrap("        " + name + " = " + answer + " ? 1 : 0;", 12) + "\n    }\n";
+}
+
+// A status is chosen by statements: in C an expression that chooses among numbers has the type of the smallest one.
+std::string Printer::status_choice(int node, const std::string& name, int indent) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  const std::string blanks(static_cast<std::size_t>(indent), ' ');
+  if (at.op != Op::select) return blanks + name + " = " + print(node, any) + ";\n";
+  return wrap(blanks + "if (" + print(at.a, any) + ") {", indent + 4) + "\n" + status_choice(at.b, name, indent + 4) +
+         blanks + "} else {\n" + status_choice(at.c, name, indent + 4) + blanks + "}\n";
+}
+
+std::string Printer::raise(int status) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(status)];
+  const auto is_ok = [&](int node) { return graph_.nodes()[static_cast<std::size_t>(node)].text == "LQG_OK"; };
+  if (is_declared(status) || at.op != Op::select || is_declared(at.b) || !is_ok(at.c))
+    return "    status |= " + operand(status) + ";\n";
+  return wrap("    if (" + print(at.a, any) + ") {", 8) + "\n        status |= " + print(at.b, any) + ";\n    }\n";
 }
 
 std::string Printer::declaration(int node) const {
+  if (is_status(node)) {
+    const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+    return "    lqg_status_t " + name_of(node) + " = " + print(at.b, any) + ";\n" +
+           wrap("    if (!" + print(at.a, unary + 1) + ") {", 8) + "\n" + status_choice(at.c, name_of(node), 8) +
+           "    }\n";
+  }
   if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked) return question(node);
-  const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "int"
-                           : is_status(node)                                               ? "lqg_status"
+  const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "bool"
+                           : is_status(node)                                               ? "lqg_status_t"
                            : graph_.target().is_double                                     ? "double"
                                                                                            : "float";
   return wrap("    const " + type + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";
@@ -256,8 +350,7 @@ std::string Printer::statements(const std::vector<Store>& stores) const {
       loads += declaration(node);
       continue;
     }
-    if (at.section != section && !graph_.equation(at.section).empty())
-      blocks += "\n    /* " + graph_.equation(at.section) + " */\n";
+    if (at.section != section && !graph_.equation(at.section).empty()) blocks += heading(graph_.equation(at.section));
     section = at.section;
     blocks += declaration(node);
     for (auto [store, end] = ready.equal_range(node); store != end; ++store) blocks += assignment(*store->second);
@@ -270,6 +363,7 @@ std::string Printer::statements(const std::vector<Store>& stores) const {
 
 Operations Printer::operations() const {
   Operations count;
+  std::set<double> constants;
   for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
     if (!needs(node)) continue;
     switch (graph_.nodes()[static_cast<std::size_t>(node)].op) {
@@ -281,13 +375,14 @@ Operations Printer::operations() const {
       case Op::multiply_add:
       case Op::multiply_subtract: ++count.multiply_adds; break;
       case Op::divide: ++count.divisions; break;
-      case Op::constant: ++count.constants; break;
+      case Op::constant: constants.insert(graph_.nodes()[static_cast<std::size_t>(node)].value); break;
       case Op::input:
       case Op::flag: break;
       case Op::negate: break;  // part of the operation before or after it
       default: ++count.selections;
     }
   }
+  count.constants = static_cast<int>(constants.size());
   return count;
 }
 

@@ -43,6 +43,8 @@ class Printer {
   std::string test(int condition, const std::vector<Store>& stores) const;
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;
+  // A statement that adds a status to `status`.
+  std::string raise(int status) const;
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
   // Whether it has a statement of its own; other operations are computed inside of the one that uses them.
   bool is_declared(int node) const;
@@ -50,19 +52,24 @@ class Printer {
 
  private:
   bool is_status(int node) const;
-  std::string name_of(int node) const;
+  const std::string& name_of(int node) const { return names_[static_cast<std::size_t>(node)]; }
   std::string print(int node, int level) const;
+  int binds(int node) const;
+  std::string first_operand(int node, int level) const;
   std::string print_operation(int node, int level) const;
+  std::string print_sum(const Node& node, int level) const;
   std::string print_comparison(const Node& node) const;
   std::string print_multiply_add(const Node& node, int level) const;
   std::string restated(int condition, const std::string& text, const std::vector<Store>* stores) const;
   std::vector<std::string> places(int node, const std::vector<Store>* stores) const;
   std::string question(int node) const;
+  std::string status_choice(int node, const std::string& name, int indent) const;
   std::string declaration(int node) const;
   std::string assignment(const Store& store) const;
 
   const Graph& graph_;
   std::vector<int> uses_;
+  std::vector<std::string> names_;  // of what is declared
 };
 
 }  // namespace lqg::trace

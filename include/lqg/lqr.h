@@ -23,12 +23,12 @@ typedef struct {
 
 /* u = −K x, within [u_min, u_max].
  *
- * x[nx]  in: the state or its estimate
- * u[nu]  out: finite and within the limits, whatever x is; MUST NOT overlap x
+ * x  in: the state or its estimate
+ * u  out: finite and within the limits, whatever x is; MUST NOT overlap x
  *
- * Status: LQG_INPUT_LIMITED when a limit was reached, or when −K x was not finite and 0 stood in for it.
+ * Status: LQG_INPUT_LIMITED when a limit was reached, or when −K x was not finite and 0 was used instead.
  * Cost: nu·nx multiply-adds. */
-lqg_status lqg_lqr_control(const lqg_lqr_t *lqr, const lqg_real x[], lqg_real u[]);
+lqg_status_t lqg_lqr_control(const lqg_lqr_t *lqr, const lqg_real x[/* nx */], lqg_real u[/* nu */]);
 
 #ifdef __cplusplus
 }

@@ -49,7 +49,7 @@ int main(void)
     static WITH_NAME(NAME, _t) loop;
     static float y[NY], u[NU];
     unsigned long seed = 1;
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
 
     TCCR1A = 0;
     TCCR1B = 1 << CS11; /* clock/8 */

@@ -25,7 +25,7 @@ typedef struct {
 
 static record_t record;
 
-static int count(lqg_status status, lqg_status bit)
+static int count(lqg_status_t status, lqg_status_t bit)
 {
     return (status & bit) != 0;
 }
@@ -39,7 +39,7 @@ static robot_t run_loop(robot_t robot)
     for (int k = 0; k < SAMPLES; k++) {
         const double seconds = k * (double)BALANCING_ROBOT_SAMPLE_TIME;
         float y[BALANCING_ROBOT_NY], u[BALANCING_ROBOT_NU];
-        lqg_status status;
+        lqg_status_t status;
 
         scenario_read_sensors(&robot, seconds, y);
         status = balancing_robot_update(&loop, y);
@@ -50,7 +50,7 @@ static robot_t run_loop(robot_t robot)
         record.voltage[k] = (double)u[0];
         status |= balancing_robot_predict(&loop, u);
         record.limited += count(status, LQG_INPUT_LIMITED);
-        record.left_out += count(status, LQG_OUTPUT_NOT_FINITE);
+        record.left_out += count(status, LQG_OUTPUT_REJECTED);
         record.resets += count(status, LQG_STATE_RESET);
         robot_run(&robot, (double)u[0], scenario_push(seconds), (double)BALANCING_ROBOT_SAMPLE_TIME);
     }

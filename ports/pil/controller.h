@@ -40,17 +40,17 @@ static inline void controller_init(controller_t *loop)
     CONTROLLER_OF(_init)(loop);
 }
 
-static inline lqg_status controller_update(controller_t *loop, const float *y)
+static inline lqg_status_t controller_update(controller_t *loop, const float *y)
 {
     return CONTROLLER_OF(_update)(loop, y);
 }
 
-static inline lqg_status controller_control(controller_t *loop, float *u)
+static inline lqg_status_t controller_control(controller_t *loop, float *u)
 {
     return CONTROLLER_OF(_control)(loop, u);
 }
 
-static inline lqg_status controller_predict(controller_t *loop, const float *u)
+static inline lqg_status_t controller_predict(controller_t *loop, const float *u)
 {
     return CONTROLLER_OF(_predict)(loop, u);
 }

@@ -116,10 +116,10 @@ static void drive(const balancer_t *self, const sensors_t *sensors, float voltag
     hardware_drive(voltage + correction, voltage - correction);
 }
 
-static void look_for_trouble(balancer_t *self, lqg_status status)
+static void look_for_trouble(balancer_t *self, lqg_status_t status)
 {
     self->limited = in_a_row(self->limited, (status & LQG_INPUT_LIMITED) != 0);
-    self->blind = in_a_row(self->blind, (status & LQG_OUTPUT_NOT_FINITE) != 0);
+    self->blind = in_a_row(self->blind, (status & LQG_OUTPUT_REJECTED) != 0);
     if (fabsf(self->loop.x[BALANCING_ROBOT_X_PITCH]) > fallen)
         stop(self, BALANCER_FALLEN);
     else if (self->limited >= LIMITED_FOR)
@@ -131,7 +131,7 @@ static void look_for_trouble(balancer_t *self, lqg_status status)
 static void balance(balancer_t *self, const sensors_t *sensors)
 {
     float y[BALANCING_ROBOT_NY], u[BALANCING_ROBOT_NU];
-    lqg_status status;
+    lqg_status_t status;
 
     measure(self, sensors, y);
     status = balancing_robot_update(&self->loop, y);

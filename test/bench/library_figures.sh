@@ -43,10 +43,10 @@ for suffix in _f32 _f32_fused _f64 _f64_fused; do
   mkdir -p "$folder/$suffix"
   (cd "$folder/$suffix" && "${compiler[@]}" "${define[@]}" -c "$lqg_root"/src/*.c && arm-none-eabi-ar rcs library.a ./*.o)
   for filter in steady plain ud; do
-    measure $filter kalman_${filter}_{init,update_watched,predict}
-    measure "$filter, unwatched" kalman_${filter}_{init,update,predict}
+    measure $filter kalman_${filter}_{init,partial_update,predict}
+    measure "$filter, whole update" kalman_${filter}_{init,update,predict}
   done
   measure law lqr_control
-  measure "steady and servo" kalman_steady_{init,update_watched,predict} servo_{init,control,advance}
-  measure "steady, servo and integrals" kalman_steady_{init,update_watched,predict} servo_{init,control,advance,observe}
+  measure "steady and servo" kalman_steady_{init,partial_update,predict} servo_{init,control,advance}
+  measure "steady, servo and integrals" kalman_steady_{init,partial_update,predict} servo_{init,control,advance,observe}
 done

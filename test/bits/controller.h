@@ -20,7 +20,7 @@ static hashes_t OF(hash_state)(hashes_t hashes, const OF(t) *self)
 
 static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) *self, source_t *source)
 {
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
 #ifdef CONTROLS
     REAL u[SIZE(NU)];
 #endif

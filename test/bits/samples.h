@@ -54,9 +54,10 @@ static inline hashes_t hash_reals(hashes_t hashes, const REAL *values, size_t si
     return hashes;
 }
 
-static inline hashes_t hash_status(hashes_t hashes, lqg_status status)
+/* What happened, not to which output: as it was before the status said that. */
+static inline hashes_t hash_status(hashes_t hashes, lqg_status_t status)
 {
-    const uint32_t bits = status;
+    const uint32_t bits = status & ~LQG_OUTPUT_REJECTED_BITS;
     hashes.bits = hash_bytes(hashes.bits, &bits, sizeof bits);
     hashes.values = hash_bytes(hashes.values, &bits, sizeof bits);
     return hashes;

@@ -76,7 +76,7 @@ static void visit(struct loop *loop, int phase, struct visitor visitor)
 }
 
 #if !defined KEEPS_Z || defined IS_PREDICTOR
-static lqg_status choose_input(struct loop *loop, const struct drawn *now)
+static lqg_status_t choose_input(struct loop *loop, const struct drawn *now)
 {
 #ifdef HAS_REGULATOR
     (void)now;
@@ -91,9 +91,9 @@ static lqg_status choose_input(struct loop *loop, const struct drawn *now)
 
 /* Filter form: y is sampled while the last u acts; predictor form: while the new one does. */
 #ifdef KEEPS_Z
-static lqg_status run_controller(struct loop *loop, const struct drawn *now, struct visitor visitor)
+static lqg_status_t run_controller(struct loop *loop, const struct drawn *now, struct visitor visitor)
 {
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     real y[NY];
     visit(loop, 0, visitor);
 #ifdef IS_PREDICTOR
@@ -112,9 +112,9 @@ static lqg_status run_controller(struct loop *loop, const struct drawn *now, str
     return status;
 }
 #else
-static lqg_status run_controller(struct loop *loop, const struct drawn *now, struct visitor visitor)
+static lqg_status_t run_controller(struct loop *loop, const struct drawn *now, struct visitor visitor)
 {
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     real y[NY];
     visit(loop, 0, visitor);
 #ifdef IS_PREDICTOR
@@ -140,9 +140,9 @@ static lqg_status run_controller(struct loop *loop, const struct drawn *now, str
 #endif
 
 /* The status is that of all calls together. */
-static lqg_status run_sample(struct loop *loop, const struct drawn *now, struct visitor visitor)
+static lqg_status_t run_sample(struct loop *loop, const struct drawn *now, struct visitor visitor)
 {
-    const lqg_status status = run_controller(loop, now, visitor);
+    const lqg_status_t status = run_controller(loop, now, visitor);
     advance_plant(loop, now);
     return status;
 }

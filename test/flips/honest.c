@@ -14,7 +14,7 @@
 
 #include "closed_loop.h"
 
-#define FAULTS (LQG_OUTPUT_NOT_FINITE | LQG_INNOVATION_NOT_POSITIVE | LQG_STATE_RESET | LQG_COVARIANCE_RESET)
+#define FAULTS (LQG_OUTPUT_REJECTED | LQG_INNOVATION_NOT_POSITIVE | LQG_STATE_RESET | LQG_COVARIANCE_RESET)
 
 /* A state is back when it is no larger in the last sixth of a lap than so many times what it was in the one before the
  * silence: a robot that sways slowly is at 3 or 4. */
@@ -107,9 +107,9 @@ static double sum_of_counters(const struct loop *loop)
 }
 
 /* In a silence, and only there, outputs are to be told as not finite. */
-static void judge(struct tally *tally, lqg_status status, int is_silent, int k)
+static void judge(struct tally *tally, lqg_status_t status, int is_silent, int k)
 {
-    const lqg_status wrong = (status & (LQG_OUTPUT_GATED | FAULTS)) ^ (is_silent ? LQG_OUTPUT_NOT_FINITE : LQG_OK);
+    const lqg_status_t wrong = (status & (LQG_OUTPUT_GATED | FAULTS)) ^ (is_silent ? LQG_OUTPUT_REJECTED : LQG_OK);
     tally->samples++;
     tally->heard += !is_silent;
     if (!wrong)

@@ -4,6 +4,22 @@
  * 9735ad7912f2b8fda1a8144a1e4e7cb6b5e0d8dc3f96c5e226f711c04c46fd48.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
  *
+ * What is called when:
+ *
+ *   once                   double_integrator_init(&loop)                          at the start
+ *   each sample            double_integrator_update(&loop, y)                     y has been measured
+ *                          double_integrator_control(&loop, u)                    u for the actuator
+ *                          double_integrator_predict(&loop, u)                    the u that was applied
+ *     or                   double_integrator_step(&loop, y, u)                    all three in one call
+ *   a sensor has failed    y[i] = NAN                                             that output is not used
+ *   to watch the sensors   double_integrator_innovation(&loop, y, innovation, S)  before update
+ *   in manual mode         double_integrator_predict(&loop, u)
+ *                            after update, with the manual u; no control
+ *   the state is known     double_integrator_set_state(&loop, x)                  between predict and update
+ *   after LQG_STATE_RESET  the same calls as before                               x̂ is that of init
+ *
+ * A status other than LQG_OK says what happened; each function lists its bits.
+ *
  * Plant, sampled every 0.01 s:  x⁺ = A x + B u + G w,  y = C x + D u + v
  *
  *   states   x[0] position [m], x[1] speed [m/s]
@@ -23,8 +39,8 @@
  *   poles of A − B K: 0.9043, 0.3841
  *   -10.0 ≤ u[0] ≤ 10.0
  *
- * Kalman filter, filter form (u[k] is made of the outputs up to y[k]),
- * its covariance carried on line as a lower triangle; in the steady state, of samples:
+ * Kalman filter, filter form (u[k] depends on the outputs up to y[k]),
+ * covariance updated on line as a lower triangle; covariances per sample, gain in the steady state:
  *
  *   G = [ 5e-05 ]
  *       [  0.01 ]
@@ -33,8 +49,8 @@
  *   L = [ 0.36 ]
  *       [  8.0 ]
  *   poles of A − L_predictor C: 0.78 ± 0.1778i
- *   x̂ begins anew when it reaches, in size: 4.295e+09, 4.295e+09
- *   an innovation is not believed from, in size: 8.59e+09
+ *   limit of |x̂_i| (reset when exceeded): 4.295e+09, 4.295e+09
+ *   innovation limit: 8.59e+09
  *
  * Closed loop, opened at the plant's input:
  *
@@ -52,21 +68,37 @@
 #define DOUBLE_INTEGRATOR_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "lqg/arithmetic.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 
 #if LQG_HEADER_FORMAT != 2
-#error "double_integrator.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on double_integrator.toml again."
+#error "This file needs header format 2, the library has another one: regenerate it with the library's lqgen."
 #endif
 
 #define DOUBLE_INTEGRATOR_NX 2  /* states */
 #define DOUBLE_INTEGRATOR_NU 1  /* inputs */
 #define DOUBLE_INTEGRATOR_NY 1  /* outputs */
-#define DOUBLE_INTEGRATOR_X_BOUNDS {4294967296.0f, 4294967296.0f}  /* x̂ stays below them in size, or begins anew */
-#define DOUBLE_INTEGRATOR_RECOVERY_SAMPLES 980  /* after a fault has ended its effect is below the noise */
-#define DOUBLE_INTEGRATOR_SAMPLE_TIME 0.01f  /* s between two samples */
+/* Limit of |x̂_i|: the state is reset when it is reached. */
+#define DOUBLE_INTEGRATOR_X_BOUNDS { \
+    4294967296.0f,  /* 2^32: position [m] */ \
+    4294967296.0f  /* 2^32: speed [m/s] */ \
+}
+#define DOUBLE_INTEGRATOR_RECOVERY_SAMPLES 980  /* samples after a fault until its effect is below the noise */
+#define DOUBLE_INTEGRATOR_SAMPLE_TIME 0.01f  /* s, plant.sample_time */
+
+/* Limits, bounds and thresholds of the code below, each with its unit and origin. */
+#define DOUBLE_INTEGRATOR_U_MIN_ACCELERATION     (-10.0f)        /* m/s^2, limits.u_min = -10.0 */
+#define DOUBLE_INTEGRATOR_U_MAX_ACCELERATION     10.0f           /* m/s^2, limits.u_max = 10.0 */
+#define DOUBLE_INTEGRATOR_GATE_SQUARED           90000.0f        /* 300²: kalman.spike squared */
+#define DOUBLE_INTEGRATOR_INNOVATION_LIMIT       8589934592.0f   /* 2^33: |innovation| is below it, or rejected */
+#define DOUBLE_INTEGRATOR_GATE_WIDEN             1.5f            /* factor of w in a sample that rejects the output */
+#define DOUBLE_INTEGRATOR_GATE_NARROW            0.75f           /* factor of w in a sample that uses the output */
+#define DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION 7.378698e+19f   /* m², 2^66: the innovation limit squared */
+#define DOUBLE_INTEGRATOR_TWO_TO_64              1.8446744e+19f  /* 2^64 */
+#define DOUBLE_INTEGRATOR_TWO_TO_80              1.2089258e+24f  /* 2^80 */
 
 enum {
     DOUBLE_INTEGRATOR_X_POSITION = 0,  /* [m] */
@@ -81,87 +113,102 @@ enum {
     DOUBLE_INTEGRATOR_Y_POSITION = 0  /* [m] */
 };
 
-/* The whole state of the controller: no pointers inside, may be copied. Begin it with double_integrator_init. */
+/* The whole state of the controller. It has no pointers and may be copied. Initialise it with double_integrator_init.
+ * */
 typedef struct {
-    float x[DOUBLE_INTEGRATOR_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
-    float P[3];  /* covariance of its error: lower triangle, row by row, P_ij at [i*(i+1)/2 + j] */
-    float widening[DOUBLE_INTEGRATOR_NY];  /* how much wider than its σ the gate is, squared: more while an output is left out */
-    unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
-    unsigned long covariance_resets;  /* how often P alone began anew, likewise */
-    unsigned long gated[DOUBLE_INTEGRATOR_NY];  /* how often the gate left an output out */
+    float x[DOUBLE_INTEGRATOR_NX];  /* estimate x̂: of this sample after update, of the next one after predict */
+    float P[3];  /* covariance of the error of x̂: lower triangle, P_ij at [i*(i+1)/2 + j] */
+    float widening[DOUBLE_INTEGRATOR_NY];  /* w ≥ 1, widening of the gate: it grows while the output is rejected */
+    unsigned long resets;  /* resets of the state since init; wraps to 0 */
+    unsigned long covariance_resets;  /* resets of P alone since init; wraps to 0 */
+    unsigned long gated[DOUBLE_INTEGRATOR_NY];  /* how often the gate has rejected an output; wraps to 0 */
 } double_integrator_t;
 
 LQG_STRICT_BEGIN
-#if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")  /* as written: few values wait in registers */
+#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif
 
-/* x̂ = x0, its covariance P0; nothing applied yet. */
+/* Initial state: x̂ = x0, its covariance P = P0, counters = 0. */
 static inline void double_integrator_init(double_integrator_t *self)
 {
     static const double_integrator_t initial = {
-        {0.0f, 0.0f},
-        {0.01f, 0.0f, 0.01f},
-        {1.0f},
-        0,
-        0,
-        {0}
+        {0.0f, 0.0f},  /* x: the initial state x0 */
+        {0.01f, 0.0f, 0.01f},  /* P: the initial covariance P0 */
+        {1.0f},  /* widening: of the variance of the first innovation, from P0, relative to S */
+        0uL,  /* resets */
+        0uL,  /* covariance_resets */
+        {0}  /* gated */
     };
 
     *self = initial;
 }
 
-/* Begins anew, but for what was counted, and counts it: the state was not within its bounds. */
+/* Called if the state is not within its bounds. Resets the state, keeps the counters, increments `resets`. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
 static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status status)
 {
-    const unsigned long resets = self->resets + 1;
+    const unsigned long resets = self->resets + 1uL;
     const unsigned long covariance_resets = self->covariance_resets;
     unsigned long gated[DOUBLE_INTEGRATOR_NY];
 
-    for (int i = 0; i < DOUBLE_INTEGRATOR_NY; i++)
+    for (int i = 0; i < DOUBLE_INTEGRATOR_NY; i++) {
         gated[i] = self->gated[i];
+    }
     double_integrator_init(self);
     self->resets = resets;
     self->covariance_resets = covariance_resets;
-    for (int i = 0; i < DOUBLE_INTEGRATOR_NY; i++)
+    for (int i = 0; i < DOUBLE_INTEGRATOR_NY; i++) {
         self->gated[i] = gated[i];
+    }
     return status | LQG_STATE_RESET;
 }
 
-/* After a sample that left x̂ or P beyond its bounds, or P no covariance: P begins anew, and is counted. Where x̂
- * is not within its bounds either, all begins anew. */
+/* Called if x̂ or P is not within its bounds, or P cannot be a covariance. Resets P to P0 and
+ * increments `covariance_resets`. If x̂ is not within its bounds either, double_integrator_reset resets the whole
+ * state. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
 static lqg_status double_integrator_recover(double_integrator_t *self, lqg_status status)
 {
     LQG_STRICT_BODY
+    lqg_status result = status | LQG_COVARIANCE_RESET;
     const float x_0 = self->x[0];
     const float x_1 = self->x[1];
 
     /* Σ x̂² in units of a bound */
     const float sum = x_0 * x_0;
-    const float sum_a = sum + x_1 * x_1;
+    const float sum_a = sum + (x_1 * x_1);
 
     self->P[0] = 0.01f;
     self->P[1] = 0.0f;
     self->P[2] = 0.01f;
 
-    if (!(sum_a < 1.8446744e+19f))
-        return double_integrator_reset(self, status);
-    self->covariance_resets++;
-    return status | LQG_COVARIANCE_RESET;
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
+    if (sum_a < DOUBLE_INTEGRATOR_TWO_TO_64) {
+        self->covariance_resets++;
+    } else {
+        result = double_integrator_reset(self, status);
+    }
+    return result;
 }
 
-/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
- * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+/* Decides whether an output is used whose innovation is larger than usual.
+ * It is rejected if |innovation| is not below its limit, or innovation² > (300)² S w. The widening w is 1 in normal
+ * operation; it grows while the output is rejected, so that the output is used again if it was right.
+ *
+ * i   in: the output
+ * nu  in: its innovation
+ * S   in: the variance of the innovation
+ *
+ * Returns whether it is used; adds the reason to status if it is not. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
+static bool double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
@@ -169,34 +216,50 @@ static int double_integrator_weigh(double_integrator_t *self, lqg_status *status
     const float variance = S;
 
     /* w, at least 1 */
-    const float wide = 1.0f < widening ? widening : 1.0f;
-    const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
+    const float wide = (1.0f < widening) ? widening : 1.0f;
+    const float width = (wide < DOUBLE_INTEGRATOR_TWO_TO_80) ? wide : DOUBLE_INTEGRATOR_TWO_TO_80;
 
     /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
-    const int believable = fabsf(innovation) < 8589934592.0f;
-    const lqg_status fault = believable && 0.0f < variance ? LQG_OK : believable
-        ? LQG_INNOVATION_NOT_POSITIVE : LQG_OUTPUT_NOT_FINITE;
-    const int usable = fault == LQG_OK;
-    const int beyond = 90000.0f * variance * width < innovation * innovation;
-    const int gated = usable && beyond;
-    const int used = usable && !beyond;
+    const bool believable = fabsf(innovation) < DOUBLE_INTEGRATOR_INNOVATION_LIMIT;
+    lqg_status fault = LQG_OK;
+    if (!(believable && (0.0f < variance))) {
+        if (believable) {
+            fault = LQG_INNOVATION_NOT_POSITIVE;
+        } else {
+            fault = LQG_OUTPUT_NOT_FINITE;
+        }
+    }
+    const bool usable = fault == LQG_OK;
+    const bool beyond = (DOUBLE_INTEGRATOR_GATE_SQUARED * variance * width)
+        < (innovation * innovation);
+    const bool gated = usable && beyond;
+    const bool used = usable && !beyond;
 
     /* w widens or narrows */
-    const float next_width = (used ? 0.75f : gated ? 1.5f : 1.0f) * width;
-    const float wide_a = 1.0f < next_width ? next_width : 1.0f;
+    const float next_width = (used ? DOUBLE_INTEGRATOR_GATE_NARROW : gated
+        ? DOUBLE_INTEGRATOR_GATE_WIDEN : 1.0f) * width;
+    const float wide_a = (1.0f < next_width) ? next_width : 1.0f;
 
-    self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
+    self->widening[i] = (wide_a < DOUBLE_INTEGRATOR_TWO_TO_80) ? wide_a
+        : DOUBLE_INTEGRATOR_TWO_TO_80;
 
-    self->gated[i] += gated ? 1 : 0;
-    *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
+    if (gated) {
+        self->gated[i]++;
+    }
+    *status |= fault;
+    if (gated) {
+        *status |= LQG_OUTPUT_GATED;
+    }
     return used;
 }
 
 /* x̂ ← x̂ + L (y − C x̂),  L = P Cᵀ S⁻¹,  P ← P − L C P
  *
- * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is left out of this sample.
+ * y  in: the outputs, in their units. An output that is not finite, or further than 300 σ from its expected value
+ *        is not used in this sample.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
+ * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET.
+ * */
 static inline lqg_status double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
@@ -214,42 +277,48 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
 
     /* output 0, position [m]: innovation = y − C x̂; a gain of 0 leaves the output out */
     const float measured_position = y_0 - x_0;
-    const float shared_27 = 90000.0f * S_position;
-    const float threshold_position = shared_27 < 7.378698e+19f ? shared_27 : 7.378698e+19f;
-    int usable_position = measured_position * measured_position < threshold_position && !(1.0f < widening_0);
-    if (!usable_position)
-        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position);
-    const float reciprocal_position = usable_position ? 1.0f / S_position : 0.0f;
-    const float innovation_position = usable_position ? measured_position : 0.0f;
+    const float shared_35 = DOUBLE_INTEGRATOR_GATE_SQUARED * S_position;
+    const float threshold_position = (shared_35 < DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION)
+        ? shared_35 : DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION;
+    int usable_position = (((measured_position * measured_position) < threshold_position)
+        && !(1.0f < widening_0)) ? 1 : 0;
+    if (usable_position == 0) {
+        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position)
+            ? 1 : 0;
+    }
+    const float reciprocal_position = (usable_position != 0) ? (1.0f / S_position) : 0.0f;
+    const float innovation_position = (usable_position != 0) ? measured_position : 0.0f;
 
     /* output 0, position [m]: L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ */
     const float gain_1_position = P_10 * reciprocal_position;
-    const float x_1_position = x_1 + gain_1_position * innovation_position;
+    const float x_1_position = x_1 + (gain_1_position * innovation_position);
     self->x[1] = x_1_position;
-    const float P_11_position = P_11 - gain_1_position * P_10;
+    const float P_11_position = P_11 - (gain_1_position * P_10);
     self->P[2] = P_11_position;
-    const float P_10_position = P_10 - gain_1_position * P_00;
+    const float P_10_position = P_10 - (gain_1_position * P_00);
     self->P[1] = P_10_position;
     const float gain_0_position = P_00 * reciprocal_position;
-    const float x_0_position = x_0 + gain_0_position * innovation_position;
+    const float x_0_position = x_0 + (gain_0_position * innovation_position);
     self->x[0] = x_0_position;
-    const float P_00_position = P_00 - gain_0_position * P_00;
+    const float P_00_position = P_00 - (gain_0_position * P_00);
     self->P[0] = P_00_position;
 
     /* Σ x̂² in units of a bound */
     const float sum = x_0_position * x_0_position;
-    const float sum_a = sum + x_1_position * x_1_position;
+    const float sum_a = sum + (x_1_position * x_1_position);
 
-    if (!(sum_a < 1.8446744e+19f) || status & LQG_INNOVATION_NOT_POSITIVE)
-        return double_integrator_recover(self, status);
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
+    if (!(sum_a < DOUBLE_INTEGRATOR_TWO_TO_64) || ((status & LQG_INNOVATION_NOT_POSITIVE) != 0u)) {
+        status = double_integrator_recover(self, status);
+    }
     return status;
 }
 
-/* u = −K x̂, within its limits
+/* u = −K x̂, limited
  *
- * u  out: the inputs, in their units: finite and within the limits, whatever came in
+ * u  out: the inputs, in their units: always finite and within the limits
  *
- * Status: LQG_INPUT_LIMITED. */
+ * Status: LQG_INPUT_LIMITED (at a limit, or not finite and set to 0). */
 static inline lqg_status double_integrator_control(const double_integrator_t *self, float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
@@ -257,20 +326,28 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
     const float x_1 = self->x[1];
 
     /* u = −K x̂, within its limits */
-    const float law_0 = -(589.38544f * x_0) - 68.209404f * x_1;
-    const int finite_0 = law_0 - law_0 == 0.0f;
+    const float law_0 = -(589.38544f * x_0) - (68.209404f * x_1);
+    const bool finite_0 = (law_0 - law_0) == 0.0f;
     const float demand_0 = finite_0 ? law_0 : 0.0f;
-    const int shared_30 = demand_0 < -10.0f;
-    const int shared_31 = 10.0f < demand_0;
-    const float limited_0 = shared_30 ? -10.0f : shared_31 ? 10.0f : demand_0;
+    const bool shared_37 = demand_0 < DOUBLE_INTEGRATOR_U_MIN_ACCELERATION;
+    const bool shared_38 = DOUBLE_INTEGRATOR_U_MAX_ACCELERATION < demand_0;
+    const float limited_0 = shared_37 ? DOUBLE_INTEGRATOR_U_MIN_ACCELERATION : shared_38
+        ? DOUBLE_INTEGRATOR_U_MAX_ACCELERATION : demand_0;
     u[0] = limited_0;
 
-    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK) | (shared_30 || shared_31 ? LQG_INPUT_LIMITED : LQG_OK);
+    lqg_status status = LQG_OK;
+    if (!finite_0) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    if (shared_37 || shared_38) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    return status;
 }
 
-/* x̂ ← A x̂ + B u,  P ← A P Aᵀ + G W Gᵀ: from this sample to the next.
+/* From this sample to the next:  x̂ ← A x̂ + B u,  P ← A P Aᵀ + G W Gᵀ
  *
- * u  in: what was applied, in its units; not what was asked for, where the two differ
+ * u  in: the input that was applied, in its units; not the demanded one, if they differ
  *
  * Status: LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
 static inline lqg_status double_integrator_predict(double_integrator_t *self, const float u[DOUBLE_INTEGRATOR_NU])
@@ -284,33 +361,36 @@ static inline lqg_status double_integrator_predict(double_integrator_t *self, co
     const float u_0 = u[0];
 
     /* x̂ ← A x̂ + B u */
-    const float next_0 = x_0 + 0.01f * x_1 + 5e-05f * u_0;
+    const float next_0 = x_0 + (0.01f * x_1) + (5e-05f * u_0);
     self->x[0] = next_0;
     const float sum = next_0 * next_0;
-    const float next_1 = x_1 + 0.01f * u_0;
+    const float next_1 = x_1 + (0.01f * u_0);
     self->x[1] = next_1;
-    const float sum_a = sum + next_1 * next_1;
+    const float sum_a = sum + (next_1 * next_1);
 
     /* P ← A P Aᵀ + G W Gᵀ, lower triangle */
-    const float AP_00 = P_00 + 0.01f * P_10;
-    const float AP_01 = P_10 + 0.01f * P_11;
-    const float prior_00 = 2.5e-09f + AP_00 + 0.01f * AP_01;
+    const float AP_00 = P_00 + (0.01f * P_10);
+    const float AP_01 = P_10 + (0.01f * P_11);
+    const float prior_00 = 2.5e-09f + AP_00 + (0.01f * AP_01);
     self->P[0] = prior_00;
     const float sum_b = sum_a + prior_00;
-    const float prior_10 = 5e-07f + P_10 + 0.01f * P_11;
+    const float prior_10 = 5e-07f + P_10 + (0.01f * P_11);
     self->P[1] = prior_10;
     const float prior_11 = 1e-04f + P_11;
     self->P[2] = prior_11;
     const float sum_c = sum_b + prior_11;
 
-    const lqg_status status = LQG_OK;
-    if (!(sum_c < 1.8446744e+19f && !(prior_00 < 0.0f) && !(prior_11 < 0.0f)))
-        return double_integrator_recover(self, status);
+    lqg_status status = LQG_OK;
+    /* Σ (x_i/b_i)² + P_ii/b_i² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS; no P_ii < 0 */
+    if (!((sum_c < DOUBLE_INTEGRATOR_TWO_TO_64) && !(prior_00 < 0.0f) && !(prior_11 < 0.0f))) {
+        status = double_integrator_recover(self, status);
+    }
     return status;
 }
 
-/* One sample: update, control and predict, for an actuator that applies u as it is. */
-static inline lqg_status double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY], float u[DOUBLE_INTEGRATOR_NU])
+/* One sample: update, control, predict; assumes that the actuator applies u as it is. */
+static inline lqg_status double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
+    float u[DOUBLE_INTEGRATOR_NU])
 {
     lqg_status status = double_integrator_update(self, y);
 
@@ -319,23 +399,12 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
     return status;
 }
 
-/* The update by position alone, for a sensor with a rate of its own; any number of predictions may lie between two.
- * There is no other: it is the update.
- *
- * y_position  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
- *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
-static inline lqg_status double_integrator_update_position(double_integrator_t *self, const float y_position)
-{
-    return double_integrator_update(self, &y_position);
-}
-
-/* How far the outputs are from what is expected, y − C x̂ and the variance of each, C P Cᵀ + V:
- * to be called before update by those who watch the health of sensors and model.
+/* Monitors sensors and model: the innovations y − C x̂ and their variances C P Cᵀ + V. Call it before
+ * double_integrator_update.
  *
  * y   in: the outputs, in their units
  * nu  out: the innovations
- * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ * S   out: their variances: nu²/S is 1 on average if the model is right
  */
 static inline void double_integrator_innovation(const double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
     float nu[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
@@ -354,11 +423,11 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
     S[0] = S_position;
 }
 
-/* x̂ ← x, by hand; its covariance stays.
+/* x̂ ← x, set from outside; its covariance does not change.
  *
  * x  in: the state, in its units
  *
- * Status: LQG_STATE_RESET, when x is not within DOUBLE_INTEGRATOR_X_BOUNDS. */
+ * Status: LQG_STATE_RESET, if x is not within DOUBLE_INTEGRATOR_X_BOUNDS. */
 static inline lqg_status double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
 {
     LQG_STRICT_BODY
@@ -367,14 +436,16 @@ static inline lqg_status double_integrator_set_state(double_integrator_t *self, 
 
     /* Σ x² in units of a bound */
     const float sum = x_0 * x_0;
-    const float sum_a = sum + x_1 * x_1;
+    const float sum_a = sum + (x_1 * x_1);
 
     self->x[0] = x_0;
     self->x[1] = x_1;
 
-    const lqg_status status = LQG_OK;
-    if (!(sum_a < 1.8446744e+19f))
-        return double_integrator_reset(self, status);
+    lqg_status status = LQG_OK;
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
+    if (!(sum_a < DOUBLE_INTEGRATOR_TWO_TO_64)) {
+        status = double_integrator_reset(self, status);
+    }
     return status;
 }
 

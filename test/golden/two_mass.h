@@ -4,6 +4,22 @@
  * 46860654c241d4662f7925e59e28b72728299719d8f3760ea0a0858f9525b9e5.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
  *
+ * What is called when:
+ *
+ *   once                   two_mass_init(&loop)                          at the start
+ *   each sample            two_mass_update(&loop, y)                     y has been measured
+ *                          two_mass_control(&loop, u)                    u for the actuator
+ *                          two_mass_predict(&loop, u)                    the u that was applied
+ *     or                   two_mass_step(&loop, y, u)                    all three in one call
+ *   a sensor has failed    y[i] = NAN                                    that output is not used
+ *   a sensor is slower     two_mass_partial_update(&loop, y, used)       instead of update
+ *   to watch the sensors   two_mass_innovation(&loop, y, innovation, S)  before update
+ *   in manual mode         two_mass_predict(&loop, u)                    after update, with the manual u; no control
+ *   the state is known     two_mass_set_state(&loop, x)                  between predict and update
+ *   after LQG_STATE_RESET  the same calls as before                      x̂ is that of init
+ *
+ * A status other than LQG_OK says what happened; each function lists its bits.
+ *
  * Plant, sampled every 0.5 s:  x⁺ = A x + B u + G w,  y = C x + D u + v
  *
  *   states   x[0] dy1 [m], x[1] v1 [m/s], x[2] dy2 [m], x[3] v2 [m/s]
@@ -28,8 +44,8 @@
  *   K = [ 2.4226158  2.1417978  -0.33327204  1.9239638 ]
  *   poles of A − B K: 0.7867 ± 0.3256i, 0.438 ± 0.3274i
  *
- * Kalman filter, filter form (u[k] is made of the outputs up to y[k]),
- * with its constant gain; of samples:
+ * Kalman filter, filter form (u[k] depends on the outputs up to y[k]),
+ * constant gain; covariances per sample:
  *
  *   G = [   0.12465904 ]
  *       [    0.4974466 ]
@@ -43,8 +59,8 @@
  *       [ 0.03500962    0.26355246 ]
  *       [ 0.17161791   0.078661025 ]
  *   poles of A − L_predictor C: 0.7867 ± 0.3256i, 0.4374 ± 0.3276i
- *   x̂ begins anew when it reaches, in size: 1.1e+12, 1.1e+12, 1.1e+12, 1.1e+12
- *   an innovation is not believed from, in size: 2.199e+12, 2.199e+12
+ *   limit of |x̂_i| (reset when exceeded): 1.1e+12, 1.1e+12, 1.1e+12, 1.1e+12
+ *   innovation limit: 2.199e+12, 2.199e+12
  *
  * Closed loop, opened at the plant's input:
  *
@@ -63,21 +79,41 @@
 #define TWO_MASS_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "lqg/arithmetic.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 
 #if LQG_HEADER_FORMAT != 2
-#error "two_mass.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on two_mass.toml again."
+#error "This file needs header format 2, the library has another one: regenerate it with the library's lqgen."
 #endif
 
 #define TWO_MASS_NX 4  /* states */
 #define TWO_MASS_NU 1  /* inputs */
 #define TWO_MASS_NY 2  /* outputs */
-#define TWO_MASS_X_BOUNDS {1099511627776.0f, 1099511627776.0f, 1099511627776.0f, 1099511627776.0f}  /* x̂ stays below them in size, or begins anew */
-#define TWO_MASS_RECOVERY_SAMPLES 570  /* after a fault has ended its effect is below the noise */
-#define TWO_MASS_SAMPLE_TIME 0.5f  /* s between two samples */
+/* Limit of |x̂_i|: the state is reset when it is reached. */
+#define TWO_MASS_X_BOUNDS { \
+    1099511627776.0f,  /* 2^40: dy1 [m] */ \
+    1099511627776.0f,  /* 2^40: v1 [m/s] */ \
+    1099511627776.0f,  /* 2^40: dy2 [m] */ \
+    1099511627776.0f  /* 2^40: v2 [m/s] */ \
+}
+#define TWO_MASS_RECOVERY_SAMPLES 570  /* samples after a fault until its effect is below the noise */
+#define TWO_MASS_SAMPLE_TIME 0.5f  /* s, plant.sample_time */
+
+/* Limits, bounds and thresholds of the code below, each with its unit and origin. */
+#define TWO_MASS_GATE_SQUARED            90000.0f          /* 300²: kalman.spike squared */
+#define TWO_MASS_INNOVATION_LIMIT        2199023255552.0f  /* 2^41: |innovation| is below it, or rejected */
+#define TWO_MASS_GATE_WIDEN              1.5f              /* factor of w in a sample that rejects the output */
+#define TWO_MASS_GATE_NARROW             0.72558594f       /* factor of w in a sample that uses the output */
+#define TWO_MASS_INNOVATION_LIMIT_DY1    2199023255552.0f  /* m, 2^41: |innovation| is below it, or rejected */
+#define TWO_MASS_INNOVATION_VARIANCE_DY1 0.0033618314f     /* m², S = C P Cᵀ + V, steady */
+#define TWO_MASS_THRESHOLD_DY1           302.56482f        /* m², min(300² S, 2^82), for innovation² */
+#define TWO_MASS_INNOVATION_LIMIT_DY2    2199023255552.0f  /* m, 2^41: |innovation| is below it, or rejected */
+#define TWO_MASS_INNOVATION_VARIANCE_DY2 0.0013654674f     /* m², S = C P Cᵀ + V, steady */
+#define TWO_MASS_THRESHOLD_DY2           122.89207f        /* m², min(300² S, 2^82), for innovation² */
+#define TWO_MASS_TWO_TO_80               1.2089258e+24f    /* 2^80 */
 
 enum {
     TWO_MASS_X_DY1 = 0,  /* [m] */
@@ -95,56 +131,65 @@ enum {
     TWO_MASS_Y_DY2 = 1  /* [m] */
 };
 
-/* The whole state of the controller: no pointers inside, may be copied. Begin it with two_mass_init. */
+/* The whole state of the controller. It has no pointers and may be copied. Initialise it with two_mass_init. */
 typedef struct {
-    float x[TWO_MASS_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
-    float widening[TWO_MASS_NY];  /* how much wider than its σ the gate is, squared: more while an output is left out */
-    unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
-    unsigned long gated[TWO_MASS_NY];  /* how often the gate left an output out */
+    float x[TWO_MASS_NX];  /* estimate x̂: of this sample after update, of the next one after predict */
+    float widening[TWO_MASS_NY];  /* w ≥ 1, widening of the gate: it grows while the output is rejected */
+    unsigned long resets;  /* resets of the state since init; wraps to 0 */
+    unsigned long gated[TWO_MASS_NY];  /* how often the gate has rejected an output; wraps to 0 */
 } two_mass_t;
 
 LQG_STRICT_BEGIN
-#if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")  /* as written: few values wait in registers */
+#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif
 
-/* x̂ = x0; nothing applied yet. */
+/* Initial state: x̂ = x0, counters = 0. */
 static inline void two_mass_init(two_mass_t *self)
 {
     static const two_mass_t initial = {
-        {0.0f, 0.0f, 0.0f, 0.0f},
-        {4.0f, 32.0f},
-        0,
-        {0}
+        {0.0f, 0.0f, 0.0f, 0.0f},  /* x: the initial state x0 */
+        {4.0f, 32.0f},  /* widening: of the variance of the first innovation, from P0, relative to S */
+        0uL,  /* resets */
+        {0}  /* gated */
     };
 
     *self = initial;
 }
 
-/* Begins anew, but for what was counted, and counts it: the state was not within its bounds. */
+/* Called if the state is not within its bounds. Resets the state, keeps the counters, increments `resets`. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
 static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
 {
-    const unsigned long resets = self->resets + 1;
+    const unsigned long resets = self->resets + 1uL;
     unsigned long gated[TWO_MASS_NY];
 
-    for (int i = 0; i < TWO_MASS_NY; i++)
+    for (int i = 0; i < TWO_MASS_NY; i++) {
         gated[i] = self->gated[i];
+    }
     two_mass_init(self);
     self->resets = resets;
-    for (int i = 0; i < TWO_MASS_NY; i++)
+    for (int i = 0; i < TWO_MASS_NY; i++) {
         self->gated[i] = gated[i];
+    }
     return status | LQG_STATE_RESET;
 }
 
-/* Whether output i is used, whose innovation nu is not as expected: it is not where nu is not believable, or beyond
- * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+/* Decides whether an output is used whose innovation is larger than usual.
+ * It is rejected if |innovation| is not below its limit, or innovation² > (300)² S w. The widening w is 1 in normal
+ * operation; it grows while the output is rejected, so that the output is used again if it was right.
+ *
+ * i   in: the output
+ * nu  in: its innovation
+ * S   in: the variance of the innovation
+ *
+ * Returns whether it is used; adds the reason to status if it is not. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
+static bool two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
@@ -152,31 +197,40 @@ static int two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu,
     const float variance = S;
 
     /* w, at least 1 */
-    const float wide = 1.0f < widening ? widening : 1.0f;
-    const float width = wide < 1.2089258e+24f ? wide : 1.2089258e+24f;
+    const float wide = (1.0f < widening) ? widening : 1.0f;
+    const float width = (wide < TWO_MASS_TWO_TO_80) ? wide : TWO_MASS_TWO_TO_80;
 
     /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
-    const int believable = fabsf(innovation) < 2199023255552.0f;
-    const lqg_status fault = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
-    const int usable = fault == LQG_OK;
-    const int beyond = 90000.0f * variance * width < innovation * innovation;
-    const int gated = usable && beyond;
-    const int used = usable && !beyond;
+    const bool believable = fabsf(innovation) < TWO_MASS_INNOVATION_LIMIT;
+    lqg_status fault = LQG_OK;
+    if (!believable) {
+        fault = LQG_OUTPUT_NOT_FINITE;
+    }
+    const bool usable = fault == LQG_OK;
+    const bool beyond = (TWO_MASS_GATE_SQUARED * variance * width) < (innovation * innovation);
+    const bool gated = usable && beyond;
+    const bool used = usable && !beyond;
 
     /* w widens or narrows */
-    const float next_width = (used ? 0.72558594f : 1.5f) * width;
-    const float wide_a = 1.0f < next_width ? next_width : 1.0f;
+    const float next_width = (used ? TWO_MASS_GATE_NARROW : TWO_MASS_GATE_WIDEN) * width;
+    const float wide_a = (1.0f < next_width) ? next_width : 1.0f;
 
-    self->widening[i] = wide_a < 1.2089258e+24f ? wide_a : 1.2089258e+24f;
+    self->widening[i] = (wide_a < TWO_MASS_TWO_TO_80) ? wide_a : TWO_MASS_TWO_TO_80;
 
-    self->gated[i] += gated ? 1 : 0;
-    *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
+    if (gated) {
+        self->gated[i]++;
+    }
+    *status |= fault;
+    if (gated) {
+        *status |= LQG_OUTPUT_GATED;
+    }
     return used;
 }
 
 /* x̂ ← x̂ + L (y − C x̂)
  *
- * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is taken as having come as expected.
+ * y  in: the outputs, in their units. An output that is not finite, or further than 300 σ from its expected value
+ *        counts as equal to its expected value: its innovation is 0.
  *
  * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
 static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
@@ -194,42 +248,51 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
 
     /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy1 = y_0 - x_0;
-    int usable_dy1 = measured_dy1 * measured_dy1 < 302.56482f && !(1.0f < widening_0);
-    if (!usable_dy1)
-        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1, 0.0033618314f);
-    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
+    int usable_dy1 = (((measured_dy1 * measured_dy1) < TWO_MASS_THRESHOLD_DY1)
+        && !(1.0f < widening_0)) ? 1 : 0;
+    if (usable_dy1 == 0) {
+        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1,
+            TWO_MASS_INNOVATION_VARIANCE_DY1) ? 1 : 0;
+    }
+    const float innovation_dy1 = (usable_dy1 != 0) ? measured_dy1 : 0.0f;
 
     /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
     const float measured_dy2 = y_1 - x_2;
-    int usable_dy2 = measured_dy2 * measured_dy2 < 122.89207f && !(1.0f < widening_1);
-    if (!usable_dy2)
-        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2, 0.0013654674f);
-    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
+    int usable_dy2 = (((measured_dy2 * measured_dy2) < TWO_MASS_THRESHOLD_DY2)
+        && !(1.0f < widening_1)) ? 1 : 0;
+    if (usable_dy2 == 0) {
+        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2,
+            TWO_MASS_INNOVATION_VARIANCE_DY2) ? 1 : 0;
+    }
+    const float innovation_dy2 = (usable_dy2 != 0) ? measured_dy2 : 0.0f;
 
     /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + 0.7008788f * innovation_dy1 + 0.03500962f * innovation_dy2;
+    const float posterior_0 = x_0 + (0.7008788f * innovation_dy1) + (0.03500962f * innovation_dy2);
     self->x[0] = posterior_0;
     const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 + 0.8304034f * innovation_dy1 - 0.105838105f * innovation_dy2;
+    const float posterior_1 = x_1 + (0.8304034f * innovation_dy1) - (0.105838105f * innovation_dy2);
     self->x[1] = posterior_1;
-    const float sum_a = sum + posterior_1 * posterior_1;
-    const float posterior_2 = x_2 + 0.03500962f * innovation_dy1 + 0.26355246f * innovation_dy2;
+    const float sum_a = sum + (posterior_1 * posterior_1);
+    const float posterior_2 = x_2 + (0.03500962f * innovation_dy1) + (0.26355246f * innovation_dy2);
     self->x[2] = posterior_2;
-    const float sum_b = sum_a + posterior_2 * posterior_2;
-    const float posterior_3 = x_3 + 0.17161791f * innovation_dy1 + 0.078661025f * innovation_dy2;
+    const float sum_b = sum_a + (posterior_2 * posterior_2);
+    const float posterior_3 = x_3 + (0.17161791f * innovation_dy1)
+        + (0.078661025f * innovation_dy2);
     self->x[3] = posterior_3;
-    const float sum_c = sum_b + posterior_3 * posterior_3;
+    const float sum_c = sum_b + (posterior_3 * posterior_3);
 
-    if (!(sum_c < 1.2089258e+24f))
-        return two_mass_reset(self, status);
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
+    if (!(sum_c < TWO_MASS_TWO_TO_80)) {
+        status = two_mass_reset(self, status);
+    }
     return status;
 }
 
-/* u = −K x̂, within its limits
+/* u = −K x̂
  *
- * u  out: the inputs, in their units: finite, whatever came in
+ * u  out: the inputs, in their units: always finite
  *
- * Status: LQG_INPUT_LIMITED. */
+ * Status: LQG_INPUT_LIMITED (not finite and set to 0). */
 static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
@@ -239,18 +302,22 @@ static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MA
     const float x_3 = self->x[3];
 
     /* u = −K x̂ */
-    const float law_0 = -(2.4226158f * x_0) - 2.1417978f * x_1 + 0.33327204f * x_2
-        - 1.9239638f * x_3;
-    const int finite_0 = law_0 - law_0 == 0.0f;
+    const float law_0 = -(2.4226158f * x_0) - (2.1417978f * x_1) + (0.33327204f * x_2)
+        - (1.9239638f * x_3);
+    const bool finite_0 = (law_0 - law_0) == 0.0f;
     const float demand_0 = finite_0 ? law_0 : 0.0f;
     u[0] = demand_0;
 
-    return (!finite_0 ? LQG_INPUT_LIMITED : LQG_OK);
+    lqg_status status = LQG_OK;
+    if (!finite_0) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    return status;
 }
 
-/* x̂ ← A x̂ + B u: from this sample to the next.
+/* From this sample to the next:  x̂ ← A x̂ + B u
  *
- * u  in: what was applied, in its units; not what was asked for, where the two differ
+ * u  in: the input that was applied, in its units; not the demanded one, if they differ
  *
  * Status: LQG_STATE_RESET. */
 static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
@@ -263,30 +330,32 @@ static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MA
     const float u_0 = u[0];
 
     /* x̂ ← A x̂ + B u */
-    const float next_0 = 0.9877046f * x_0 + 0.4974466f * x_1 + 0.012295422f * x_2
-        + 0.002553408f * x_3 + 0.12465904f * u_0;
+    const float next_0 = (0.9877046f * x_0) + (0.4974466f * x_1) + (0.012295422f * x_2)
+        + (0.002553408f * x_3) + (0.12465904f * u_0);
     self->x[0] = next_0;
     const float sum = next_0 * next_0;
-    const float next_1 = -(0.048467956f * x_0) + 0.9857659f * x_1 + 0.048467956f * x_2
-        + 0.0142341405f * x_3 + 0.4974466f * u_0;
+    const float next_1 = -(0.048467956f * x_0) + (0.9857659f * x_1) + (0.048467956f * x_2)
+        + (0.0142341405f * x_3) + (0.4974466f * u_0);
     self->x[1] = next_1;
-    const float sum_a = sum + next_1 * next_1;
-    const float next_2 = 0.061477114f * x_0 + 0.01276704f * x_1 + 0.9385229f * x_2
-        + 0.48723295f * x_3 + 0.0017048119f * u_0;
+    const float sum_a = sum + (next_1 * next_1);
+    const float next_2 = (0.061477114f * x_0) + (0.01276704f * x_1) + (0.9385229f * x_2)
+        + (0.48723295f * x_3) + (0.0017048119f * u_0);
     self->x[2] = next_2;
-    const float sum_b = sum_a + next_2 * next_2;
-    const float next_3 = 0.24233977f * x_0 + 0.0711707f * x_1 - 0.24233977f * x_2
-        + 0.9288293f * x_3 + 0.01276704f * u_0;
+    const float sum_b = sum_a + (next_2 * next_2);
+    const float next_3 = (0.24233977f * x_0) + (0.0711707f * x_1) - (0.24233977f * x_2)
+        + (0.9288293f * x_3) + (0.01276704f * u_0);
     self->x[3] = next_3;
-    const float sum_c = sum_b + next_3 * next_3;
+    const float sum_c = sum_b + (next_3 * next_3);
 
-    const lqg_status status = LQG_OK;
-    if (!(sum_c < 1.2089258e+24f))
-        return two_mass_reset(self, status);
+    lqg_status status = LQG_OK;
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
+    if (!(sum_c < TWO_MASS_TWO_TO_80)) {
+        status = two_mass_reset(self, status);
+    }
     return status;
 }
 
-/* One sample: update, control and predict, for an actuator that applies u as it is. */
+/* One sample: update, control, predict; assumes that the actuator applies u as it is. */
 static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
 {
     lqg_status status = two_mass_update(self, y);
@@ -296,98 +365,12 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
     return status;
 }
 
-/* The update by dy1 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
- * An approximation: its gain is the best in the company of the other outputs only.
- *
- * y_dy1  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
- *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_update_dy1(two_mass_t *self, const float y_dy1)
-{
-    LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float widening_0 = self->widening[0];
-    const float y = y_dy1;
-
-    /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy1 = y - x_0;
-    int usable_dy1 = measured_dy1 * measured_dy1 < 302.56482f && !(1.0f < widening_0);
-    if (!usable_dy1)
-        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1, 0.0033618314f);
-    const float innovation_dy1 = usable_dy1 ? measured_dy1 : 0.0f;
-
-    /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + 0.7008788f * innovation_dy1;
-    self->x[0] = posterior_0;
-    const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 + 0.8304034f * innovation_dy1;
-    self->x[1] = posterior_1;
-    const float sum_a = sum + posterior_1 * posterior_1;
-    const float posterior_2 = x_2 + 0.03500962f * innovation_dy1;
-    self->x[2] = posterior_2;
-    const float sum_b = sum_a + posterior_2 * posterior_2;
-    const float posterior_3 = x_3 + 0.17161791f * innovation_dy1;
-    self->x[3] = posterior_3;
-    const float sum_c = sum_b + posterior_3 * posterior_3;
-
-    if (!(sum_c < 1.2089258e+24f))
-        return two_mass_reset(self, status);
-    return status;
-}
-
-/* The update by dy2 alone, for a sensor with a rate of its own; any number of predictions may lie between two.
- * An approximation: its gain is the best in the company of the other outputs only.
- *
- * y_dy2  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
- *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_update_dy2(two_mass_t *self, const float y_dy2)
-{
-    LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float widening_1 = self->widening[1];
-    const float y = y_dy2;
-
-    /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy2 = y - x_2;
-    int usable_dy2 = measured_dy2 * measured_dy2 < 122.89207f && !(1.0f < widening_1);
-    if (!usable_dy2)
-        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2, 0.0013654674f);
-    const float innovation_dy2 = usable_dy2 ? measured_dy2 : 0.0f;
-
-    /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + 0.03500962f * innovation_dy2;
-    self->x[0] = posterior_0;
-    const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 - 0.105838105f * innovation_dy2;
-    self->x[1] = posterior_1;
-    const float sum_a = sum + posterior_1 * posterior_1;
-    const float posterior_2 = x_2 + 0.26355246f * innovation_dy2;
-    self->x[2] = posterior_2;
-    const float sum_b = sum_a + posterior_2 * posterior_2;
-    const float posterior_3 = x_3 + 0.078661025f * innovation_dy2;
-    self->x[3] = posterior_3;
-    const float sum_c = sum_b + posterior_3 * posterior_3;
-
-    if (!(sum_c < 1.2089258e+24f))
-        return two_mass_reset(self, status);
-    return status;
-}
-
-/* How far the outputs are from what is expected, y − C x̂ and the steady variance of each:
- * to be called before update by those who watch the health of sensors and model.
+/* Monitors sensors and model: the innovations y − C x̂ and their variances in the steady state. Call it before
+ * two_mass_update.
  *
  * y   in: the outputs, in their units
  * nu  out: the innovations
- * S   out: the variances; nu²/S is 1 in the mean as long as the model holds
+ * S   out: their variances: nu²/S is 1 on average if the model is right
  */
 static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO_MASS_NY],
     float nu[TWO_MASS_NY], float S[TWO_MASS_NY])
@@ -406,40 +389,54 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
     const float innovation_dy2 = y_1 - x_2;
     nu[1] = innovation_dy2;
 
-    S[0] = 0.0033618314f;
-    S[1] = 0.0013654674f;
+    S[0] = TWO_MASS_INNOVATION_VARIANCE_DY1;
+    S[1] = TWO_MASS_INNOVATION_VARIANCE_DY2;
 }
 
-/* The update by some of the outputs, for sensors with rates of their own; any number of predictions may lie between two.
- * An approximation: the gains are the best in the company of all outputs.
+/* The update by some of the outputs, for sensors with their own rates. Any number of predictions may lie between two
+ * updates.
+ * An approximation: the gains are optimal only when all outputs are used together.
  *
- * y     in: the outputs, in their units; those that are not used are not looked at
- * used  in: which of them are there, a bit each: 1ul << TWO_MASS_Y_DY1
+ * y     in: the outputs, in their units; those that are not used are not read
+ * used  in: one bit for each output that is used: 1uL << TWO_MASS_Y_DY1
  *
- * Status: LQG_OUTPUT_NOT_FINITE, of those that are used, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+ * Status: as two_mass_update, of the outputs that are used. */
 static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
 {
     LQG_STRICT_BODY
-    float there[TWO_MASS_NY], nu[TWO_MASS_NY], S[TWO_MASS_NY];
-    unsigned long lost = 0;
+    float there[TWO_MASS_NY];
+    float nu[TWO_MASS_NY];
+    float S[TWO_MASS_NY];
+    unsigned long lost = 0uL;
+    unsigned long bit = 1uL;
+    lqg_status status;
 
-    for (int i = 0; i < TWO_MASS_NY; i++)
-        there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
+    for (int i = 0; i < TWO_MASS_NY; i++) {
+        there[i] = ((used & bit) != 0uL) ? y[i] : (float)INFINITY;  /* left out */
+        bit <<= 1u;
+    }
     two_mass_innovation(self, there, nu, S);
     const float nu_0 = nu[0];
     const float nu_1 = nu[1];
-    lost |= !(fabsf(nu_0) < 2199023255552.0f) ? 1ul << 0 : 0ul;
-    lost |= !(fabsf(nu_1) < 2199023255552.0f) ? 1ul << 1 : 0ul;
+    if (!(fabsf(nu_0) < TWO_MASS_INNOVATION_LIMIT_DY1)) {
+        lost |= 1uL << 0u;
+    }
+    if (!(fabsf(nu_1) < TWO_MASS_INNOVATION_LIMIT_DY2)) {
+        lost |= 1uL << 1u;
+    }
 
-    const lqg_status status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
-    return used & lost ? status | LQG_OUTPUT_NOT_FINITE : status;
+    status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
+    if ((used & lost) != 0uL) {
+        status |= LQG_OUTPUT_NOT_FINITE;
+    }
+    return status;
 }
 
-/* x̂ ← x, by hand.
+/* x̂ ← x, set from outside.
  *
  * x  in: the state, in its units
  *
- * Status: LQG_STATE_RESET, when x is not within TWO_MASS_X_BOUNDS. */
+ * Status: LQG_STATE_RESET, if x is not within TWO_MASS_X_BOUNDS. */
 static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
 {
     LQG_STRICT_BODY
@@ -450,18 +447,20 @@ static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_
 
     /* Σ x² in units of a bound */
     const float sum = x_0 * x_0;
-    const float sum_a = sum + x_1 * x_1;
-    const float sum_b = sum_a + x_2 * x_2;
-    const float sum_c = sum_b + x_3 * x_3;
+    const float sum_a = sum + (x_1 * x_1);
+    const float sum_b = sum_a + (x_2 * x_2);
+    const float sum_c = sum_b + (x_3 * x_3);
 
     self->x[0] = x_0;
     self->x[1] = x_1;
     self->x[2] = x_2;
     self->x[3] = x_3;
 
-    const lqg_status status = LQG_OK;
-    if (!(sum_c < 1.2089258e+24f))
-        return two_mass_reset(self, status);
+    lqg_status status = LQG_OK;
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
+    if (!(sum_c < TWO_MASS_TWO_TO_80)) {
+        status = two_mass_reset(self, status);
+    }
     return status;
 }
 

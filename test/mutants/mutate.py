@@ -23,11 +23,12 @@ OPERATORS = [
     (" |= ", [" = "]), (" += ", [" -= ", " = "]), (" -= ", [" += "]),
 ]
 STATUS = re.compile(r"\bLQG_(?!OK\b)(?:OUTPUT|INNOVATION|INPUT|STATE|COVARIANCE|REFERENCE)_\w+|\bLQG_OK\b")
-INTEGER = re.compile(r"(?<![\w.])(\d+)(ul|u)?(?![\w.])")
+INTEGER = re.compile(r"(?<![\w.])(\d+)(uL|u)?(?![\w.])")
 REAL = re.compile(r"(?<![\w.])(\d+\.\d+(?:e[+-]?\d+)?)(f?)(?![\w.])")
 NEGATION = re.compile(r"(?<=[ (])[!~](?=[\w(])|(?<=[(=,] )-(?=[\w(])|(?<=return )-(?=[\w(])")
 CHOICE = re.compile(r" \? ([^?:]+) : ([^?:;]+?)(?=[;)]|$)")
 DELETABLE = re.compile(r"^\s+(?:\*?[\w>.\-]+(?:\[[^=]*\])?\s[|+\-]?=\s.*|\w+\(.*\)|[\w>.\-]+\+\+);$")
+CONSTANT = re.compile(r"^#define \w+ +\(?-?\d+\.\d+(?:e[+-]?\d+)?f?\)?(?: +/\*.*)?$")  # a limit, a bound, a threshold
 CONDITION = re.compile(r"^(\s*if )\((.*)\)( \{)?$")
 
 
@@ -65,7 +66,8 @@ def changes(line: str) -> Iterator[str]:
 
 
 def mutants(text: str, begin: str = "LQG_STRICT_BEGIN", end: str = "LQG_STRICT_END") -> Iterator[Mutant]:
-    """Of the code between two lines that begin so; of all of it where there is none. Not of comments and directives."""
+    """Of the code between two lines that begin so; of all of it where there is none, and of constants before it. Not of
+    comments and other directives."""
     lines = text.split("\n")
     inside = not any(line.startswith(begin) for line in lines)
     comment = False
@@ -77,7 +79,8 @@ def mutants(text: str, begin: str = "LQG_STRICT_BEGIN", end: str = "LQG_STRICT_E
         code = re.sub(r"/\*.*?\*/", "", line)
         comment = "/*" in code or (comment and "*/" not in code)
         is_code = not opened and not comment and not line.startswith("#") and line.rstrip()[-1:] != "\\"
-        if inside and is_code and "static inline" not in line and not line.startswith("__attribute__"):
+        is_statement = inside and is_code and "static inline" not in line and not line.startswith("__attribute__")
+        if is_statement or CONSTANT.match(line):
             for after in dict.fromkeys(changes(line)):
                 if after != line:
                     yield Mutant(number, line, after)

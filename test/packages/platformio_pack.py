@@ -14,5 +14,5 @@ PackagePacker(sys.argv[1]).pack(sys.argv[2])
 
 with tarfile.open(sys.argv[2]) as archive:
     names = set(archive.getnames())
-missing = {"library.json", "include/lqg/lqg.h", "src/lqg.c", "src/kernel.h", "examples/mass/src/main.c"} - names
+missing = {"library.json", "include/lqg/lqg.h", "src/loop.c", "src/kernel.h", "examples/mass/src/main.c"} - names
 sys.exit(f"not in the archive: {sorted(missing)}" if missing else None)

@@ -8,7 +8,7 @@ function not_understood(what) { print "not understood: " what > "/dev/stderr"; f
 function argument(parameter,   word) {
   gsub(/^ +| +$/, "", parameter)
   if (parameter ~ "^(const )?" name "_t \\*self$") { uses_loop = 1; return "loop" }
-  if (parameter == "lqg_status status") return "(lqg_status)any_count"
+  if (parameter == "lqg_status_t status") return "(lqg_status_t)any_count"
   if (parameter ~ /^unsigned long [a-z_]+$/) return "any_count"
   if (parameter ~ /^const (float|double) [a-z0-9_]+$/) return "any_real"
   if (parameter !~ /^(const )?(float|double) [a-zA-Z0-9_]+\[[A-Z0-9_]+\]$/) not_understood(parameter)
@@ -40,7 +40,7 @@ function write_call(prototype,   call, list, count, parameter, i) {
   calls++
 }
 
-$0 ~ "^static inline (lqg_status|void) " name "_[a-z0-9_]+\\(" || $0 ~ "^static lqg_status " name "_reset\\(" { prototype = " " }
+$0 ~ "^static inline (lqg_status_t|void) " name "_[a-z0-9_]+\\(" || $0 ~ "^static lqg_status_t " name "_reset\\(" { prototype = " " }
 
 prototype {
   prototype = prototype " " $0

@@ -91,7 +91,7 @@ fi
 # it returns.
 paths=(-eva-slevel 4)
 ! is KEEPS_gated || paths+=(-eva-slevel-function "${name}_weigh:0")
-[ "$style" = unrolled ] || paths=(-eva-split-return full -eva-slevel-function "lqg_watch_output_$variant:0")
+[ "$style" = unrolled ] || paths=(-eva-split-return full -eva-slevel-function "lqg_gate_weigh_$variant:0")
 frama-c -eva -eva-precision 2 -eva-domains equality "${paths[@]}" -eva-auto-loop-unroll 200 -eva-min-loop-unroll 16 \
   ${control:+-eva-slevel-function "$control:10000"} -warn-special-float none -machdep x86_64 \
   -cpp-extra-args="$(printf '%q ' "${flags[@]}") -include unknown.h" "$here/controller.c" "${library[@]}" >"$log" 2>&1 ||

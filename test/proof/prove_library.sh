@@ -15,7 +15,7 @@ mkdir -p "$scratch"
 restate_library "$scratch"
 frama-c -eva -eva-precision 2 -eva-domains equality -eva-split-return full -eva-auto-loop-unroll 200 -eva-min-loop-unroll 16 \
   -warn-special-float none -machdep x86_64 -cpp-extra-args="-I$scratch -I$here -I$root/include -include unknown.h $*" \
-  "$here/estimators.c" "$scratch"/{kalman_ud,ekf,rls,factors,plant,bounds_check}.c >"$scratch/eva.log" 2>&1 || stop "$(tail -n 20 "$scratch/eva.log")"
+  "$here/estimators.c" "$scratch"/{kalman_ud,ekf,rls,factors,gate,plant,bounds_check,kernel}.c >"$scratch/eva.log" 2>&1 || stop "$(tail -n 20 "$scratch/eva.log")"
 
 grep -A 2 '^\[eva:alarm\]' "$scratch/eva.log" >&2 && stop "not proved; see $scratch/eva.log"
 grep -q "^  0 alarms generated" "$scratch/eva.log" || stop "not proved; see $scratch/eva.log"

@@ -10,7 +10,7 @@
 
 static int OF(replay_sample)(OF(t) *self, FILE *file)
 {
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     REAL x[SIZE(NX)], expected_x[SIZE(NX)];
 #ifdef HAS_INPUT
     REAL u[SIZE(NU)], expected_u[SIZE(NU)];

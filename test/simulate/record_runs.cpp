@@ -42,18 +42,19 @@ Controller controller_of(const std::string& path, const std::string& style, cons
   return *controller;
 }
 
-lqg_status status_of(unsigned events) {
-  lqg_status status = LQG_OK;
-  const auto add = [&](Event event, lqg_status bit) {
+lqg_status_t status_of(unsigned events) {
+  lqg_status_t status = LQG_OK;
+  const auto add = [&](Event event, lqg_status_t bit) {
     if (events >> static_cast<unsigned>(event) & 1u) status |= bit;
   };
-  add(Event::output_not_finite, LQG_OUTPUT_NOT_FINITE);
+  add(Event::output_rejected, LQG_OUTPUT_REJECTED);
   add(Event::output_gated, LQG_OUTPUT_GATED);
   add(Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE);
   add(Event::input_limited, LQG_INPUT_LIMITED);
   add(Event::state_reset, LQG_STATE_RESET);
   add(Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE);
   add(Event::covariance_reset, LQG_COVARIANCE_RESET);
+  for (int i = 0; i < step::told_rejections; ++i) add(step::rejection_of(i), LQG_OUTPUT_REJECTED_BIT(i));
   return status;
 }
 

@@ -107,7 +107,7 @@ std::string cost_of_spike(const Controller& controller, int output, double facto
     if (k == spike_at) y(output) += spike;
   };
   const Trajectory run = simulate::simulate(controller, options);
-  if (!run.has(spike_at, Event::output_gated) && !run.has(spike_at, Event::output_not_finite)) return "is let in";
+  if (!run.has(spike_at, Event::output_gated) && !run.has(spike_at, Event::output_rejected)) return "is let in";
   if (run.resets || run.covariance_resets) return "begins anew";
   const Eigen::VectorXd moved = (run.x - twin.x).cwiseAbs().rowwise().maxCoeff();
   for (Eigen::Index i = 0; i < moved.size(); ++i)

@@ -70,7 +70,7 @@ static double noise(unsigned long *seed)
     return (double)*seed / 2147483648.0 - 1;
 }
 
-static lqg_status predict(OF(t) * loop, unsigned long *seed)
+static lqg_status_t predict(OF(t) * loop, unsigned long *seed)
 {
 #ifdef HAS_INPUT
     REAL u[SIZE(NU)];
@@ -95,11 +95,11 @@ int main(int count, char *arguments[])
     for (unsigned long sample = 0; sample < samples; sample++) {
         for (int i = 0; i < NY; i++)
             y[i] = noise(&seed) < -0.875 ? (REAL)NAN : (REAL)noise(&seed);
-        lqg_status status = OF(update)(&loop, y);
+        lqg_status_t status = OF(update)(&loop, y);
         const int fine = is_definite(&loop, &beginning);
         status |= predict(&loop, &seed);
         if (!fine || !is_definite(&loop, &beginning) || !is_well_within_bounds(&loop) ||
-            (status & ~(LQG_OUTPUT_NOT_FINITE | LQG_OUTPUT_GATED))) {
+            (status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS | LQG_OUTPUT_GATED))) {
             printf("sample %lu: %s\n", sample, lqg_status_text(status));
             return 1;
         }

@@ -25,13 +25,13 @@ static double noise(unsigned long *seed)
     return (double)*seed / 2147483648.0 - 1;
 }
 
-static lqg_status take_sample(OF(t) * loop, const REAL y[], REAL u[])
+static lqg_status_t take_sample(OF(t) * loop, const REAL y[], REAL u[])
 {
 #ifdef PREDICTS
-    const lqg_status status = OF(control)(loop, u);
+    const lqg_status_t status = OF(control)(loop, u);
     return status | OF(advance)(loop, y);
 #else
-    const lqg_status status = OF(control)(loop, y, u);
+    const lqg_status_t status = OF(control)(loop, y, u);
     return status | OF(advance)(loop);
 #endif
 }
@@ -48,13 +48,13 @@ int main(int count, char *arguments[])
     for (unsigned long sample = 0; sample < samples; sample++) {
         for (int i = 0; i < NY; i++)
             y[i] = noise(&seed) < -0.875 ? (REAL)NAN : (REAL)noise(&seed);
-        const lqg_status status = take_sample(&loop, y, u);
+        const lqg_status_t status = take_sample(&loop, y, u);
         double size = 0;
         for (int i = 0; i < NU; i++)
             size = fmax(size, fabs((double)u[i]));
         if (sample < BEGINNING)
             largest = fmax(largest, size);
-        if ((status & ~LQG_OUTPUT_NOT_FINITE) || !(size <= 2 * largest)) {
+        if ((status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)) || !(size <= 2 * largest)) {
             printf("sample %lu: %s, |u| = %g\n", sample, lqg_status_text(status), size);
             return 1;
         }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # What the compiler has to say: each header stands alone, in C99 and in C++; the library is C++ too; -ffast-math
-# is refused; variants do not mix; contraction changes no bit.
+# is refused; variants and arguments do not mix; contraction changes no bit.
 set(warnings -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror)
 file(GLOB headers RELATIVE ${include_folder} CONFIGURE_DEPENDS ${include_folder}/lqg/*.h)
 file(GLOB library_sources CONFIGURE_DEPENDS ${library_folder}/*.c)
@@ -39,6 +39,15 @@ add_test(NAME src.variants_do_not_mix
                  -Dtinylqg=$<TARGET_FILE:tinylqg> -Ddouble=$<TARGET_FILE:tinylqg_double>
                  -Dfused=$<TARGET_FILE:tinylqg_fused> -Ddouble_fused=$<TARGET_FILE:tinylqg_double_fused>
                  -DLIBM=$<$<BOOL:${UNIX}>:-lm> -P ${CMAKE_CURRENT_SOURCE_DIR}/mix_variants.cmake)
+
+add_test(NAME src.swaps_do_not_compile
+         COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_C_COMPILER} -DLANGUAGE=c -DINCLUDE=${include_folder}
+                 -DWORK=${CMAKE_CURRENT_BINARY_DIR}/swaps_c -P ${CMAKE_CURRENT_SOURCE_DIR}/swaps.cmake)
+if(CMAKE_CXX_COMPILER)
+  add_test(NAME src.swaps_do_not_compile_in_cxx
+           COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER} -DLANGUAGE=cpp -DINCLUDE=${include_folder}
+                   -DWORK=${CMAKE_CURRENT_BINARY_DIR}/swaps_cxx -P ${CMAKE_CURRENT_SOURCE_DIR}/swaps.cmake)
+endif()
 
 # Contraction needs a processor that multiplies and adds at once; AArch64 always does, x86-64 when it has FMA.
 include(CheckCSourceRuns)

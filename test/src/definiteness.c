@@ -29,7 +29,7 @@ static const ensemble_t ensembles[] = {
 enum { ENSEMBLES = sizeof ensembles / sizeof *ensembles };
 
 typedef struct {
-    unsigned nx, ny, nq;
+    unsigned nx, ny, nw;
     lqg_real A[MAX_NX * MAX_NX], C[MAX_NY * MAX_NX], V[MAX_NY], W[LQG_TRIANGLE(MAX_NX)];
     lqg_real G[MAX_NX * MAX_NX], w[MAX_NX], P0[LQG_TRIANGLE(MAX_NX)];
     lqg_real U0[LQG_STRICT_TRIANGLE(MAX_NX)], d0[MAX_NX];
@@ -88,18 +88,18 @@ static void draw_plant(design_t *design, unsigned long *seed)
 
 static void draw_noises(design_t *design, const ensemble_t *ensemble, unsigned long *seed)
 {
-    const unsigned nx = design->nx, nq = design->nq;
+    const unsigned nx = design->nx, nw = design->nw;
     for (unsigned i = 0; i < design->ny; i++)
         design->V[i] = (lqg_real)draw_magnitude(seed, ensemble->V);
-    for (unsigned q = 0; q < nq; q++)
+    for (unsigned q = 0; q < nw; q++)
         design->w[q] = (lqg_real)draw_magnitude(seed, ensemble->W);
-    for (unsigned i = 0; i < nx * nq; i++)
-        design->G[i] = (lqg_real)(nq == 1 ? draw_between(seed, -1, 1) : i % nq == i / nq);
+    for (unsigned i = 0; i < nx * nw; i++)
+        design->G[i] = (lqg_real)(nw == 1 ? draw_between(seed, -1, 1) : i % nw == i / nw);
     for (unsigned i = 0; i < nx; i++)
         for (unsigned j = 0; j <= i; j++) {
             double sum = 0;
-            for (unsigned q = 0; q < nq; q++)
-                sum += (double)design->G[i * nq + q] * (double)design->w[q] * (double)design->G[j * nq + q];
+            for (unsigned q = 0; q < nw; q++)
+                sum += (double)design->G[i * nw + q] * (double)design->w[q] * (double)design->G[j * nw + q];
             design->W[LQG_TRIANGLE(i) + j] = (lqg_real)sum;
         }
     for (unsigned i = 0; i < nx; i++)
@@ -111,7 +111,7 @@ static void draw_design(design_t *design, const ensemble_t *ensemble, unsigned l
     memset(design, 0, sizeof *design);
     design->nx = 2 + (unsigned)(draw(seed) * 5);
     design->ny = 1 + (unsigned)(draw(seed) * 2);
-    design->nq = ensemble->all_noises ? design->nx : 1;
+    design->nw = ensemble->all_noises ? design->nx : 1;
     draw_plant(design, seed);
     draw_noises(design, ensemble, seed);
 }
@@ -162,30 +162,28 @@ static void joseph_update(lqg_real P[], unsigned nx, const lqg_real c[], lqg_rea
     }
 }
 
-typedef struct {
-    lqg_real x[MAX_NX], P[LQG_TRIANGLE(MAX_NX)], U[LQG_STRICT_TRIANGLE(MAX_NX)], d[MAX_NX];
-    lqg_real work[LQG_KALMAN_UD_WORK(MAX_NX, MAX_NY, MAX_NX)];
-} carried_t;
+LQG_KALMAN_PLAIN_STATE(plain_state, MAX_NX, 0, MAX_NY);
+LQG_KALMAN_UD_STATE(ud_state, MAX_NX, 0, MAX_NY, MAX_NX);
 
 /* Joseph's update has plain's prediction. */
 static int loses_P(const design_t *design, int joseph)
 {
     const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL};
-    const lqg_kalman_plain_t kalman = {plant, NULL, design->V, design->W, NULL, NULL, NULL, design->P0, NULL, NULL};
+    const lqg_kalman_plain_t kalman = {plant, NULL, design->V, design->W, NULL, NULL, NULL, design->P0,
+                                       NULL, NULL, NULL};
     const lqg_real y[MAX_NY] = {0};
-    carried_t s;
 
-    lqg_kalman_plain_init(&kalman, s.x, s.P, NULL, NULL);
+    lqg_kalman_plain_init(&kalman, &plain_state);
     for (unsigned sample = 0; sample < SAMPLES; sample++) {
-        lqg_status status = LQG_OK;
+        lqg_status_t status = LQG_OK;
         for (unsigned i = 0; joseph && i < design->ny; i++)
-            joseph_update(s.P, design->nx, design->C + i * design->nx, design->V[i]);
+            joseph_update(plain_state.P, design->nx, design->C + i * design->nx, design->V[i]);
         if (!joseph)
-            status = lqg_kalman_plain_update(&kalman, s.x, s.P, NULL, NULL, y, s.work);
-        if (status || is_lost(s.P, design->nx))
+            status = lqg_kalman_plain_update(&kalman, &plain_state, y);
+        if (status || is_lost(plain_state.P, design->nx))
             return 1;
-        status = lqg_kalman_plain_predict(&kalman, s.x, s.P, NULL, NULL, NULL, s.work);
-        if (status || is_lost(s.P, design->nx))
+        status = lqg_kalman_plain_predict(&kalman, &plain_state, NULL);
+        if (status || is_lost(plain_state.P, design->nx))
             return 1;
     }
     return 0;
@@ -194,20 +192,19 @@ static int loses_P(const design_t *design, int joseph)
 static int loses_factors(const design_t *design)
 {
     const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL};
-    const lqg_kalman_ud_t kalman = {plant, NULL, design->V, design->nq, design->G, design->w,
-                                    NULL,  NULL, NULL,      design->U0, design->d0, NULL, NULL};
+    const lqg_kalman_ud_t kalman = {plant, NULL, design->V, design->nw, design->G, design->w,
+                                    NULL,  NULL, NULL,      design->U0, design->d0, NULL, NULL, NULL};
     const lqg_real y[MAX_NY] = {0};
-    carried_t s;
 
-    lqg_kalman_ud_init(&kalman, s.x, s.U, s.d, NULL, NULL);
+    lqg_kalman_ud_init(&kalman, &ud_state);
     for (unsigned sample = 0; sample < SAMPLES; sample++) {
-        lqg_status status = lqg_kalman_ud_update(&kalman, s.x, s.U, s.d, NULL, NULL, y, s.work);
+        lqg_status_t status = lqg_kalman_ud_update(&kalman, &ud_state, y);
         for (unsigned i = 0; i < design->nx; i++)
-            if (!(s.d[i] >= 0))
+            if (!(ud_state.d[i] >= 0))
                 return 1;
-        status |= lqg_kalman_ud_predict(&kalman, s.x, s.U, s.d, NULL, NULL, NULL, s.work);
+        status |= lqg_kalman_ud_predict(&kalman, &ud_state, NULL);
         for (unsigned i = 0; i < design->nx; i++)
-            if (!(s.d[i] >= 0))
+            if (!(ud_state.d[i] >= 0))
                 return 1;
         if (status)
             return 1;

@@ -43,7 +43,7 @@ static unsigned take_below(bytes_t *bytes, unsigned limit)
     return byte % limit;
 }
 
-/* Arrays on the heap, of exactly the lengths that the macros say. */
+/* Memory on the heap, of exactly the lengths that the macros say. */
 typedef struct {
     unsigned kind;
     const model_t *model;
@@ -51,12 +51,18 @@ typedef struct {
     lqg_kalman_steady_t steady;
     lqg_ekf_t ekf;
     lqg_rls_t rls;
-    lqg_real gains[MAX_NX * MAX_NY], limits[MAX_NX], scale[MAX_NX], believable[MAX_NY];
+    lqg_gate_t gate;
+    lqg_real gains[MAX_NX * MAX_NY], limits[MAX_NX], scale[MAX_NX], plausible[MAX_NY];
+    lqg_real start[MAX_NY], widen[MAX_NY], narrow[MAX_NY];
     int bounded; /* the filter's state has bounds of 1/scale */
-    lqg_real *x, *P, *U, *d, *u_applied, *innovation, *work;
-    lqg_real *y, *u, *nu, *s;
-    unsigned char *used;
+    lqg_real *memory, *y, *u, *innovation, *S;
+    unsigned char *heard;
     unsigned long *gated;
+    lqg_kalman_steady_state_t steady_state;
+    lqg_kalman_plain_state_t plain_state;
+    lqg_kalman_ud_state_t ud_state;
+    lqg_ekf_state_t ekf_state;
+    lqg_rls_state_t rls_state;
     int honest; /* no state has come from the bytes since the last beginning */
     bytes_t *bytes;
 } machine_t;
@@ -85,38 +91,50 @@ static void any_h(void *context, lqg_real y[], lqg_real C[], const lqg_real x[],
     take(machine->bytes, C, machine->model->ny * machine->model->nx * sizeof *C);
 }
 
-static size_t work_length(const machine_t *machine)
+static size_t memory_length(const machine_t *machine)
 {
-    const unsigned nx = machine->model->nx, ny = machine->model->ny;
-    const size_t lengths[ESTIMATORS] = {LQG_KALMAN_STEADY_WORK(nx, ny), LQG_KALMAN_PLAIN_WORK(nx, ny),
-                                        LQG_KALMAN_UD_WORK(nx, ny, nx), LQG_EKF_WORK(nx, ny, nx),
-                                        LQG_RLS_WORK(nx)};
+    const unsigned nx = machine->model->nx, nu = machine->model->nu, ny = machine->model->ny;
+    const size_t lengths[ESTIMATORS] = {LQG_KALMAN_STEADY_MEMORY(nx, nu, ny), LQG_KALMAN_PLAIN_MEMORY(nx, nu, ny),
+                                        LQG_KALMAN_UD_MEMORY(nx, nu, ny, nx), LQG_EKF_MEMORY(nx, ny, nx),
+                                        LQG_RLS_MEMORY(nx)};
     return lengths[machine->kind];
+}
+
+/* The state of the machine's kind in its memory; the others' are not used. */
+static void make_states(machine_t *m)
+{
+    const unsigned nx = m->model->nx, nu = m->model->nu, ny = m->model->ny;
+    const lqg_kalman_steady_state_t steady = LQG_KALMAN_STEADY_STATE_IN(m->memory, nx, nu, ny);
+    const lqg_kalman_plain_state_t plain = LQG_KALMAN_PLAIN_STATE_IN(m->memory, nx, nu, ny);
+    const lqg_kalman_ud_state_t ud = LQG_KALMAN_UD_STATE_IN(m->memory, nx, nu, ny, nx);
+    const lqg_ekf_state_t ekf = LQG_EKF_STATE_IN(m->memory, nx, ny, nx);
+    const lqg_rls_state_t rls = LQG_RLS_STATE_IN(m->memory, nx);
+    m->steady_state = steady;
+    m->plain_state = plain;
+    m->ud_state = ud;
+    m->ekf_state = ekf;
+    m->rls_state = rls;
+    m->steady_state.gate.gated = m->plain_state.gate.gated = m->gated;
+    m->ud_state.gate.gated = m->ekf_state.gate.gated = m->gated;
 }
 
 static void make_arrays(machine_t *machine)
 {
-    const unsigned nx = machine->model->nx, nu = machine->model->nu, ny = machine->model->ny;
-    machine->x = (lqg_real *)array(nx, sizeof(lqg_real));
-    machine->P = (lqg_real *)array(LQG_KALMAN_PLAIN_P(nx), sizeof(lqg_real));
-    machine->U = (lqg_real *)array(LQG_KALMAN_UD_U(nx), sizeof(lqg_real));
-    machine->d = (lqg_real *)array(nx, sizeof(lqg_real));
-    machine->u_applied = (lqg_real *)array(nu, sizeof(lqg_real));
-    machine->innovation = (lqg_real *)array(ny, sizeof(lqg_real));
-    machine->work = (lqg_real *)array(work_length(machine), sizeof(lqg_real));
+    const unsigned nu = machine->model->nu, ny = machine->model->ny;
+    machine->memory = (lqg_real *)array(memory_length(machine), sizeof(lqg_real));
     machine->y = (lqg_real *)array(ny, sizeof(lqg_real));
     machine->u = (lqg_real *)array(nu, sizeof(lqg_real));
-    machine->nu = (lqg_real *)array(ny, sizeof(lqg_real));
-    machine->s = (lqg_real *)array(ny, sizeof(lqg_real));
-    machine->used = (unsigned char *)array(ny, 1);
+    machine->innovation = (lqg_real *)array(ny, sizeof(lqg_real));
+    machine->S = (lqg_real *)array(ny, sizeof(lqg_real));
+    machine->heard = (unsigned char *)array(ny, 1);
     machine->gated = (unsigned long *)array(ny, sizeof(unsigned long));
+    make_states(machine);
 }
 
 static void free_arrays(machine_t *machine)
 {
-    void *const arrays[] = {machine->x,          machine->P,    machine->U,    machine->d, machine->u_applied,
-                            machine->innovation, machine->work, machine->y,    machine->u, machine->nu,
-                            machine->s,          machine->used, machine->gated};
+    void *const arrays[] = {machine->memory, machine->y, machine->u, machine->innovation,
+                            machine->S, machine->heard, machine->gated};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
 }
@@ -128,12 +146,12 @@ static void bind(machine_t *machine)
     for (unsigned i = 0; i < MAX_NX; i++)
         machine->scale[i] = i % 2 ? 1 / 64.0f : 1 / 1024.0f;
     for (unsigned i = 0; i < MAX_NY; i++)
-        machine->believable[i] = 512;
+        machine->plausible[i] = 512;
     if (!machine->bounded)
         return;
     machine->steady.x_scale = machine->online.plain.x_scale = machine->online.ud.x_scale = machine->scale;
-    machine->steady.innovation_limit = machine->online.plain.innovation_limit = machine->believable;
-    machine->online.ud.innovation_limit = machine->believable;
+    machine->steady.innovation_limit = machine->online.plain.innovation_limit = machine->plausible;
+    machine->online.ud.innovation_limit = machine->plausible;
 }
 
 static void describe(machine_t *machine)
@@ -141,14 +159,19 @@ static void describe(machine_t *machine)
     const unsigned nx = machine->model->nx, ny = machine->model->ny;
     prepare_online(machine->model, &machine->online);
     const lqg_kalman_ud_t *ud = &machine->online.ud;
-    const lqg_kalman_steady_t steady = {ud->plant, machine->gains, ud->M, ud->x0, NULL, NULL};
-    const lqg_ekf_t ekf = {nx,    ny,    ud->nq, any_f,  any_h,  NULL,  machine,
-                           ud->V, ud->G, ud->w,  ud->x0, ud->U0, ud->d0};
+    const lqg_kalman_steady_t steady = {ud->plant, machine->gains, ud->M, ud->x0, NULL, NULL, NULL, machine->online.V};
+    const lqg_ekf_t ekf = {nx,    ny,    ud->nw, any_f,  any_h,  NULL,   machine,
+                           ud->V, ud->G, ud->W,  ud->x0, ud->U0, ud->d0, NULL};
     const lqg_rls_t rls = {nx, 0.9f, 1, ud->x0, ud->d0, machine->limits};
     for (unsigned i = 0; i < MAX_NX * MAX_NY; i++)
         machine->gains[i] = 0.25f;
     for (unsigned i = 0; i < MAX_NX; i++)
         machine->limits[i] = 100;
+    for (unsigned i = 0; i < MAX_NY; i++) {
+        machine->start[i] = 1;
+        machine->widen[i] = 1.5f;
+        machine->narrow[i] = 0.5f;
+    }
     machine->steady = steady;
     machine->ekf = ekf;
     machine->rls = rls;
@@ -158,66 +181,74 @@ static void describe(machine_t *machine)
 static void begin(machine_t *m)
 {
     if (m->kind == STEADY)
-        lqg_kalman_steady_init(&m->steady, m->x, m->u_applied, m->innovation);
+        lqg_kalman_steady_init(&m->steady, &m->steady_state);
     else if (m->kind == PLAIN)
-        lqg_kalman_plain_init(&m->online.plain, m->x, m->P, m->u_applied, m->innovation);
+        lqg_kalman_plain_init(&m->online.plain, &m->plain_state);
     else if (m->kind == UD)
-        lqg_kalman_ud_init(&m->online.ud, m->x, m->U, m->d, m->u_applied, m->innovation);
+        lqg_kalman_ud_init(&m->online.ud, &m->ud_state);
     else if (m->kind == EKF)
-        lqg_ekf_init(&m->ekf, m->x, m->U, m->d);
+        lqg_ekf_init(&m->ekf, &m->ekf_state);
     else
-        lqg_rls_init(&m->rls, m->x, m->U, m->d);
+        lqg_rls_init(&m->rls, &m->rls_state);
     m->honest = 1;
 }
 
-static lqg_status update(machine_t *m, const lqg_watch_t *watch)
+/* Any gate, or none. */
+static void set_gate(machine_t *m)
+{
+    const unsigned sigma = take_below(m->bytes, 8);
+    const int opens = take_below(m->bytes, 2) != 0;
+    const lqg_gate_t gate = {(lqg_real)sigma, m->start, opens ? m->widen : NULL, opens ? m->narrow : NULL};
+    m->gate = gate;
+    m->steady.gate = m->online.plain.gate = m->online.ud.gate = m->ekf.gate = sigma ? &m->gate : NULL;
+}
+
+static lqg_status_t update(machine_t *m, unsigned long used, const lqg_watch_t *watch)
 {
     if (m->kind == STEADY)
-        return lqg_kalman_steady_update_watched(&m->steady, m->x, m->u_applied, m->innovation, m->y,
-                                                m->online.V, watch, m->work);
+        return lqg_kalman_steady_partial_update(&m->steady, &m->steady_state, m->y, used, watch);
     if (m->kind == PLAIN)
-        return lqg_kalman_plain_update_watched(&m->online.plain, m->x, m->P, m->u_applied, m->innovation,
-                                               m->y, watch, m->work);
+        return lqg_kalman_plain_partial_update(&m->online.plain, &m->plain_state, m->y, used, watch);
     if (m->kind == UD)
-        return lqg_kalman_ud_update_watched(&m->online.ud, m->x, m->U, m->d, m->u_applied, m->innovation,
-                                            m->y, watch, m->work);
+        return lqg_kalman_ud_partial_update(&m->online.ud, &m->ud_state, m->y, used, watch);
     if (m->kind == EKF)
-        return lqg_ekf_update(&m->ekf, m->x, m->U, m->d, m->y, m->u, watch, m->work);
+        return lqg_ekf_partial_update(&m->ekf, &m->ekf_state, m->y, m->u, used, watch);
 
     lqg_real *phi = (lqg_real *)array(m->model->nx, sizeof *phi);
     take(m->bytes, phi, m->model->nx * sizeof *phi);
-    const lqg_status status = lqg_rls_update(&m->rls, m->x, m->U, m->d, phi, m->y[0], m->work);
+    const lqg_status_t status = lqg_rls_update(&m->rls, &m->rls_state, m->y[0], phi);
     free(phi);
     return status;
 }
 
-static lqg_status update_alone(machine_t *m, unsigned i, const lqg_watch_t *watch)
+static lqg_status_t update_alone(machine_t *m, unsigned i, const lqg_watch_t *watch)
 {
     if (m->kind == STEADY)
-        return lqg_kalman_steady_update_output(&m->steady, m->x, m->u_applied, m->innovation, i, m->y[i],
-                                               m->online.V, watch);
+        return lqg_kalman_steady_update_output(&m->steady, &m->steady_state, &m->y[i], i, watch);
     if (m->kind == PLAIN)
-        return lqg_kalman_plain_update_output(&m->online.plain, m->x, m->P, m->u_applied, m->innovation, i,
-                                              m->y[i], watch, m->work);
+        return lqg_kalman_plain_update_output(&m->online.plain, &m->plain_state, &m->y[i], i, watch);
     if (m->kind == UD)
-        return lqg_kalman_ud_update_output(&m->online.ud, m->x, m->U, m->d, m->u_applied, m->innovation, i,
-                                           m->y[i], watch, m->work);
-    return update(m, watch);
+        return lqg_kalman_ud_update_output(&m->online.ud, &m->ud_state, &m->y[i], i, watch);
+    return update(m, 1ul << i, watch);
 }
 
-static lqg_status predict(machine_t *m)
+static lqg_status_t predict(machine_t *m)
 {
     if (m->kind == STEADY)
-        return lqg_kalman_steady_predict(&m->steady, m->x, m->u_applied, m->innovation, m->u, m->work);
+        return lqg_kalman_steady_predict(&m->steady, &m->steady_state, m->u);
     if (m->kind == PLAIN)
-        return lqg_kalman_plain_predict(&m->online.plain, m->x, m->P, m->u_applied, m->innovation, m->u,
-                                        m->work);
+        return lqg_kalman_plain_predict(&m->online.plain, &m->plain_state, m->u);
     if (m->kind == UD)
-        return lqg_kalman_ud_predict(&m->online.ud, m->x, m->U, m->d, m->u_applied, m->innovation, m->u,
-                                     m->work);
+        return lqg_kalman_ud_predict(&m->online.ud, &m->ud_state, m->u);
     if (m->kind == EKF)
-        return lqg_ekf_predict(&m->ekf, m->x, m->U, m->d, m->u, m->work);
-    return update(m, NULL);
+        return lqg_ekf_predict(&m->ekf, &m->ekf_state, m->u);
+    return update(m, LQG_ALL_OUTPUTS, NULL);
+}
+
+/* x̂, or θ, is what the memory begins with; d where there is one. */
+static const lqg_real *d_of(const machine_t *m)
+{
+    return m->kind == UD ? m->ud_state.d : m->kind == EKF ? m->ekf_state.d : m->rls_state.d;
 }
 
 static void control(machine_t *m)
@@ -225,28 +256,25 @@ static void control(machine_t *m)
     const lqg_real u_min[1] = {-1}, u_max[1] = {2};
     lqg_real u[1];
     const lqg_lqr_t lqr = {m->model->nx, 1, m->gains, u_min, u_max};
-    lqg_lqr_control(&lqr, m->x, u);
+    lqg_lqr_control(&lqr, m->memory, u);
     demand(u[0] >= -1 && u[0] <= 2);
 }
 
-/* Bits for any of the state's arrays. */
+/* Any bits from somewhere in the memory on. */
 static void spoil(machine_t *m)
 {
-    const unsigned nx = m->model->nx;
-    lqg_real *const arrays[] = {m->x, m->P, m->U, m->d, m->u_applied, m->innovation};
-    const unsigned lengths[] = {nx, LQG_TRIANGLE(nx), LQG_STRICT_TRIANGLE(nx),
-                                nx, m->model->nu,     m->model->ny};
-    const unsigned which = take_below(m->bytes, 6);
-    take(m->bytes, arrays[which], lengths[which] * sizeof(lqg_real));
+    const size_t length = memory_length(m), from = take_below(m->bytes, (unsigned)length);
+    take(m->bytes, m->memory + from, (1 + take_below(m->bytes, (unsigned)(length - from))) * sizeof(lqg_real));
     m->honest = 0;
 }
 
-static void check(machine_t *m, lqg_status status)
+static void check(machine_t *m, lqg_status_t status)
 {
+    const lqg_real *x = m->memory;
     for (unsigned i = 0; i < m->model->nx; i++) {
-        demand(m->x[i] - m->x[i] == 0);
-        demand(!m->bounded || (m->x[i] * m->scale[i] > -1 && m->x[i] * m->scale[i] < 1));
-        demand(!m->honest || m->kind < UD || m->d[i] >= 0);
+        demand(x[i] - x[i] == 0);
+        demand(!m->bounded || (x[i] * m->scale[i] > -1 && x[i] * m->scale[i] < 1));
+        demand(!m->honest || m->kind < UD || d_of(m)[i] >= 0);
     }
     if (status & LQG_STATE_RESET)
         m->honest = 1;
@@ -256,14 +284,14 @@ static void act(machine_t *m)
 {
     enum { UPDATE, ALONE, PREDICT, CONTROL, SPOIL, ACTIONS };
     const unsigned ny = m->model->ny, action = take_below(m->bytes, ACTIONS);
-    const lqg_watch_t watch = {m->used, (lqg_real)take_below(m->bytes, 8), m->gated, m->nu, m->s, NULL, NULL, NULL, NULL};
+    const lqg_watch_t watch = {m->innovation, m->S, m->heard};
     const lqg_watch_t *maybe = take_below(m->bytes, 2) ? &watch : NULL;
 
     take(m->bytes, m->y, ny * sizeof *m->y);
     take(m->bytes, m->u, m->model->nu * sizeof *m->u);
-    take(m->bytes, m->used, ny);
+    set_gate(m);
     if (action == UPDATE)
-        check(m, update(m, maybe));
+        check(m, update(m, take_below(m->bytes, 4), maybe));
     else if (action == ALONE)
         check(m, update_alone(m, take_below(m->bytes, ny), maybe));
     else if (action == PREDICT)

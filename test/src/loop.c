@@ -18,7 +18,7 @@ void make_loop(loop_t *loop, const model_t *model, unsigned filter, lqg_form_t f
 
     const lqg_lqr_t lqr = {model->nx, model->nu, loop->K, loop->u_min, loop->u_max};
     const lqg_kalman_steady_t kalman = {loop->online.plain.plant, loop->gains, loop->online.plain.M,
-                                        loop->online.x0, NULL, NULL};
+                                        loop->online.x0, NULL, NULL, NULL, NULL};
     loop->steady.kalman = kalman;
     loop->plain.kalman = loop->online.plain;
     loop->ud.kalman = loop->online.ud;
@@ -29,52 +29,72 @@ void make_loop(loop_t *loop, const model_t *model, unsigned filter, lqg_form_t f
 
 void loop_init(loop_t *loop)
 {
-    state_t *s = &loop->state;
     if (loop->filter == STEADY)
-        lqg_kalman_steady_init(&loop->steady.kalman, s->x, s->u_applied, s->innovation);
+        steady_init(&loop->steady.kalman, &loop->state);
     else if (loop->filter == PLAIN)
-        lqg_kalman_plain_init(&loop->plain.kalman, s->x, s->P, s->u_applied, s->innovation);
+        plain_init(&loop->plain.kalman, &loop->state);
     else
-        lqg_kalman_ud_init(&loop->ud.kalman, s->x, s->U, s->d, s->u_applied, s->innovation);
+        ud_init(&loop->ud.kalman, &loop->state);
 }
 
-lqg_status loop_update(loop_t *loop, const lqg_real y[])
+lqg_status_t loop_update(loop_t *loop, const lqg_real y[])
 {
-    state_t *s = &loop->state;
     if (loop->filter == STEADY)
-        return lqg_kalman_steady_update(&loop->steady.kalman, s->x, s->u_applied, s->innovation, y, s->work);
+        return steady_update(&loop->steady.kalman, &loop->state, y);
     if (loop->filter == PLAIN)
-        return lqg_kalman_plain_update(&loop->plain.kalman, s->x, s->P, s->u_applied, s->innovation, y,
-                                       s->work);
-    return lqg_kalman_ud_update(&loop->ud.kalman, s->x, s->U, s->d, s->u_applied, s->innovation, y, s->work);
+        return plain_update(&loop->plain.kalman, &loop->state, y);
+    return ud_update(&loop->ud.kalman, &loop->state, y);
 }
 
-lqg_status loop_control(loop_t *loop, lqg_real u[])
+lqg_status_t loop_control(loop_t *loop, lqg_real u[])
 {
-    const lqg_status status = lqg_lqr_control(&loop->steady.lqr, loop->state.x, u);
+    const lqg_status_t status = lqg_lqr_control(&loop->steady.lqr, loop->state.x, u);
     memcpy(loop->state.u_applied, u, loop->model->nu * sizeof *u);
     return status;
 }
 
-lqg_status loop_predict(loop_t *loop, const lqg_real u[])
+lqg_status_t loop_predict(loop_t *loop, const lqg_real u[])
 {
-    state_t *s = &loop->state;
     if (loop->filter == STEADY)
-        return lqg_kalman_steady_predict(&loop->steady.kalman, s->x, s->u_applied, s->innovation, u, s->work);
+        return steady_predict(&loop->steady.kalman, &loop->state, u);
     if (loop->filter == PLAIN)
-        return lqg_kalman_plain_predict(&loop->plain.kalman, s->x, s->P, s->u_applied, s->innovation, u,
-                                        s->work);
-    return lqg_kalman_ud_predict(&loop->ud.kalman, s->x, s->U, s->d, s->u_applied, s->innovation, u, s->work);
+        return plain_predict(&loop->plain.kalman, &loop->state, u);
+    return ud_predict(&loop->ud.kalman, &loop->state, u);
 }
 
-lqg_status loop_step(loop_t *loop, const lqg_real y[], lqg_real u[])
+lqg_status_t loop_step(loop_t *loop, const lqg_real y[], lqg_real u[])
 {
-    state_t *s = &loop->state;
+    lqg_loop_steady_state_t steady = {steady_state(&loop->state), u};
+    lqg_loop_plain_state_t plain = {plain_state(&loop->state), u};
+    lqg_loop_ud_state_t ud = {ud_state(&loop->state), u};
+
     if (loop->filter == STEADY)
-        return lqg_lqg_steady_step(&loop->steady, s->x, s->u_applied, s->innovation, y, u, s->work);
+        return lqg_loop_steady_step(&loop->steady, &steady, y);
     if (loop->filter == PLAIN)
-        return lqg_lqg_plain_step(&loop->plain, s->x, s->P, s->u_applied, s->innovation, y, u, s->work);
-    return lqg_lqg_ud_step(&loop->ud, s->x, s->U, s->d, s->u_applied, s->innovation, y, u, s->work);
+        return lqg_loop_plain_step(&loop->plain, &plain, y);
+    return lqg_loop_ud_step(&loop->ud, &ud, y);
+}
+
+lqg_status_t loop_partial_update(loop_t *loop, const lqg_real y[], unsigned long used, const lqg_watch_t *watch)
+{
+    if (loop->filter == STEADY)
+        return steady_partial_update(&loop->steady.kalman, &loop->state, y, used, watch);
+    if (loop->filter == PLAIN)
+        return plain_partial_update(&loop->plain.kalman, &loop->state, y, used, watch);
+    return ud_partial_update(&loop->ud.kalman, &loop->state, y, used, watch);
+}
+
+void make_running_loop(loop_t *loop, const model_t *model, unsigned filter)
+{
+    lqg_real y[MAX_NY], u[MAX_NU] = {0};
+    double plant[MAX_NX] = {0};
+    unsigned long seed = 3;
+
+    make_loop(loop, model, filter, LQG_FILTER_FORM);
+    for (unsigned sample = 0; sample < 5; sample++) {
+        simulate(model, plant, u, y, &seed);
+        loop_step(loop, y, u);
+    }
 }
 
 int same_state(const state_t *a, const state_t *b)

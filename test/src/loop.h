@@ -14,9 +14,9 @@ typedef struct {
     const model_t *model;
     online_t online;
     lqg_real gains[MAX_NX * MAX_NY], K[MAX_NU * MAX_NX], u_min[MAX_NU], u_max[MAX_NU];
-    lqg_lqg_steady_t steady;
-    lqg_lqg_plain_t plain;
-    lqg_lqg_ud_t ud;
+    lqg_loop_steady_t steady;
+    lqg_loop_plain_t plain;
+    lqg_loop_ud_t ud;
     state_t state;
 } loop_t;
 
@@ -25,10 +25,16 @@ typedef struct {
 void make_loop(loop_t *loop, const model_t *model, unsigned filter, lqg_form_t form);
 
 void loop_init(loop_t *loop);
-lqg_status loop_update(loop_t *loop, const lqg_real y[]);
-lqg_status loop_control(loop_t *loop, lqg_real u[]);
-lqg_status loop_predict(loop_t *loop, const lqg_real u[]);
-lqg_status loop_step(loop_t *loop, const lqg_real y[], lqg_real u[]);
+lqg_status_t loop_update(loop_t *loop, const lqg_real y[]);
+lqg_status_t loop_control(loop_t *loop, lqg_real u[]);
+lqg_status_t loop_predict(loop_t *loop, const lqg_real u[]);
+lqg_status_t loop_step(loop_t *loop, const lqg_real y[], lqg_real u[]);
+
+/* `used` and `watch` as the library's. */
+lqg_status_t loop_partial_update(loop_t *loop, const lqg_real y[], unsigned long used, const lqg_watch_t *watch);
+
+/* make_loop, and some samples. */
+void make_running_loop(loop_t *loop, const model_t *model, unsigned filter);
 
 /* The state alone is the same, to the bit; scratch is not looked at. */
 int same_state(const state_t *a, const state_t *b);

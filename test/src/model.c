@@ -142,7 +142,7 @@ void prepare_online(const model_t *model, online_t *to)
     const unsigned nx = model->nx, nu = model->nu, ny = model->ny;
     double E[MAX_NY * MAX_NY], v[MAX_NY], C[MAX_NY * MAX_NX], D[MAX_NY * MAX_NU];
     double M[MAX_NX * MAX_NY] = {0}, MC[MAX_NX * MAX_NX], A_free[MAX_NX * MAX_NX], W[MAX_NX * MAX_NX] = {0};
-    double G[MAX_NX * MAX_NX], w[MAX_NX];
+    double G[MAX_NX * MAX_NX], variances[MAX_NX];
 
     diagonalise(model->V, ny, E, v);
     multiply(C, E, model->C, ny, ny, nx, 0);
@@ -158,7 +158,7 @@ void prepare_online(const model_t *model, online_t *to)
             for (unsigned k = 0; k < ny; k++)
                 W[i * nx + j] -= M[i * ny + k] * v[k] * M[j * ny + k];
         }
-    factorise_ud(W, nx, G, w);
+    factorise_ud(W, nx, G, variances);
 
     round_all(to->A, model->A, nx * nx);
     round_all(to->B, model->B, nx * nu);
@@ -170,7 +170,7 @@ void prepare_online(const model_t *model, online_t *to)
     round_all(to->A_free, A_free, nx * nx);
     round_lower(to->W, W, nx);
     round_all(to->G, G, nx * nx);
-    round_all(to->w, w, nx);
+    round_all(to->variances, variances, nx);
     round_all(to->x0, model->x0, nx);
     round_lower(to->P0, model->P0, nx);
     round_ud(to->U0, to->d0, model->P0, nx);
@@ -182,9 +182,9 @@ void prepare_online(const model_t *model, online_t *to)
     const lqg_real *M_or_none = crossed ? to->M : NULL, *A_free_or_none = crossed ? to->A_free : NULL;
 
     const lqg_kalman_plain_t plain = {plant, E_or_none, to->V, to->W, M_or_none, A_free_or_none, to->x0,
-                                      to->P0, NULL, NULL};
-    const lqg_kalman_ud_t ud = {plant, E_or_none, to->V, nx, to->G, to->w,
-                                M_or_none, A_free_or_none, to->x0, to->U0, to->d0, NULL, NULL};
+                                      to->P0, NULL, NULL, NULL};
+    const lqg_kalman_ud_t ud = {plant, E_or_none, to->V, nx, to->G, to->variances,
+                                M_or_none, A_free_or_none, to->x0, to->U0, to->d0, NULL, NULL, NULL};
     to->plain = plain;
     to->ud = ud;
 }

@@ -6,14 +6,13 @@
 #include <float.h>
 
 #include "lqg/lqg.h"
+#include "states.h"
 
 #ifdef LQG_REAL_DOUBLE
 #define EPSILON DBL_EPSILON
 #else
 #define EPSILON FLT_EPSILON
 #endif
-
-enum { MAX_NX = 4, MAX_NU = 1, MAX_NY = 2 };
 
 /* x⁺ = A x + B u + w, y = C x + D u + v; W, V, S the covariances of w, of v, and E[w vᵀ]. */
 typedef struct {
@@ -33,7 +32,7 @@ extern const model_t random_walk;       /* one state, no input */
 typedef struct {
     lqg_real A[MAX_NX * MAX_NX], B[MAX_NX * MAX_NU], C[MAX_NY * MAX_NX], D[MAX_NY * MAX_NU];
     lqg_real E[MAX_NY * MAX_NY], V[MAX_NY], M[MAX_NX * MAX_NY], A_free[MAX_NX * MAX_NX];
-    lqg_real W[LQG_TRIANGLE(MAX_NX)], G[MAX_NX * MAX_NX], w[MAX_NX];
+    lqg_real W[LQG_TRIANGLE(MAX_NX)], G[MAX_NX * MAX_NX], variances[MAX_NX];
     lqg_real x0[MAX_NX], P0[LQG_TRIANGLE(MAX_NX)], U0[LQG_STRICT_TRIANGLE(MAX_NX)], d0[MAX_NX];
     lqg_kalman_plain_t plain;
     lqg_kalman_ud_t ud;
@@ -41,13 +40,6 @@ typedef struct {
 
 /* Makes the outputs' noises uncorrelated and w free of them, in double, and rounds the result. */
 void prepare_online(const model_t *model, online_t *online);
-
-/* The state of any of the filters, and scratch for all of them. */
-typedef struct {
-    lqg_real x[MAX_NX], P[LQG_TRIANGLE(MAX_NX)], U[LQG_STRICT_TRIANGLE(MAX_NX)], d[MAX_NX];
-    lqg_real u_applied[MAX_NU], innovation[MAX_NY];
-    lqg_real work[LQG_KALMAN_UD_WORK(MAX_NX, MAX_NY, MAX_NX)];
-} state_t;
 
 /* P_ij of U diag(d) Uᵀ. */
 double ud_covariance(const lqg_real U[], const lqg_real d[], unsigned nx, unsigned i, unsigned j);

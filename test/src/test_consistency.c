@@ -120,22 +120,21 @@ static void run_many(const model_t *model)
     for (unsigned run = 0; run < RUNS; run++) {
         state_t s;
         double x[MAX_NX];
-        lqg_real y[MAX_NY], nu[MAX_NY], variance[MAX_NY], u[MAX_NU] = {0};
-        const lqg_watch_t watch = {NULL, 0, NULL, nu, variance, NULL, NULL, NULL, NULL};
+        lqg_real y[MAX_NY], innovation[MAX_NY], variance[MAX_NY], u[MAX_NU] = {0};
+        const lqg_watch_t watch = {innovation, variance, NULL};
 
         draw(root_of_P0, model->nx, x, &seed);
         for (unsigned i = 0; i < model->nx; i++)
             x[i] += model->x0[i];
-        lqg_kalman_ud_init(&online.ud, s.x, s.U, s.d, s.u_applied, s.innovation);
+        ud_init(&online.ud, &s);
         for (unsigned sample = 0; sample < SAMPLES; sample++) {
             const lqg_real before[MAX_NU] = {u[0]};
             u[0] = (lqg_real)noise(&seed);
             go_on(model, root, x, before, u, y, &seed);
-            lqg_kalman_ud_update_watched(&online.ud, s.x, s.U, s.d, s.u_applied, s.innovation, y, &watch,
-                                         s.work);
+            ud_partial_update(&online.ud, &s, y, LQG_ALL_OUTPUTS, &watch);
             for (unsigned i = 0; i < model->ny; i++)
-                innovations += (double)nu[i] * (double)nu[i] / (double)variance[i];
-            lqg_kalman_ud_predict(&online.ud, s.x, s.U, s.d, s.u_applied, s.innovation, u, s.work);
+                innovations += (double)innovation[i] * (double)innovation[i] / (double)variance[i];
+            ud_predict(&online.ud, &s, u);
         }
         errors += normalised_error(x, &s, model->nx);
     }
@@ -171,23 +170,24 @@ static const lqg_real nile[100] = {
 
 /* The concentrated diffuse log-likelihood of the local level model, x⁺ = x + w, y = x + v, W = q V, without
  * its constants (Durbin, Koopman: Time Series Analysis by State Space Methods, 2nd edition, 2012,
- * section 2.10.2), with V = 1: −(n − 1)/2 log(Σ ν²/s/(n − 1)) − ½ Σ log s     over t = 2 … n */
+ * section 2.10.2), with V = 1: −(n − 1)/2 log(Σ innovation²/s/(n − 1)) − ½ Σ log s     over t = 2 … n */
 static double log_likelihood(lqg_real q)
 {
     const lqg_real one[1] = {1}, x0[1] = {nile[0]};
     const lqg_real P0[1] = {1 + q}; /* of the second year, given the first: x̂ = y, P = V */
     const lqg_kalman_ud_t kalman = {
-        {1, 0, 1, one, NULL, one, NULL}, NULL, one, 1, one, &q, NULL, NULL, x0, NULL, P0, NULL, NULL};
-    lqg_real x[1], d[1], nu[1], s[1], work[LQG_KALMAN_UD_WORK(1, 1, 1)];
-    const lqg_watch_t watch = {NULL, 0, NULL, nu, s, NULL, NULL, NULL, NULL};
+        {1, 0, 1, one, NULL, one, NULL}, NULL, one, 1, one, &q, NULL, NULL, x0, NULL, P0, NULL, NULL, NULL};
+    lqg_real innovation[1], S[1];
+    const lqg_watch_t watch = {innovation, S, NULL};
+    LQG_KALMAN_UD_STATE(level, 1, 0, 1, 1);
     double squares = 0, logarithms = 0;
 
-    lqg_kalman_ud_init(&kalman, x, NULL, d, NULL, NULL);
+    lqg_kalman_ud_init(&kalman, &level);
     for (unsigned t = 1; t < 100; t++) {
-        lqg_kalman_ud_update_watched(&kalman, x, NULL, d, NULL, NULL, &nile[t], &watch, work);
-        squares += (double)nu[0] * (double)nu[0] / (double)s[0];
-        logarithms += log((double)s[0]);
-        lqg_kalman_ud_predict(&kalman, x, NULL, d, NULL, NULL, NULL, work);
+        lqg_kalman_ud_partial_update(&kalman, &level, &nile[t], LQG_ALL_OUTPUTS, &watch);
+        squares += (double)innovation[0] * (double)innovation[0] / (double)S[0];
+        logarithms += log((double)S[0]);
+        lqg_kalman_ud_predict(&kalman, &level, NULL);
     }
     return -49.5 * log(squares / 99) - logarithms / 2;
 }

@@ -15,7 +15,7 @@ void tearDown(void)
 {
 }
 
-enum { NX = 4, NY = 2, NQ = 2 };
+enum { NX = 4, NY = 2, NW = 2 };
 
 /* Range and bearing of a vehicle [x vx y vy] that accelerates at random and is slowed down by drag: the
  * classic of Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation (2001),
@@ -97,27 +97,60 @@ static void subtract(void *context, lqg_real innovation[], const lqg_real y[], c
     innovation[1] = (lqg_real)wrapped((double)(y[1] - expected[1]));
 }
 
-static const lqg_real V[NY] = {0.25f, 0.0001f}, G[NX * NQ] = {0.03125f, 0, 0.25f, 0, 0, 0.03125f, 0, 0.25f};
-static const lqg_real w[NQ] = {0.04f, 0.04f}, x0[NX] = {-30, 1, 20, -3}, d0[NX] = {4, 1, 4, 1};
+static const lqg_real V[NY] = {0.25f, 0.0001f}, G[NX * NW] = {0.03125f, 0, 0.25f, 0, 0, 0.03125f, 0, 0.25f};
+static const lqg_real W[NW] = {0.04f, 0.04f}, x0[NX] = {-30, 1, 20, -3}, d0[NX] = {4, 1, 4, 1};
 
-#define VEHICLE_WITH(context) {NX, NY, NQ, f, h, subtract, context, V, G, w, x0, NULL, d0}
-static const lqg_ekf_t vehicle = VEHICLE_WITH(NULL);
+#define VEHICLE_WITH(context, gate) {NX, NY, NW, f, h, subtract, context, V, G, W, x0, NULL, d0, gate}
+static const lqg_ekf_t vehicle = VEHICLE_WITH(NULL, NULL);
 
+/* A state as arrays that can be compared and copied, and the library's calls over it. */
 typedef struct {
-    lqg_real x[NX], U[LQG_EKF_U(NX)], d[NX], work[LQG_EKF_WORK(NX, NY, NQ)];
-} ekf_state_t;
+    lqg_real x[NX], U[LQG_STRICT_TRIANGLE(NX)], d[NX], work[LQG_EKF_WORK(NX, NY, NX)];
+    unsigned long gated[NY];
+} ekf_arrays_t;
 
-static ekf_state_t begun(void)
+static lqg_ekf_state_t state_in(ekf_arrays_t *s)
 {
-    ekf_state_t s;
+    const lqg_ekf_state_t state = {s->x, s->U, s->d, {NULL, s->gated}, s->work};
+    return state;
+}
+
+static lqg_status_t partial_update(const lqg_ekf_t *ekf, ekf_arrays_t *s, const lqg_real y[], const lqg_real u[],
+                                   unsigned long used, const lqg_watch_t *watch)
+{
+    lqg_ekf_state_t state = state_in(s);
+    return lqg_ekf_partial_update(ekf, &state, y, u, used, watch);
+}
+
+static lqg_status_t update(const lqg_ekf_t *ekf, ekf_arrays_t *s, const lqg_real y[], const lqg_real u[])
+{
+    lqg_ekf_state_t state = state_in(s);
+    return lqg_ekf_update(ekf, &state, y, u);
+}
+
+static lqg_status_t predict(const lqg_ekf_t *ekf, ekf_arrays_t *s, const lqg_real u[])
+{
+    lqg_ekf_state_t state = state_in(s);
+    return lqg_ekf_predict(ekf, &state, u);
+}
+
+static void init(const lqg_ekf_t *ekf, ekf_arrays_t *s)
+{
+    lqg_ekf_state_t state = state_in(s);
+    lqg_ekf_init(ekf, &state);
+}
+
+static ekf_arrays_t begun(void)
+{
+    ekf_arrays_t s;
     memset(&s, 0, sizeof s);
-    lqg_ekf_init(&vehicle, s.x, s.U, s.d);
+    init(&vehicle, &s);
     return s;
 }
 
-static int same(const ekf_state_t *a, const ekf_state_t *b)
+static int same(const ekf_arrays_t *a, const ekf_arrays_t *b)
 {
-    return memcmp(a, b, offsetof(ekf_state_t, work)) == 0;
+    return memcmp(a, b, offsetof(ekf_arrays_t, work)) == 0;
 }
 
 /* The textbook's: P in full, both outputs at once, S inverted. */
@@ -143,8 +176,8 @@ static void reference_predict(reference_t *reference)
     for (unsigned i = 0; i < NX; i++)
         for (unsigned j = 0; j < NX; j++) {
             P[i][j] = 0;
-            for (unsigned q = 0; q < NQ; q++)
-                P[i][j] += (double)G[i * NQ + q] * (double)w[q] * (double)G[j * NQ + q];
+            for (unsigned q = 0; q < NW; q++)
+                P[i][j] += (double)G[i * NW + q] * (double)W[q] * (double)G[j * NW + q];
             for (unsigned k = 0; k < NX; k++)
                 for (unsigned l = 0; l < NX; l++)
                     P[i][j] += A[i * NX + k] * reference->P[k][l] * A[j * NX + l];
@@ -196,10 +229,10 @@ static void drive(double x[], lqg_real y[], unsigned long *seed)
 {
     double next[NX], unused_A[NX * NX], angle_and_range[NY], unused_C[NY * NX];
     true_motion(next, unused_A, x);
-    for (unsigned q = 0; q < NQ; q++) {
-        const double acceleration = sqrt((double)w[q]) * normal(seed);
+    for (unsigned q = 0; q < NW; q++) {
+        const double acceleration = sqrt((double)W[q]) * normal(seed);
         for (unsigned i = 0; i < NX; i++)
-            next[i] += (double)G[i * NQ + q] * acceleration;
+            next[i] += (double)G[i * NW + q] * acceleration;
     }
     memcpy(x, next, sizeof next);
     true_sensors(angle_and_range, unused_C, x);
@@ -220,7 +253,7 @@ static void true_start(double x[], unsigned long *seed)
 /* The vehicle crosses the negative x-axis, where bearings jump by 2π, after about 7 s. */
 static void test_range_and_bearing_follow_the_textbook_across_the_jump_of_the_angle(void)
 {
-    ekf_state_t s = begun();
+    ekf_arrays_t s = begun();
     reference_t reference = reference_begun();
     double x[NX];
     unsigned long seed = 1;
@@ -232,8 +265,8 @@ static void test_range_and_bearing_follow_the_textbook_across_the_jump_of_the_an
         drive(x, y, &seed);
         jumps += fabs((double)(y[1] - previous)) > PI;
         previous = y[1];
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_ekf_predict(&vehicle, s.x, s.U, s.d, NULL, s.work));
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_ekf_update(&vehicle, s.x, s.U, s.d, y, NULL, NULL, s.work));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, predict(&vehicle, &s, NULL));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&vehicle, &s, y, NULL));
         reference_predict(&reference);
         reference_update(&reference, y);
         for (unsigned i = 0; i < NX; i++) {
@@ -251,19 +284,19 @@ static void test_normalised_innovations_are_consistent_over_many_runs(void)
     enum { RUNS = 50, LENGTH = 60 };
     double sum = 0;
     unsigned long seed = 17;
-    lqg_real y[NY], nu[NY], variance[NY];
-    const lqg_watch_t watch = {NULL, 0, NULL, nu, variance, NULL, NULL, NULL, NULL};
+    lqg_real y[NY], innovation[NY], variance[NY];
+    const lqg_watch_t watch = {innovation, variance, NULL};
 
     for (unsigned run = 0; run < RUNS; run++) {
-        ekf_state_t s = begun();
+        ekf_arrays_t s = begun();
         double x[NX];
         true_start(x, &seed);
         for (unsigned sample = 0; sample < LENGTH; sample++) {
             drive(x, y, &seed);
-            lqg_ekf_predict(&vehicle, s.x, s.U, s.d, NULL, s.work);
-            lqg_ekf_update(&vehicle, s.x, s.U, s.d, y, NULL, &watch, s.work);
+            predict(&vehicle, &s, NULL);
+            partial_update(&vehicle, &s, y, NULL, LQG_ALL_OUTPUTS, &watch);
             for (unsigned i = 0; i < NY; i++)
-                sum += (double)nu[i] * (double)nu[i] / (double)variance[i];
+                sum += (double)innovation[i] * (double)innovation[i] / (double)variance[i];
         }
     }
     /* mean N, standard deviation √(2N), N = 6000; four of them, and a share for the linearisation */
@@ -300,27 +333,27 @@ static void test_of_a_linear_plant_the_covariance_is_the_kalman_filter_s_to_the_
 {
     static online_t online;
     state_t s;
-    ekf_state_t e;
-    lqg_real u[1] = {0}, y[2], e_work[LQG_EKF_WORK(4, 2, 4)];
+    ekf_arrays_t e;
+    lqg_real u[1] = {0}, y[2];
     double plant[MAX_NX] = {0};
     unsigned long seed = 5;
     prepare_online(&two_mass, &online);
     const lqg_kalman_ud_t *kalman = &online.ud;
-    const lqg_ekf_t ekf = {4,         2,         kalman->nq, linear_f,   linear_h,   NULL,      &online,
-                           kalman->V, kalman->G, kalman->w,  kalman->x0, kalman->U0, kalman->d0};
+    const lqg_ekf_t ekf = {4,         2,         kalman->nw, linear_f,   linear_h,   NULL,       &online,
+                           kalman->V, kalman->G, kalman->W,  kalman->x0, kalman->U0, kalman->d0, NULL};
 
-    lqg_kalman_ud_init(kalman, s.x, s.U, s.d, s.u_applied, s.innovation);
-    lqg_ekf_init(&ekf, e.x, e.U, e.d);
+    ud_init(kalman, &s);
+    init(&ekf, &e);
     for (unsigned sample = 0; sample < 200; sample++) {
         simulate(&two_mass, plant, u, y, &seed);
-        lqg_status status = lqg_kalman_ud_update(kalman, s.x, s.U, s.d, s.u_applied, s.innovation, y, s.work);
-        status |= lqg_ekf_update(&ekf, e.x, e.U, e.d, y, u, NULL, e_work);
+        lqg_status_t status = ud_update(kalman, &s, y);
+        status |= update(&ekf, &e, y, u);
         u[0] = (lqg_real)noise(&seed) / 8;
-        status |= lqg_kalman_ud_predict(kalman, s.x, s.U, s.d, s.u_applied, s.innovation, u, s.work);
-        status |= lqg_ekf_predict(&ekf, e.x, e.U, e.d, u, e_work);
+        status |= ud_predict(kalman, &s, u);
+        status |= predict(&ekf, &e, u);
 
         TEST_ASSERT_EQUAL_UINT(LQG_OK, status);
-        TEST_ASSERT_TRUE(memcmp(s.U, e.U, LQG_EKF_U(4) * sizeof *s.U) == 0);
+        TEST_ASSERT_TRUE(memcmp(s.U, e.U, LQG_STRICT_TRIANGLE(4) * sizeof *s.U) == 0);
         TEST_ASSERT_TRUE(memcmp(s.d, e.d, sizeof e.d) == 0);
         for (unsigned i = 0; i < 4; i++)
             TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, (double)s.x[i], (double)e.x[i]);
@@ -332,22 +365,20 @@ static void test_outputs_that_h_cannot_tell_are_left_out(void)
     const lqg_real y[NY] = {36, 2.5f};
     for (int entry = 0; entry < NY * NX; entry++) {
         spoil_t value = {entry % NY, -1}, jacobian = {-1, entry};
-        const lqg_ekf_t bad_value = VEHICLE_WITH(&value), bad_jacobian = VEHICLE_WITH(&jacobian);
-        const unsigned char others[NY] = {entry % NY != 0, entry % NY != 1},
-                            rest[NY] = {entry >= NX, entry < NX};
-        const lqg_watch_t only_others = {others, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL},
-                          only_rest = {rest, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
-        ekf_state_t s = begun(), expected = begun();
+        const lqg_ekf_t bad_value = VEHICLE_WITH(&value, NULL), bad_jacobian = VEHICLE_WITH(&jacobian, NULL);
+        const unsigned bad = (unsigned)entry % NY, bad_row = entry >= NX;
+        const unsigned long others = 1ul << (1 - bad), rest = 1ul << (1 - bad_row);
+        ekf_arrays_t s = begun(), expected = begun();
 
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE,
-                               lqg_ekf_update(&bad_value, s.x, s.U, s.d, y, NULL, NULL, s.work));
-        lqg_ekf_update(&vehicle, expected.x, expected.U, expected.d, y, NULL, &only_others, expected.work);
+        TEST_ASSERT_EQUAL_HEX(REJECTED(bad),
+                               update(&bad_value, &s, y, NULL));
+        partial_update(&vehicle, &expected, y, NULL, others, NULL);
         TEST_ASSERT_TRUE(same(&expected, &s));
 
         s = expected = begun();
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE,
-                               lqg_ekf_update(&bad_jacobian, s.x, s.U, s.d, y, NULL, NULL, s.work));
-        lqg_ekf_update(&vehicle, expected.x, expected.U, expected.d, y, NULL, &only_rest, expected.work);
+        TEST_ASSERT_EQUAL_HEX(REJECTED(bad_row),
+                               update(&bad_jacobian, &s, y, NULL));
+        partial_update(&vehicle, &expected, y, NULL, rest, NULL);
         TEST_ASSERT_TRUE(same(&expected, &s));
     }
 }
@@ -355,15 +386,15 @@ static void test_outputs_that_h_cannot_tell_are_left_out(void)
 static void test_begins_anew_when_f_cannot_tell(void)
 {
     const lqg_real y[NY] = {36, 2.5f};
-    const ekf_state_t first = begun();
+    const ekf_arrays_t first = begun();
     for (int entry = 0; entry < NX * NX; entry++) {
         spoil_t value = {entry % NX, -1}, jacobian = {-1, entry};
-        const lqg_ekf_t bad[2] = {VEHICLE_WITH(&value), VEHICLE_WITH(&jacobian)};
+        const lqg_ekf_t bad[2] = {VEHICLE_WITH(&value, NULL), VEHICLE_WITH(&jacobian, NULL)};
         for (unsigned b = 0; b < 2; b++) {
-            ekf_state_t s = begun();
-            lqg_ekf_update(&vehicle, s.x, s.U, s.d, y, NULL, NULL, s.work);
+            ekf_arrays_t s = begun();
+            update(&vehicle, &s, y, NULL);
             TEST_ASSERT_FALSE(same(&first, &s));
-            const lqg_status status = lqg_ekf_predict(&bad[b], s.x, s.U, s.d, NULL, s.work);
+            const lqg_status_t status = predict(&bad[b], &s, NULL);
             TEST_ASSERT_EQUAL_UINT(b == 0 ? LQG_STATE_RESET : LQG_COVARIANCE_RESET, status);
             TEST_ASSERT_TRUE(b == 1 || memcmp(first.x, s.x, sizeof s.x) == 0);
             TEST_ASSERT_TRUE(memcmp(first.U, s.U, sizeof s.U) == 0 && memcmp(first.d, s.d, sizeof s.d) == 0);
@@ -376,23 +407,23 @@ static void test_begins_anew_when_f_cannot_tell(void)
 static void test_outputs_that_are_no_numbers_change_nothing_to_the_bit(void)
 {
     const lqg_real y[NY] = {NAN, -INFINITY};
-    ekf_state_t s = begun();
-    const ekf_state_t before = s;
-    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE,
-                           lqg_ekf_update(&vehicle, s.x, s.U, s.d, y, NULL, NULL, s.work));
+    ekf_arrays_t s = begun();
+    const ekf_arrays_t before = s;
+    TEST_ASSERT_EQUAL_HEX(REJECTED(0) | REJECTED(1),
+                           update(&vehicle, &s, y, NULL));
     TEST_ASSERT_TRUE(same(&before, &s));
 }
 
 static void test_gate_leaves_out_an_unlikely_bearing(void)
 {
-    unsigned long gated[NY] = {0};
-    const lqg_watch_t watch = {NULL, 5, gated, NULL, NULL, NULL, NULL, NULL, NULL};
+    static const lqg_gate_t gate = {5, NULL, NULL, NULL};
+    const lqg_ekf_t gated = VEHICLE_WITH(NULL, &gate);
     const lqg_real likely[NY] = {36, 2.55f}, unlikely[NY] = {36, 1};
-    ekf_state_t s = begun();
-    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_ekf_update(&vehicle, s.x, s.U, s.d, likely, NULL, &watch, s.work));
+    ekf_arrays_t s = begun();
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&gated, &s, likely, NULL));
     TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED,
-                           lqg_ekf_update(&vehicle, s.x, s.U, s.d, unlikely, NULL, &watch, s.work));
-    TEST_ASSERT_TRUE(gated[0] == 0 && gated[1] == 1);
+                           update(&gated, &s, unlikely, NULL));
+    TEST_ASSERT_TRUE(s.gated[0] == 0 && s.gated[1] == 1);
 }
 
 int main(void)

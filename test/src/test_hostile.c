@@ -20,6 +20,13 @@ static const lqg_real hostile[] = {NAN, INFINITY, -INFINITY, LARGEST, -LARGEST, 
                                    -1e19f};
 enum { HOSTILE = sizeof hostile / sizeof *hostile, NOT_FINITE = 3, SAMPLES = 30 };
 
+/* The status when `output` is not finite: E may mix it with the one after it. */
+static lqg_status_t expected_of(const model_t *model, unsigned filter, unsigned output)
+{
+    const int mixed = filter != STEADY && output == 0 && model->ny > 1 && model->V[1] != 0;
+    return REJECTED(output) | (mixed ? REJECTED(1) : LQG_OK);
+}
+
 /* One loop in which output `output` says `value` in sample `when`, and for ever with when = SAMPLES. */
 static void run_hostile(const model_t *model, unsigned filter, lqg_form_t form, unsigned output,
                         unsigned which, unsigned when)
@@ -34,12 +41,13 @@ static void run_hostile(const model_t *model, unsigned filter, lqg_form_t form, 
         const int is_hostile = sample == when || when == SAMPLES;
         simulate(model, plant, u, y, &seed);
         y[output] = is_hostile ? hostile[which] : y[output];
-        const lqg_status status = loop_step(&loop, y, u);
+        const lqg_status_t status = loop_step(&loop, y, u);
 
         TEST_ASSERT_TRUE(all_finite(&loop.state));
         TEST_ASSERT_TRUE(u[0] >= -1 && u[0] <= 1);
         if (which < NOT_FINITE) {
-            TEST_ASSERT_EQUAL_UINT(is_hostile ? LQG_OUTPUT_NOT_FINITE : LQG_OK, status & ~LQG_INPUT_LIMITED);
+            TEST_ASSERT_EQUAL_HEX(is_hostile ? expected_of(model, filter, output) : LQG_OK,
+                                  status & ~LQG_INPUT_LIMITED);
         } else if (sample < when && when < SAMPLES) {
             TEST_ASSERT_EQUAL_UINT(LQG_OK, status & ~LQG_INPUT_LIMITED);
         }
@@ -72,7 +80,7 @@ static void test_update_without_any_usable_output_changes_nothing_to_the_bit(voi
             for (unsigned sample = 0; sample < 5; sample++)
                 loop_step(&loop, good, u);
             const state_t before = loop.state;
-            TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, loop_update(&loop, y));
+            TEST_ASSERT_EQUAL_HEX(REJECTED(0) | (models[m]->ny > 1 ? REJECTED(1) : LQG_OK), loop_update(&loop, y));
             TEST_ASSERT_TRUE(same_state(&before, &loop.state));
         }
 }
@@ -99,7 +107,7 @@ static void test_an_output_left_out_is_as_if_there_were_none(void)
         make_loop(&both, &two_mass, filter, LQG_FILTER_FORM);
         make_loop(&one, &two_mass, filter, LQG_FILTER_FORM);
         without_first_output(&one); /* its L = [0.25 …] is that of the second output too */
-        TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, loop_update(&both, y));
+        TEST_ASSERT_EQUAL_HEX(REJECTED(0), loop_update(&both, y));
         TEST_ASSERT_EQUAL_UINT(LQG_OK, loop_update(&one, second));
         TEST_ASSERT_TRUE(same_state(&both.state, &one.state));
     }

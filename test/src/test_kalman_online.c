@@ -33,8 +33,8 @@ static void begin_run(run_t *run, const model_t *model)
     memset(run, 0, sizeof *run);
     run->seed = 1;
     prepare_online(model, &run->online);
-    lqg_kalman_plain_init(&run->online.plain, plain->x, plain->P, plain->u_applied, plain->innovation);
-    lqg_kalman_ud_init(&run->online.ud, ud->x, ud->U, ud->d, ud->u_applied, ud->innovation);
+    plain_init(&run->online.plain, plain);
+    ud_init(&run->online.ud, ud);
     textbook_init(model, &run->textbook);
 }
 
@@ -44,10 +44,8 @@ static void update_all(run_t *run, const model_t *model)
     lqg_real y[MAX_NY];
     simulate(model, run->plant, run->u, y, &run->seed);
     textbook_update(model, &run->textbook, y, run->u);
-    lqg_status status = lqg_kalman_plain_update(&run->online.plain, plain->x, plain->P, plain->u_applied,
-                                                plain->innovation, y, plain->work);
-    status |= lqg_kalman_ud_update(&run->online.ud, ud->x, ud->U, ud->d, ud->u_applied, ud->innovation, y,
-                                   ud->work);
+    lqg_status_t status = plain_update(&run->online.plain, plain, y);
+    status |= ud_update(&run->online.ud, ud, y);
     TEST_ASSERT_EQUAL_UINT(LQG_OK, status);
 }
 
@@ -56,10 +54,8 @@ static void predict_all(run_t *run, const model_t *model)
     state_t *plain = &run->plain, *ud = &run->ud;
     run->u[0] = (lqg_real)noise(&run->seed);
     textbook_predict(model, &run->textbook, run->u);
-    lqg_status status = lqg_kalman_plain_predict(&run->online.plain, plain->x, plain->P, plain->u_applied,
-                                                 plain->innovation, run->u, plain->work);
-    status |= lqg_kalman_ud_predict(&run->online.ud, ud->x, ud->U, ud->d, ud->u_applied, ud->innovation,
-                                    run->u, ud->work);
+    lqg_status_t status = plain_predict(&run->online.plain, plain, run->u);
+    status |= ud_predict(&run->online.ud, ud, run->u);
     TEST_ASSERT_EQUAL_UINT(LQG_OK, status);
 }
 
@@ -170,40 +166,41 @@ static void test_ud_keeps_P_positive_where_plain_loses_it(void)
     const lqg_real V = EPSILON * EPSILON, V2[2] = {V, V}, C[4] = {1, 1, 1, 1 + epsilon}, A[4] = {1, 0, 0, 1};
     const lqg_real zero[4] = {0}, one[2] = {1, 1}, P0[3] = {1, 0, 1}, y[2] = {0};
     const lqg_plant_t plant = {2, 0, 2, A, NULL, C, NULL};
-    const lqg_kalman_plain_t plain = {plant, NULL, V2, zero, NULL, NULL, NULL, P0, NULL, NULL};
-    const lqg_kalman_ud_t ud = {plant, NULL, V2, 0, NULL, NULL, NULL, NULL, NULL, zero, one, NULL, NULL};
-    lqg_real x[2], P[3], U[1], d[2], work[LQG_KALMAN_UD_WORK(2, 2, 0)];
+    const lqg_kalman_plain_t plain = {plant, NULL, V2, zero, NULL, NULL, NULL, P0, NULL, NULL, NULL};
+    const lqg_kalman_ud_t ud = {plant, NULL, V2, 0, NULL, NULL, NULL, NULL, NULL, zero, one, NULL, NULL, NULL};
+    state_t s;
 
-    lqg_kalman_plain_init(&plain, x, P, NULL, NULL);
-    lqg_kalman_plain_update(&plain, x, P, NULL, NULL, y, work);
-    TEST_ASSERT_TRUE(smallest_pivot(P, 2) <= 0);
+    plain_init(&plain, &s);
+    plain_update(&plain, &s, y);
+    TEST_ASSERT_TRUE(smallest_pivot(s.P, 2) <= 0);
 
-    lqg_kalman_ud_init(&ud, x, U, d, NULL, NULL);
-    lqg_kalman_ud_update(&ud, x, U, d, NULL, NULL, y, work);
+    ud_init(&ud, &s);
+    ud_update(&ud, &s, y);
     const double e = (double)epsilon, v = (double)V;
     const double determinant = v * v + v * (4 + 2 * e + e * e) + e * e;
     const double P_00 = v * (v + 1 + (1 + e) * (1 + e)) / determinant, P_11 = v * (v + 2) / determinant;
-    TEST_ASSERT_TRUE(d[0] > 0 && d[1] > 0);
+    TEST_ASSERT_TRUE(s.d[0] > 0 && s.d[1] > 0);
     /* a rounding of C is an error of EPSILON/ε in the difference of its rows */
-    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON / e * P_00, P_00, ud_covariance(U, d, 2, 0, 0));
-    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON / e * P_11, P_11, ud_covariance(U, d, 2, 1, 1));
+    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON / e * P_00, P_00, ud_covariance(s.U, s.d, 2, 0, 0));
+    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON / e * P_11, P_11, ud_covariance(s.U, s.d, 2, 1, 1));
 }
 
 /* d of a state without noise that dies out sinks through the smallest normal numbers, where 1/d overflows. */
 static void test_ud_goes_on_when_the_variance_of_a_state_dies_out(void)
 {
-    const lqg_real A[4] = {1, 0, 0, 0.5f}, C[2] = {1, 1}, V[1] = {1}, G[2] = {1, 0}, w[1] = {0.5f};
+    const lqg_real A[4] = {1, 0, 0, 0.5f}, C[2] = {1, 1}, V[1] = {1}, G[2] = {1, 0}, W[1] = {0.5f};
     const lqg_real U0[1] = {0}, d0[2] = {1, 1}, y[1] = {1};
-    const lqg_kalman_ud_t kalman = {{2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, w, NULL, NULL, NULL, U0, d0, NULL, NULL};
-    lqg_real x[2], U[1], d[2], work[LQG_KALMAN_UD_WORK(2, 1, 1)];
+    const lqg_kalman_ud_t kalman = {{2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, W, NULL, NULL, NULL, U0, d0,
+                                    NULL, NULL, NULL};
+    state_t s;
 
-    lqg_kalman_ud_init(&kalman, x, U, d, NULL, NULL);
+    ud_init(&kalman, &s);
     for (unsigned sample = 0; sample < 2000; sample++) {
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&kalman, x, U, d, NULL, NULL, y, work));
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_predict(&kalman, x, U, d, NULL, NULL, NULL, work));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, ud_update(&kalman, &s, y));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, ud_predict(&kalman, &s, NULL));
     }
-    TEST_ASSERT_TRUE(d[1] == 0);
-    TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, 1, (double)x[0]);
+    TEST_ASSERT_TRUE(s.d[1] == 0);
+    TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, 1, (double)s.x[0]);
 }
 
 static void test_init_copies_the_description(void)
@@ -224,31 +221,35 @@ static void test_init_copies_the_description(void)
 /* Three outputs and an E whose entries below the diagonal differ, against E y without an E: both sums are exact. */
 static void test_E_mixes_each_output_with_those_before_it(void)
 {
-    static const lqg_real one[1] = {1}, C[3] = {1, 2, 0.5f}, V[3] = {1, 2, 4}, E[9] = {1, 0, 0, 0.5f, 1, 0, 0.25f, -2, 1};
+    static const lqg_real one[1] = {1}, C[3] = {1, 2, 0.5f}, V[3] = {1, 2, 4};
+    static const lqg_real E[9] = {1, 0, 0, 0.5f, 1, 0, 0.25f, -2, 1};
     const lqg_real y[3] = {3, -1, 8}, mixed[3] = {3, 0.5f, 10.75f};
     const lqg_kalman_ud_t with = {.plant = {1, 0, 3, one, NULL, C, NULL}, .E = E, .V = V, .d0 = one};
     lqg_kalman_ud_t without = with;
-    lqg_real x[2], d[2], innovation[3], work[LQG_KALMAN_UD_WORK(1, 3, 0)];
+    LQG_KALMAN_UD_STATE(one_by_E, 1, 0, 3, 0);
+    LQG_KALMAN_UD_STATE(one_by_hand, 1, 0, 3, 0);
 
     without.E = NULL;
-    lqg_kalman_ud_init(&with, &x[0], NULL, &d[0], NULL, innovation);
-    lqg_kalman_ud_init(&without, &x[1], NULL, &d[1], NULL, innovation);
-    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&with, &x[0], NULL, &d[0], NULL, innovation, y, work));
-    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&without, &x[1], NULL, &d[1], NULL, innovation, mixed, work));
-    TEST_ASSERT_TRUE(x[0] == x[1] && d[0] == d[1] && x[0] != 0);
+    lqg_kalman_ud_init(&with, &one_by_E);
+    lqg_kalman_ud_init(&without, &one_by_hand);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&with, &one_by_E, y));
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_update(&without, &one_by_hand, mixed));
+    TEST_ASSERT_TRUE(one_by_E.x[0] == one_by_hand.x[0] && one_by_E.d[0] == one_by_hand.d[0] && one_by_E.x[0] != 0);
 }
 
 /* 1/d is not finite for a d that small: U says that its state has nothing in common with the others. */
 static void test_variance_too_small_to_divide_by_is_that_of_a_state_by_itself(void)
 {
-    static const lqg_real identity[4] = {1, 0, 0, 1}, C[2] = {1, 0}, V[1] = {1}, G[2] = {1, 1}, d0[2] = {1, 0}, U0[1] = {0};
+    static const lqg_real identity[4] = {1, 0, 0, 1}, C[2] = {1, 0}, V[1] = {1}, G[2] = {1, 1};
+    static const lqg_real d0[2] = {1, 0}, U0[1] = {0};
     const lqg_real tiny = (sizeof(lqg_real) == sizeof(float) ? (lqg_real)FLT_MIN : (lqg_real)DBL_MIN) / 16;
-    const lqg_kalman_ud_t kalman = {.plant = {2, 0, 1, identity, NULL, C, NULL}, .V = V, .nq = 1, .G = G, .w = &tiny, .U0 = U0, .d0 = d0};
-    lqg_real x[2], U[1], d[2], innovation[1], work[LQG_KALMAN_UD_WORK(2, 1, 1)];
+    const lqg_kalman_ud_t kalman = {.plant = {2, 0, 1, identity, NULL, C, NULL}, .V = V, .nw = 1, .G = G,
+                                    .W = &tiny, .U0 = U0, .d0 = d0};
+    state_t s;
 
-    lqg_kalman_ud_init(&kalman, x, U, d, NULL, innovation);
-    TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_kalman_ud_predict(&kalman, x, U, d, NULL, innovation, NULL, work));
-    TEST_ASSERT_TRUE(d[1] == tiny && U[0] == 0 && d[0] == 1);
+    ud_init(&kalman, &s);
+    TEST_ASSERT_EQUAL_UINT(LQG_OK, ud_predict(&kalman, &s, NULL));
+    TEST_ASSERT_TRUE(s.d[1] == tiny && s.U[0] == 0 && s.d[0] == 1);
 }
 
 int main(void)

@@ -19,24 +19,27 @@ enum { MAX_NTHETA = 6, SAMPLES = 300 };
 /* Rounding errors of up to 300 samples, about ten each, of a problem whose condition stays below 10. */
 #define TOLERANCE (30000 * EPSILON)
 
+/* A state as arrays that can be compared and copied. */
 typedef struct {
     lqg_real theta[MAX_NTHETA], U[LQG_RLS_U(MAX_NTHETA)], d[MAX_NTHETA];
-} rls_state_t;
+} rls_arrays_t;
 
 static const lqg_real P0[MAX_NTHETA] = {2, 1, 4, 0.5f, 1, 3};
 static const lqg_real theta0[MAX_NTHETA] = {0.5f, -1, 0, 0.25f, 1, -0.5f};
 
-static lqg_status update(const lqg_rls_t *rls, rls_state_t *s, const lqg_real phi[], lqg_real y)
+static lqg_status_t update(const lqg_rls_t *rls, rls_arrays_t *s, const lqg_real phi[], lqg_real y)
 {
-    lqg_real work[LQG_RLS_WORK(MAX_NTHETA)];
-    return lqg_rls_update(rls, s->theta, s->U, s->d, phi, y, work);
+    lqg_real work[MAX_NTHETA];
+    lqg_rls_state_t state = {s->theta, s->U, s->d, work};
+    return lqg_rls_update(rls, &state, y, phi);
 }
 
-static rls_state_t begun(const lqg_rls_t *rls)
+static rls_arrays_t begun(const lqg_rls_t *rls)
 {
-    rls_state_t s;
+    rls_arrays_t s;
+    lqg_rls_state_t state = {s.theta, s.U, s.d, NULL};
     memset(&s, 0, sizeof s);
-    lqg_rls_init(rls, s.theta, s.U, s.d);
+    lqg_rls_init(rls, &state);
     return s;
 }
 
@@ -84,7 +87,7 @@ static void solve(const batch_t *batch, unsigned n, double right[])
     }
 }
 
-static void assert_batch(const lqg_rls_t *rls, const batch_t *batch, const rls_state_t *s)
+static void assert_batch(const lqg_rls_t *rls, const batch_t *batch, const rls_arrays_t *s)
 {
     double theta[MAX_NTHETA];
     memcpy(theta, batch->vector, sizeof theta);
@@ -105,7 +108,7 @@ static void follow_batch(lqg_real forgetting, lqg_real V, const lqg_real limits[
     for (unsigned ntheta = 1; ntheta <= MAX_NTHETA; ntheta++) {
         const lqg_rls_t rls = {ntheta, forgetting, V, theta0, P0, limits};
         unsigned long seed = ntheta;
-        rls_state_t s = begun(&rls);
+        rls_arrays_t s = begun(&rls);
         batch_t batch;
 
         begin_batch(&rls, &batch);
@@ -143,7 +146,7 @@ static void test_forgetting_follows_a_plant_that_changes(void)
 {
     const lqg_real forgetful = 0.9f, variances[3] = {100, 100, 100};
     const lqg_rls_t rls = {3, forgetful, 1, NULL, variances, NULL};
-    rls_state_t s = begun(&rls);
+    rls_arrays_t s = begun(&rls);
     unsigned long seed = 1;
     lqg_real y1 = 0, y2 = 0;
 
@@ -169,7 +172,7 @@ static void test_limits_hold_what_is_not_excited_and_leave_the_rest_alone(void)
     const lqg_real limits[2] = {50, 8}, variances[2] = {1, 1}, phi[2] = {1, 0};
     const lqg_rls_t limited = {2, 0.9f, 1, NULL, variances, limits},
                     one = {1, 0.9f, 1, NULL, variances, NULL};
-    rls_state_t s = begun(&limited), alone = begun(&one);
+    rls_arrays_t s = begun(&limited), alone = begun(&one);
 
     for (unsigned sample = 0; sample < 10000; sample++) {
         TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&limited, &s, phi, 3));
@@ -186,7 +189,7 @@ static void test_limits_hold_what_is_not_excited_and_leave_the_rest_alone(void)
     TEST_ASSERT_DOUBLE_WITHIN(100 * EPSILON, 7 * P / (left + P), (double)s.theta[1]);
 }
 
-static double correlation(const rls_state_t *s)
+static double correlation(const rls_arrays_t *s)
 {
     return ud_covariance(s->U, s->d, 2, 0, 1) /
            sqrt(ud_covariance(s->U, s->d, 2, 0, 0) * ud_covariance(s->U, s->d, 2, 1, 1));
@@ -196,7 +199,7 @@ static void test_limits_keep_correlations(void)
 {
     const lqg_real limits[2] = {4, 5}, variances[2] = {4, 4}, both[2] = {1, 1}, none[2] = {0};
     const lqg_rls_t rls = {2, 0.75f, 1, NULL, variances, limits};
-    rls_state_t s = begun(&rls);
+    rls_arrays_t s = begun(&rls);
 
     update(&rls, &s, both, 1);
     const double before = correlation(&s);
@@ -215,7 +218,7 @@ static void test_limits_hold_variances_that_are_correlated(void)
     const lqg_real limits[3] = {4, 5, 6}, variances[3] = {4, 4, 4}, none[3] = {0};
     const lqg_real excited[2][3] = {{1, 1, 1}, {1, -1, 0.5f}};
     const lqg_rls_t rls = {3, 0.9f, 1, NULL, variances, limits};
-    rls_state_t s = begun(&rls);
+    rls_arrays_t s = begun(&rls);
 
     for (unsigned sample = 0; sample < 2; sample++)
         TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&rls, &s, excited[sample], 1));
@@ -233,12 +236,12 @@ static void test_parameter_that_is_not_finite_begins_all_anew(void)
 {
     const lqg_real phi[2] = {1, 2};
     const lqg_rls_t rls = {2, 0.9f, 1, theta0, P0, NULL};
-    rls_state_t s = begun(&rls);
-    const rls_state_t first = s;
+    rls_arrays_t s = begun(&rls);
+    const rls_arrays_t first = s;
 
     update(&rls, &s, phi, 1);
     s.theta[1] = NAN;
-    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE | LQG_STATE_RESET, update(&rls, &s, phi, 1));
+    TEST_ASSERT_EQUAL_UINT(REJECTED(0) | LQG_STATE_RESET, update(&rls, &s, phi, 1));
     TEST_ASSERT_EQUAL_MEMORY(&first, &s, sizeof s);
 }
 
@@ -246,7 +249,7 @@ static void test_init_begins_within_the_limits(void)
 {
     const lqg_real limits[2] = {50, 8}, variances[2] = {1e6f, 1};
     const lqg_rls_t rls = {2, 0.9f, 1, NULL, variances, limits};
-    const rls_state_t s = begun(&rls);
+    const rls_arrays_t s = begun(&rls);
     TEST_ASSERT_TRUE(s.d[0] == 50 && s.d[1] == 1 && s.theta[0] == 0);
 }
 
@@ -255,9 +258,9 @@ static void test_nothing_changes_to_the_bit_when_a_sample_is_hostile(void)
     const lqg_real hostile[] = {NAN, INFINITY, -INFINITY, 1e30f * 1e8f};
     const lqg_real limits[3] = {1, 1, 1}, honest[3] = {1, -1, 0.5f};
     const lqg_rls_t rls = {3, 0.5f, 1, theta0, P0, limits};
-    rls_state_t s = begun(&rls);
+    rls_arrays_t s = begun(&rls);
     update(&rls, &s, honest, 1);
-    const rls_state_t before = s;
+    const rls_arrays_t before = s;
 
     for (unsigned h = 0; h < sizeof hostile / sizeof *hostile; h++)
         for (unsigned i = 0; i < 4; i++) {
@@ -265,7 +268,7 @@ static void test_nothing_changes_to_the_bit_when_a_sample_is_hostile(void)
             const int squares_overflow = sizeof(lqg_real) == sizeof(float) || h < 3;
             *(i < 3 ? &phi[i] : &y) = h < 3 || i < 3 ? hostile[h] : INFINITY;
             if (squares_overflow) {
-                TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_NOT_FINITE, update(&rls, &s, phi, y));
+                TEST_ASSERT_EQUAL_UINT(REJECTED(0), update(&rls, &s, phi, y));
                 TEST_ASSERT_TRUE(memcmp(&before, &s, sizeof s) == 0);
             }
         }
@@ -275,12 +278,12 @@ static void test_begins_anew_when_forgetting_without_limits_overflows(void)
 {
     const lqg_real none[2] = {0};
     const lqg_rls_t rls = {2, 0.5f, 1, theta0, P0, NULL};
-    rls_state_t s = begun(&rls);
-    const rls_state_t first = s;
+    rls_arrays_t s = begun(&rls);
+    const rls_arrays_t first = s;
     unsigned resets = 0;
 
     for (unsigned sample = 0; sample < 3000; sample++) {
-        const lqg_status status = update(&rls, &s, none, 1);
+        const lqg_status_t status = update(&rls, &s, none, 1);
         TEST_ASSERT_TRUE(status == LQG_OK || status == LQG_COVARIANCE_RESET);
         TEST_ASSERT_TRUE(status == LQG_OK || memcmp(&first, &s, sizeof s) == 0);
         resets += status == LQG_COVARIANCE_RESET;
@@ -292,11 +295,31 @@ static void test_a_parameter_without_variance_stays(void)
 {
     const lqg_real variances[2] = {1, 0}, phi[2] = {1, 2};
     const lqg_rls_t rls = {2, 0.9f, 1, theta0, variances, NULL};
-    rls_state_t s = begun(&rls);
+    rls_arrays_t s = begun(&rls);
     for (unsigned sample = 0; sample < 1000; sample++) /* 0.9¹⁰⁰⁰ of the guess is left: nothing */
         TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&rls, &s, phi, 1));
     TEST_ASSERT_TRUE(s.theta[1] == theta0[1]);
     TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE, 1 - 2 * (double)theta0[1], (double)s.theta[0]);
+}
+
+static void test_memory_of_the_macro_holds_a_state_without_overlap(void)
+{
+    enum { NTHETA = 3 };
+    const lqg_rls_t rls = {NTHETA, 0.75f, 1, theta0, P0, NULL};
+    lqg_real memory[LQG_RLS_MEMORY(NTHETA) + 1];
+    lqg_rls_state_t state = LQG_RLS_STATE_IN(memory, NTHETA);
+    rls_arrays_t s = begun(&rls);
+
+    memory[LQG_RLS_MEMORY(NTHETA)] = 77;
+    lqg_rls_init(&rls, &state);
+    for (unsigned k = 0; k < 20; k++) {
+        const lqg_real phi[NTHETA] = {1, (lqg_real)(k % 2), (lqg_real)(k % 3)};
+        TEST_ASSERT_EQUAL_UINT(update(&rls, &s, phi, 1), lqg_rls_update(&rls, &state, 1, phi));
+    }
+    TEST_ASSERT_EQUAL_MEMORY(s.theta, state.theta, NTHETA * sizeof *s.theta);
+    TEST_ASSERT_EQUAL_MEMORY(s.U, state.U, LQG_RLS_U(NTHETA) * sizeof *s.U);
+    TEST_ASSERT_EQUAL_MEMORY(s.d, state.d, NTHETA * sizeof *s.d);
+    TEST_ASSERT_TRUE(memory[LQG_RLS_MEMORY(NTHETA)] == 77);
 }
 
 /* What lies behind the parameters is neither read, a NaN would come in, nor written. */
@@ -306,19 +329,20 @@ static void test_nothing_behind_the_parameters_is_touched(void)
     const lqg_real limits[MAX_NTHETA] = {3, 3, 3, NAN, NAN, NAN}, variances[MAX_NTHETA] = {2, 1, 4, NAN, NAN, NAN};
     const lqg_real start[MAX_NTHETA] = {0, 0, 0, NAN, NAN, NAN};
     const lqg_rls_t rls = {NTHETA, 0.75f, 1, start, variances, limits};
-    rls_state_t s, untouched;
-    lqg_real work[LQG_RLS_WORK(MAX_NTHETA)];
-    lqg_real theta[NTHETA], U[LQG_RLS_U(NTHETA)], d[NTHETA], exact[LQG_RLS_WORK(NTHETA)]; /* nothing behind them */
+    rls_arrays_t s, untouched;
+    lqg_real work[MAX_NTHETA], exact[NTHETA];
+    lqg_real theta[NTHETA], U[LQG_RLS_U(NTHETA)], d[NTHETA]; /* nothing behind them */
+    lqg_rls_state_t long_state = {s.theta, s.U, s.d, work}, exact_state = {theta, U, d, exact};
 
     memset(&untouched, 0xff, sizeof untouched); /* NaNs */
     s = untouched;
-    lqg_rls_init(&rls, s.theta, s.U, s.d);
-    lqg_rls_init(&rls, theta, U, d);
+    lqg_rls_init(&rls, &long_state);
+    lqg_rls_init(&rls, &exact_state);
     for (unsigned k = 0; k < 20; k++) {
         const lqg_real phi[MAX_NTHETA] = {1, (lqg_real)(k % 2), (lqg_real)(k % 3), NAN, NAN, NAN};
         memset(work, 0xff, sizeof work);
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, s.theta, s.U, s.d, phi, 1, work));
-        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, theta, U, d, phi, 1, exact));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, &long_state, 1, phi));
+        TEST_ASSERT_EQUAL_UINT(LQG_OK, lqg_rls_update(&rls, &exact_state, 1, phi));
     }
     TEST_ASSERT_EQUAL_MEMORY(theta, s.theta, sizeof theta);
     TEST_ASSERT_EQUAL_MEMORY(U, s.U, sizeof U);
@@ -343,6 +367,7 @@ int main(void)
     RUN_TEST(test_nothing_changes_to_the_bit_when_a_sample_is_hostile);
     RUN_TEST(test_begins_anew_when_forgetting_without_limits_overflows);
     RUN_TEST(test_a_parameter_without_variance_stays);
+    RUN_TEST(test_memory_of_the_macro_holds_a_state_without_overlap);
     RUN_TEST(test_nothing_behind_the_parameters_is_touched);
     return UNITY_END();
 }

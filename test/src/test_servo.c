@@ -28,6 +28,18 @@ typedef struct {
 
 static const state_t some = {{0.5f, 77}, {0.25f, 77}, {-1, 3, 77}, {4, -8, 77}, {0, 0, 77}};
 
+/* The library's state over these arrays. */
+static lqg_servo_state_t over(state_t *s, const lqg_real references[])
+{
+    static lqg_real r_of_state[NR];
+    const lqg_servo_state_t state = {r_of_state, s->xi, s->error, s->demand, s->u_applied};
+    for (unsigned i = 0; references && i < NR; i++)
+        r_of_state[i] = references[i];
+    return state;
+}
+
+static const lqg_servo_state_t nothing = {NULL, NULL, NULL, NULL, NULL};
+
 static void expect(const lqg_real *found, lqg_real first, lqg_real second)
 {
     TEST_ASSERT_TRUE(found[0] == first);
@@ -40,27 +52,37 @@ static void expect_nothing_behind(const state_t *s)
     TEST_ASSERT_TRUE(s->demand[NU] == 77 && s->u_applied[NU] == 77 && s->u[NU] == 77);
 }
 
-static lqg_status control(const lqg_servo_t *servo, state_t *s, const lqg_real *references)
+static lqg_status_t control(const lqg_servo_t *servo, state_t *s, const lqg_real *references)
 {
-    const lqg_status status = lqg_servo_control(servo, x, references, s->xi, s->demand, s->u_applied, s->u);
+    lqg_servo_state_t state = over(s, references);
+    const lqg_status_t status = lqg_servo_control(servo, &state, x, s->u);
     expect_nothing_behind(s);
     return status;
 }
 
-static lqg_status advance(const lqg_servo_t *servo, state_t *s, lqg_real u_0, lqg_real u_1)
+static lqg_status_t advance(const lqg_servo_t *servo, state_t *s, lqg_real u_0, lqg_real u_1)
 {
     const lqg_real u[NU] = {u_0, u_1};
-    const lqg_status status = lqg_servo_advance(servo, s->xi, s->error, s->demand, s->u_applied, u);
+    lqg_servo_state_t state = over(s, NULL);
+    const lqg_status_t status = lqg_servo_advance(servo, &state, u);
     expect_nothing_behind(s);
     return status;
 }
 
-static lqg_status set_input(const lqg_servo_t *servo, state_t *s, const lqg_real *references, lqg_real u_0, lqg_real u_1)
+static lqg_status_t set_input(const lqg_servo_t *servo, state_t *s, const lqg_real *references, lqg_real u_0, lqg_real u_1)
 {
     const lqg_real u[NU] = {u_0, u_1};
-    const lqg_status status = lqg_servo_set_input(servo, x, references, s->xi, s->error, s->demand, s->u_applied, u);
+    lqg_servo_state_t state = over(s, references);
+    const lqg_status_t status = lqg_servo_set_input(servo, &state, x, u);
     expect_nothing_behind(s);
     return status;
+}
+
+static void observe(const lqg_servo_t *servo, state_t *s, const lqg_real references[], const lqg_real y[])
+{
+    lqg_servo_state_t state = over(s, references);
+    lqg_servo_observe(servo, &state, y);
+    expect_nothing_behind(s);
 }
 
 static void expect_begun_anew(const state_t *s)
@@ -75,24 +97,28 @@ static void expect_begun_anew(const state_t *s)
 static void test_init_is_zero_and_no_further_than_its_arrays(void)
 {
     state_t s = some;
-    lqg_servo_init(&integral, s.xi, s.error, s.demand, s.u_applied);
+    lqg_servo_state_t state = over(&s, r);
+    lqg_servo_init(&integral, &state);
     expect_begun_anew(&s);
+    expect(state.r, 0, 0);
     expect_nothing_behind(&s);
 }
 
 static void test_init_needs_no_arrays_where_there_is_nothing_to_remember(void)
 {
     state_t s = some;
-    lqg_servo_init(&without_integral, NULL, NULL, NULL, s.u_applied);
+    lqg_servo_state_t state = nothing;
+    lqg_servo_init(&without_integral, &state);
+    state.u_applied = s.u_applied;
+    lqg_servo_init(&without_integral, &state);
     expect(s.u_applied, 0, 0);
-    lqg_servo_init(&without_integral, NULL, NULL, NULL, NULL);
 }
 
 static void test_observe_takes_the_output_and_the_reference_of_the_integral(void)
 {
     const lqg_real y[NY] = {100, 200, 3};
     state_t s = some;
-    lqg_servo_observe(&integral, r, s.error, y);
+    observe(&integral, &s, r, y);
     TEST_ASSERT_TRUE(s.error[0] == -5);
     expect_nothing_behind(&s);
 }
@@ -103,10 +129,10 @@ static void test_observe_leaves_out_what_is_not_finite(void)
     for (unsigned i = 0; i < sizeof bad / sizeof *bad; i++) {
         const lqg_real y[NY] = {0, 0, bad[i]}, wanted[NR] = {0, bad[i]}, fine[NY] = {0};
         state_t s = some;
-        lqg_servo_observe(&integral, r, s.error, y);
+        observe(&integral, &s, r, y);
         TEST_ASSERT_TRUE(s.error[0] == 0);
         s = some;
-        lqg_servo_observe(&integral, wanted, s.error, fine);
+        observe(&integral, &s, wanted, fine);
         TEST_ASSERT_TRUE(s.error[0] == 0);
     }
 }
@@ -119,11 +145,28 @@ static void test_observe_counts_an_error_below_its_limit_of_either_sign(void)
     for (lqg_real sign = -1; sign <= 1; sign += 2) {
         const lqg_real inside[NY] = {0, 0, -2 + sign * 3.5f}, at[NY] = {0, 0, -2 + sign * 4};
         state_t s = some;
-        lqg_servo_observe(&servo, r, s.error, inside);
+        observe(&servo, &s, r, inside);
         TEST_ASSERT_TRUE(s.error[0] == -sign * 3.5f);
-        lqg_servo_observe(&servo, r, s.error, at);
+        observe(&servo, &s, r, at);
         TEST_ASSERT_TRUE(s.error[0] == 0);
     }
+}
+
+static void test_memory_of_the_macro_holds_a_state_without_overlap(void)
+{
+    LQG_SERVO_STATE(state, NU, NR, 1);
+    state_t s = some;
+    lqg_real u[NU];
+    lqg_servo_init(&integral, &state);
+    state.r[0] = r[0], state.r[1] = r[1];
+    state.xi[0] = s.xi[0], state.error[0] = s.error[0];
+    TEST_ASSERT_EQUAL_HEX(control(&integral, &s, r), lqg_servo_control(&integral, &state, x, u));
+    expect(u, s.u[0], s.u[1]);
+    TEST_ASSERT_EQUAL_HEX(advance(&integral, &s, 3, 1), lqg_servo_advance(&integral, &state, (lqg_real[]){3, 1}));
+    TEST_ASSERT_TRUE(state.xi[0] == s.xi[0]);
+    expect(state.r, r[0], r[1]);
+    expect(state.demand, 3, 1);
+    expect(state.u_applied, 3, 1);
 }
 
 /* ---- control ---------------------------------------------------------------------------------------------------- */
@@ -157,9 +200,10 @@ static void test_control_without_integral_needs_no_memory(void)
 {
     static const lqg_real K_of_x[] = {1, 2, 0.5f, -1};
     lqg_servo_t servo = without_integral;
+    lqg_servo_state_t state = nothing;
     lqg_real u[NU];
     servo.K = K_of_x;
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_control(&servo, x, NULL, NULL, NULL, NULL, u));
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_control(&servo, &state, x, u));
     expect(u, -5, 1.5f);
 }
 
@@ -186,7 +230,7 @@ static void test_a_law_that_is_not_finite_gives_zero_and_says_so(void)
 }
 
 /* The law asks for −2 and −8.5. */
-static void expect_limited(const lqg_servo_t *servo, lqg_status status, lqg_real u_0, lqg_real u_1)
+static void expect_limited(const lqg_servo_t *servo, lqg_status_t status, lqg_real u_0, lqg_real u_1)
 {
     state_t s = some;
     TEST_ASSERT_EQUAL_HEX(status, control(servo, &s, r));
@@ -277,10 +321,12 @@ static void test_advance_without_a_last_input_to_keep(void)
 {
     state_t s = some;
     const lqg_real u[NU] = {3, 1}, bad[NU] = {(lqg_real)NAN, 1};
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&integral, s.xi, s.error, s.demand, NULL, u));
+    lqg_servo_state_t state = over(&s, NULL), none = nothing;
+    state.u_applied = NULL;
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&integral, &state, u));
     TEST_ASSERT_TRUE(s.xi[0] == 2.625f);
     expect(s.u_applied, 4, -8);
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&without_integral, NULL, NULL, NULL, NULL, bad)); /* nothing heard it */
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&without_integral, &none, bad));
 }
 
 static void test_advance_without_integral_keeps_the_input_alone(void)
@@ -328,8 +374,9 @@ static void test_advance_takes_its_own_row_of_H_for_each_integral(void)
     static const lqg_real H_two[] = {0.25f, -0.5f, 2, 1};
     const lqg_servo_t servo = {.nx = NX, .nu = NU, .nr = NR, .nxi = 2, .T = 0.5f, .H = H_two};
     lqg_real xi[] = {0.5f, -2}, error[] = {0.25f, 8}, demand[] = {-1, 3};
+    lqg_servo_state_t state = {NULL, xi, error, demand, NULL};
     const lqg_real u[NU] = {3, 1};
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&servo, xi, error, demand, NULL, u));
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_advance(&servo, &state, u));
     expect(xi, 2.625f, 8);
     expect(error, 0, 0);
 }
@@ -345,10 +392,11 @@ static void test_after_set_input_the_law_goes_on_at_that_input(void)
                                .output = output, .reference = reference};
     state_t s = some;
     lqg_real next[1];
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_set_input(&servo, x, r, s.xi, s.error, s.demand, s.u_applied, u));
+    lqg_servo_state_t state = over(&s, r);
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_set_input(&servo, &state, x, u));
     TEST_ASSERT_TRUE(s.xi[0] == 3.5f); /* 0.5 + 0.25 (10 + 2) */
     TEST_ASSERT_TRUE(s.demand[0] == 10 && s.u_applied[0] == 10);
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_control(&servo, x, r, s.xi, s.demand, s.u_applied, next));
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_control(&servo, &state, x, next));
     TEST_ASSERT_TRUE(next[0] == 10);
     TEST_ASSERT_TRUE(s.error[0] == 0.25f);
 }
@@ -387,7 +435,9 @@ static void test_set_input_without_integral_keeps_the_input_alone(void)
     TEST_ASSERT_EQUAL_HEX(LQG_OK, set_input(&without_integral, &s, NULL, 3, 1));
     expect(s.u_applied, 3, 1);
     expect(s.demand, -1, 3);
-    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_set_input(&integral, x, r, s.xi, s.error, s.demand, NULL, u));
+    lqg_servo_state_t state = over(&s, r);
+    state.u_applied = NULL;
+    TEST_ASSERT_EQUAL_HEX(LQG_OK, lqg_servo_set_input(&integral, &state, x, u));
     expect(s.u_applied, 3, 1);
 }
 
@@ -412,6 +462,7 @@ int main(void)
     RUN_TEST(test_observe_takes_the_output_and_the_reference_of_the_integral);
     RUN_TEST(test_observe_leaves_out_what_is_not_finite);
     RUN_TEST(test_observe_counts_an_error_below_its_limit_of_either_sign);
+    RUN_TEST(test_memory_of_the_macro_holds_a_state_without_overlap);
     RUN_TEST(test_control_is_minus_K_z_plus_Nbar_r_of_every_input);
     RUN_TEST(test_control_without_Nbar_hears_r_by_the_integral_alone);
     RUN_TEST(test_control_gives_a_change_on_top_of_the_last_input);

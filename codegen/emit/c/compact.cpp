@@ -6,6 +6,7 @@
 #include "emit/c/function_bodies.hpp"
 #include "emit/c/straight_line.hpp"
 #include "emit/c/templates.hpp"
+#include "emit/recorded/trace_listener.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 
@@ -34,40 +35,32 @@ std::string noises(const Controller& controller) {
   return ", " + std::to_string(most);
 }
 
-// What the library is told beside the outputs, and what it tells: a gate, and which outputs it has used.
-std::string watch(const Controller& controller, bool tells_heard) {
-  const std::string heard = tells_heard ? "heard" : "NULL";
-  const char* const gate =
-      "{NULL, {gate}, self->gated, NULL, NULL, self->widening, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW, ";
-  Words words = common_words(controller);
-  words["gate"] = trace::literal(controller.gate.sigma, controller.target.is_double);
-  return controller.has.gate ? fill(gate, words) + heard + "}"
-                             : "{NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL, " + heard + "}";
+// The library's state of the filter over the members of NAME_t; `work` is its scratch.
+std::string state_of_filter(const Controller& controller, const std::string& work) {
+  const bool has_U = controller.size.nx > 1;
+  const std::string covariance = controller.filter == step::Filter::plain ? "self->P, "
+                                 : controller.filter != step::Filter::ud  ? ""
+                                 : has_U                                  ? "self->U, self->d, "
+                                                                          : "NULL, self->d, ";
+  return "{self->x, " + covariance + (controller.has.feedthrough ? "self->u_applied, " : "NULL, ") +
+         (controller.keeps.innovation ? "self->innovation, " : "NULL, ") +
+         (controller.has.gate ? "{self->widening, self->gated}, " : "{NULL, NULL}, ") + work + "}";
 }
 
 // The arguments of the filter's calls: its description, its state, and how long its scratch is.
 Words filter_words(const Controller& controller) {
   const Words common = common_words(controller);
+  const bool is_steady = controller.filter == step::Filter::steady;
   const std::string plant = fill(controller.has.stages ? "{name}_kalman(self)" : "&{NAME}_KALMAN", common);
-  const std::string covariance = controller.filter == step::Filter::plain ? "self->P, "
-                                 : controller.filter != step::Filter::ud  ? ""
-                                 : controller.size.nx > 1                 ? "self->U, self->d, "
-                                                                          : "NULL, self->d, ";
-  const char* const u_applied = controller.has.feedthrough ? "self->u_applied, " : "NULL, ";
-  Words words = {
-      {"FILTER", upper(filter_name(controller.filter))},
-      {"plant", plant},
-      {"first_stage", fill(controller.has.stages ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", common)},
-      {"kalman", controller.keeps.gain_row ? "&kalman" : plant},
-      {"state", "self->x, " + covariance + u_applied + (controller.keeps.innovation ? "self->innovation" : "NULL")},
-      {"u", controller.size.nu ? "u" : "NULL"},
-      {"nq", noises(controller)}};
-  if (controller.filter == step::Filter::steady)
-    words["variances"] =
-        fill(controller.keeps.gain_row ? "{NAME}_KALMAN_S + {filter_row} * {NAME}_NY, " : "{NAME}_KALMAN_S, ", common);
-  else
-    words["variances"] = "";
-  words["watch"] = watch(controller, false);
+  Words words = {{"FILTER", upper(filter_name(controller.filter))},
+                 {"plant", plant},
+                 {"first_stage", fill(controller.has.stages ? "&{NAME}_KALMAN[0]" : "&{NAME}_KALMAN", common)},
+                 {"kalman", controller.keeps.gain_row ? "&kalman" : plant},
+                 {"state", state_of_filter(controller, "work")},
+                 {"state_without_work", state_of_filter(controller, "NULL")},
+                 {"state_alone", state_of_filter(controller, is_steady ? "NULL" : "work")},
+                 {"u", controller.size.nu ? "u" : "NULL"},
+                 {"nw", noises(controller)}};
   if (controller.keeps.gain_row)
     words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
   return words;
@@ -83,20 +76,34 @@ std::string law_of_sample(const Controller& controller) {
                 {"has_H", controller.has.servo && gains[2].size() > 0}});
 }
 
-// The call of the law, and the arguments of what keeps its memory.
+// A law that changes nothing takes copies of what it reads: its NAME_t is const.
+bool copies_memory(const Controller& controller) {
+  return controller.has.filter && controller.has.servo && !controller::control_changes_state(controller);
+}
+
+// The library's state of the law over the members of NAME_t.
+std::string state_of_law(const Controller& controller, bool copies) {
+  const bool integrates = controller.size.nxi > 0;
+  return std::string("{") +
+         (!controller.size.nr ? "NULL"
+          : copies            ? "r"
+                              : "self->r") +
+         (integrates ? ", self->xi, self->error, self->demand, " : ", NULL, NULL, NULL, ") +
+         (!controller.has.last_input ? "NULL}"
+          : copies                   ? "last}"
+                                     : "self->u_applied}");
+}
+
+// The call of the law, and the state that it shares with what keeps its memory.
 Words law_words(const Controller& controller) {
-  const bool integrates = controller.size.nxi > 0, has_table = has_law_table(controller);
-  const std::string last_input = controller.has.last_input ? "self->u_applied" : "NULL";
+  const bool has_table = has_law_table(controller);
   Words words = common_words(controller);
   words["servo"] = has_table ? "&servo" : fill("&{NAME}_SERVO", words);
   words["lqr"] = has_table ? "&lqr" : fill("&{NAME}_LQR", words);
-  words["memory"] = (integrates ? "self->xi, self->error, self->demand, " : "NULL, NULL, NULL, ") + last_input;
-  words["before"] = (integrates ? "self->xi, self->demand, " : "NULL, NULL, ") + last_input;
-  words["r"] = controller.size.nr ? "self->r" : "NULL";
+  words["memory"] = state_of_law(controller, false);
   words["x"] = controller.has.filter ? "self->x" : "x";
   words["law"] = fill(
-      controller.has.servo ? "lqg_servo_control({servo}, {x}, {r}, {before}, u)" : "lqg_lqr_control({lqr}, {x}, u)",
-      words);
+      controller.has.servo ? "lqg_servo_control({servo}, &memory, {x}, u)" : "lqg_lqr_control({lqr}, {x}, u)", words);
   if (has_table) words["law_of_sample"] = law_of_sample(controller);
   return words;
 }
@@ -110,25 +117,18 @@ std::string init_body(const Controller& controller) {
 }
 
 std::string update_body(const Controller& controller) {
-  const bool integrates = controller.size.nxi > 0;
   Words words = filter_words(controller);
-  words["watch"] = watch(controller, integrates);
+  words["memory"] = state_of_law(controller, false);
   words["y"] = controller.has.range ? "said" : "y";
-  if (!controller.has.gate && controller.filter == step::Filter::steady) words["variances"] = "NULL, ";
-  return write_body(templates::compact_update, controller, words, {{"watches", controller.has.gate || integrates}});
+  return write_body(templates::compact_update, controller, words);
 }
 
 // The update by one output, and r − y of it where it is integrated.
 std::string update_alone_body(const Controller& controller, int output) {
   Words words = filter_words(controller);
-  const std::string variances = controller.filter != step::Filter::steady ? ""
-                                : controller.has.gate                     ? words["variances"]
-                                                                          : "NULL, ";
   words["i"] = std::to_string(output);
   words["given"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
   words["y"] = controller.has.range ? "said" : words["given"];
-  words["watched"] = variances + (controller.has.gate ? "&watch" : "NULL") +
-                     (controller.filter == step::Filter::steady ? "" : ", work");
   const TracedFunction observation = trace_observation(controller, output);
   words["observation"] = statements(observation);
   return write_body(templates::compact_update_alone, controller, words, {{"observes", !observation.stores.empty()}});
@@ -144,13 +144,26 @@ std::string predict_body(const Controller& controller) {
 }
 
 std::string control_body(const Controller& controller) {
-  return write_body(templates::compact_control, controller, law_words(controller),
-                    {{"feedthrough_or_table", controller.has.feedthrough || has_law_table(controller)}});
+  Words words = law_words(controller);
+  const bool copies = copies_memory(controller);
+  const auto entries = [](const char* array, int count) {
+    std::string out;
+    for (int i = 0; i < count; ++i) out += (i ? ", " : "") + element(array, i);
+    return "{" + out + "}";
+  };
+  words["memory"] = state_of_law(controller, copies);
+  words["references"] = entries("self->r", controller.size.nr);
+  words["last_input"] = entries("self->u_applied", controller.size.nu);
+  return write_body(
+      templates::compact_control, controller, words,
+      {{"copies_r", copies && controller.size.nr > 0},
+       {"copies_u", copies && controller.has.last_input},
+       {"needs_empty_line", controller.has.feedthrough || has_law_table(controller) || controller.has.servo}});
 }
 
 // a b added to y[i], in C.
 std::string add_product(const Controller& controller, const std::string& a, const std::string& b) {
-  if (!controller.target.is_fused) return "y[i] + " + a + " * " + b;
+  if (!controller.target.is_fused) return "y[i] + (" + a + " * " + b + ")";
   return std::string(controller.target.is_double ? "fma(" : "fmaf(") + a + ", " + b + ", y[i])";
 }
 
@@ -164,8 +177,8 @@ std::string act_body(const Controller& controller, std::string& constants) {
     const design::SampledPlant& plant = controller.solution.plant;
     const std::string C = tables.add("C", plant.C), D = tables.add_unless_zero("D", plant.D);
     words["rows"] = std::to_string(plant.C.rows());
-    words["add_Cx"] = add_product(controller, C + "[i * " + words["NAME"] + "_NX + j]", "x[j]");
-    words["add_Du"] = add_product(controller, D + "[i * " + words["NAME"] + "_NU + j]", "u[j]");
+    words["add_Cx"] = add_product(controller, C + "[(i * " + words["NAME"] + "_NX) + j]", "x[j]");
+    words["add_Du"] = add_product(controller, D + "[(i * " + words["NAME"] + "_NU) + j]", "u[j]");
     conditions["has_D"] = D != "NULL";
     constants += tables.text;
   }
@@ -174,9 +187,8 @@ std::string act_body(const Controller& controller, std::string& constants) {
 
 std::string options_check(const Controller& controller) {
   const auto check = [&](const char* option, bool wanted, const char* what) {
-    return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"" + controller.problem.name + ".h " +
-           what + ": " + (wanted ? "define " : "do not define ") + option +
-           " for the library and for this file, or run lqgen with other options.\"\n#endif\n";
+    return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"This file " + what + ": " +
+           (wanted ? "define " : "do not define ") + option + " for it and the library, or regenerate it.\"\n#endif\n";
   };
   return check("LQG_REAL_DOUBLE", controller.target.is_double,
                controller.target.is_double ? "computes in double" : "computes in float") +
@@ -192,7 +204,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
       std::string(controller.target.is_fused || controller.size.ny > 1 || controller.size.nxi || controller.has.range
                       ? "#include <math.h>\n"
                       : "") +
-      "#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
+      "#include <stdbool.h>\n#include <stddef.h>\n\n#include \"lqg/lqg.h\"\n\n" + options_check(controller);
   bodies.resets = needs_reset(controller);
   if (controller.keeps.any) bodies.init = init_body(controller);
   if (carries_covariance(controller))
@@ -202,7 +214,7 @@ FunctionBodies compact_bodies(const Controller& controller) {
     bodies.update = update_body(controller);
     bodies.predict = predict_body(controller);
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
-      if (can_update_alone(controller, i)) bodies.updates_alone.push_back(update_alone_body(controller, i));
+      if (has_update_alone(controller, i)) bodies.updates_alone.push_back(update_alone_body(controller, i));
     if (controller.size.ny == 1) bodies.updates_alone = {only_update_body(controller)};
   }
   if (controller.has.regulator) {

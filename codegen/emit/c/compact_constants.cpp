@@ -8,7 +8,10 @@
 
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
+#include "emit/recorded/constants.hpp"
+#include "emit/recorded/traced.hpp"
 #include "emit/text/wording.hpp"
+#include "trace/print.hpp"
 
 namespace lqg::emit {
 
@@ -37,14 +40,24 @@ RealMatrix strict_upper_triangle(const RealMatrix& matrix) {
 
 RealMatrix as_row(const design::RealVector& vector) { return vector.transpose(); }
 
-// What the library compares u with; nothing finite lies beyond the largest number.
-RealMatrix limits_row(const Eigen::VectorXd& limits, int inward, bool is_double) {
+// The values of a quantity by their names, a line each; `largest` stands for a limit that there is none of.
+std::vector<std::string> names_of(const Controller& controller, step::Quantity quantity, const Eigen::VectorXd& given) {
+  const bool is_double = controller.target.is_double;
   const double largest = is_double ? std::numeric_limits<double>::max() : std::numeric_limits<float>::max();
-  RealMatrix row(1, limits.size());
-  for (int i = 0; i < limits.size(); ++i)
-    row(0, i) = std::isinf(limits(i)) ? std::copysign(largest, limits(i))
-                                      : controller::limit_of_target(limits(i), inward, is_double);
-  return row;
+  std::vector<std::string> out;
+  for (int i = 0; i < given.size(); ++i)
+    out.push_back(std::isinf(given(i)) ? trace::literal(std::copysign(largest, given(i)), is_double)
+                                       : upper(controller.problem.name) + "_" + constant_name(controller, quantity, i));
+  return out;
+}
+
+// The same of factors that all outputs may share.
+std::vector<std::string> factor_names(const Controller& controller, step::Quantity quantity,
+                                      const Eigen::VectorXd& given) {
+  std::vector<std::string> out = names_of(controller, quantity, given);
+  if (is_same_for_all(given))
+    for (std::string& name : out) name = upper(controller.problem.name) + "_" + constant_name(controller, quantity, -1);
+  return out;
 }
 
 // Fields of an initializer, in the order in which they were defined (a braced list is evaluated from left to right).
@@ -71,25 +84,33 @@ std::string numbers(const std::string& suffix, const std::vector<double>& values
 }
 
 // 1/b of bounds b = 2^exponents.
-std::vector<double> inverse_powers(std::vector<int> exponents) {
-  for (int& exponent : exponents) exponent = -exponent;
-  return controller::powers_of_two(exponents);
+std::vector<std::string> inverse_powers(const Controller& controller, const std::vector<int>& exponents) {
+  std::vector<std::string> out;
+  for (const int exponent : exponents) out.push_back(upper(controller.problem.name) + "_" + name_of_power(-exponent));
+  return out;
 }
 
 // What the sensors can say.
 void add_range(const Controller& controller, Tables& tables) {
   if (!controller.has.range) return;
   const design::Estimator& estimator = *controller.problem.estimator;
-  tables.add("Y_MIN", limits_row(estimator.output_min, +1, controller.target.is_double));
-  tables.add("Y_MAX", limits_row(estimator.output_max, -1, controller.target.is_double));
+  tables.add("Y_MIN", names_of(controller, step::Quantity::y_min, estimator.output_min));
+  tables.add("Y_MAX", names_of(controller, step::Quantity::y_max, estimator.output_max));
 }
 
-std::string bound_fields(const Controller& controller, Tables& tables) {
+std::string gate_name(const Controller& controller) {
+  return controller.has.gate ? "&" + upper(controller.problem.name) + "_KALMAN_GATE" : "NULL";
+}
+
+// The bounds and the gate, with which a description ends; `variances` are those that a constant gain has behind it.
+std::string last_fields(const Controller& controller, Tables& tables, const std::string& variances = "") {
   const Eigen::VectorXd& limits = controller.bounds.innovation;
   return "    " +
-         fields({numbers("X_SCALE", inverse_powers(controller.bounds.x), tables),
-                 numbers("LIMIT", {limits.data(), limits.data() + limits.size()}, tables)}) +
-         "  /* x_scale, innovation_limit */\n";
+         fields({tables.add("X_SCALE", inverse_powers(controller, controller.bounds.x)),
+                 tables.add("LIMIT", names_of(controller, step::Quantity::innovation_limit, limits)),
+                 gate_name(controller)}) +
+         (variances.empty() ? "" : ", " + variances) + "  /* x_scale, innovation_limit, gate" +
+         (variances.empty() ? "" : ", S") + " */\n";
 }
 
 std::string initial_state(const Controller& controller, Tables& tables) {
@@ -110,12 +131,12 @@ RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
 
 std::string steady_fields(const Controller& controller, const design::SampledPlant& plant, Tables& tables) {
   std::string out = plant_fields(controller, plant, plant.C, plant.D, tables);
-  if (controller.has.gate) tables.add("S", stacked(controller.filters, 2));
+  const std::string S = controller.has.gate ? tables.add("S", stacked(controller.filters, 2)) : "NULL";
   return out + "    " +
          fields({tables.add("L", stacked(controller.filters, 0)),
                  controller.keeps.innovation ? tables.add("M", stacked(controller.filters, 1)) : "NULL",
                  initial_state(controller, tables)}) +
-         ",  /* L, M, x0 */\n" + bound_fields(controller, tables);
+         ",  /* L, M, x0 */\n" + last_fields(controller, tables, S);
 }
 
 std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
@@ -135,24 +156,24 @@ std::string online_fields(const Controller& controller, const design::SampledPla
     out += "    " + tables.add("W", lower_triangle(online.W)) + ",  /* W */\n";
     add_rest();
     return out + "    " + fields({initial_state(controller, tables), tables.add("P0", lower_triangle(first.P0))}) +
-           ",  /* x0, P0 */\n" + bound_fields(controller, tables);
+           ",  /* x0, P0 */\n" + last_fields(controller, tables);
   }
   out += "    " +
          fields({std::to_string(online.G.cols()), tables.add("G", online.G), tables.add("W", as_row(online.w))}) +
-         ",  /* nq, G, w */\n";
+         ",  /* nw, G, W */\n";
   add_rest();
   return out + "    " +
          fields({initial_state(controller, tables), tables.add("U0", strict_upper_triangle(first.U0)),
                  tables.add("D0", as_row(first.D0))}) +
-         ",  /* x0, U0, d0 */\n" + bound_fields(controller, tables);
+         ",  /* x0, U0, d0 */\n" + last_fields(controller, tables);
 }
 
 // The limits of the file; nothing is defined for those that no input has.
 std::pair<std::string, std::string> limits_fields(const Controller& controller, Tables& tables) {
   const auto& limits = controller.problem.limits;
   if (!limits || limits->u_min.size() == 0) return {"NULL", "NULL"};
-  const std::string low = tables.add("U_MIN", limits_row(limits->u_min, +1, controller.target.is_double));
-  return {low, tables.add("U_MAX", limits_row(limits->u_max, -1, controller.target.is_double))};
+  const std::string low = tables.add("U_MIN", names_of(controller, step::Quantity::u_min, limits->u_min));
+  return {low, tables.add("U_MAX", names_of(controller, step::Quantity::u_max, limits->u_max))};
 }
 
 // Defines an array of indices; "NULL" when there is nothing in it.
@@ -167,9 +188,11 @@ std::string index_array(const std::string& name, const std::vector<int>& values,
 // Which of the descriptions is in force.
 std::string stage_function(const Controller& controller) {
   std::string index;
+  int stage = 0;
   for (const std::size_t start : controller.stage_starts)
     if (start > 0)
-      index += (index.empty() ? "" : " + ") + std::string("(self->sample >= ") + std::to_string(start) + " ? 1 : 0)";
+      index += (index.empty() ? "" : " + ") + std::string("((self->sample >= {NAME}_STAGE_") + std::to_string(++stage) +
+               ") ? 1u : 0u)";
   return fill(R"(
 /* The plant of this sample. */
 static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
@@ -179,18 +202,21 @@ static inline const lqg_kalman_{filter}_t *{name}_kalman(const {name}_t *self)
 )",
               [&] {
                 Words words = common_words(controller);
-                words["index"] = index;
+                words["index"] = fill(index, words);
                 return words;
               }());
 }
 
 void add_gate(const Controller& controller, Tables& tables) {
-  const auto add = [&](const char* suffix, const Eigen::VectorXd& values) {
-    numbers(suffix, {values.data(), values.data() + values.size()}, tables);
-  };
-  add("WIDENING", controller.gate.start);
-  add("WIDEN", controller.gate.widen);
-  add("NARROW", controller.gate.narrow);
+  const controller::Gate& gate = controller.gate;
+  numbers("WIDENING", {gate.start.data(), gate.start.data() + gate.start.size()}, tables);
+  tables.add("WIDEN", factor_names(controller, step::Quantity::gate_widen, gate.widen));
+  tables.add("NARROW", factor_names(controller, step::Quantity::gate_narrow, gate.narrow));
+  tables.text += fill(R"(static const lqg_gate_t {NAME}_KALMAN_GATE = {
+    {NAME}_GATE, {NAME}_KALMAN_WIDENING, {NAME}_KALMAN_WIDEN, {NAME}_KALMAN_NARROW  /* sigma, start, widen, narrow */
+};
+)",
+                      common_words(controller));
 }
 
 }  // namespace
@@ -199,13 +225,21 @@ Tables::Tables(const Controller& controller, const char* owner)
     : controller_(controller), name_(upper(controller.problem.name) + "_" + owner) {}
 
 std::string Tables::add(const std::string& suffix, const RealMatrix& matrix) {
-  if (matrix.size() == 0) return "NULL";
-  const std::string values = array_values(matrix, controller_.target.is_double);
+  return define(suffix, array_values(matrix, controller_.target.is_double), matrix.size());
+}
+
+std::string Tables::add(const std::string& suffix, const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) text += "    " + value + (&value == &values.back() ? "\n" : ",\n");
+  return define(suffix, text, static_cast<Eigen::Index>(values.size()));
+}
+
+std::string Tables::define(const std::string& suffix, const std::string& values, Eigen::Index size) {
+  if (size == 0) return "NULL";
   auto& same_suffix = defined_[suffix];
   const std::string number = same_suffix.empty() ? "" : "_" + std::to_string(same_suffix.size());
   const auto [at, is_new] = same_suffix.try_emplace(values, name_ + "_" + suffix + number);
-  if (is_new)
-    text += "static const lqg_real " + at->second + "[" + std::to_string(matrix.size()) + "] = {\n" + values + "};\n";
+  if (is_new) text += "static const lqg_real " + at->second + "[" + std::to_string(size) + "] = {\n" + values + "};\n";
   return at->second;
 }
 
@@ -261,11 +295,12 @@ std::string servo_constants(const Controller& controller) {
   const std::string wanted = index_array(SERVO + "_REFERENCE", model.wanted, tables.text);
   const auto [u_min, u_max] = limits_fields(controller, tables);
   const Eigen::VectorXd& error = controller.bounds.error;
-  const std::string xi_scale = numbers("XI_SCALE", inverse_powers(controller.bounds.xi), tables);
-  const std::string error_limit = numbers("ERROR_LIMIT", {error.data(), error.data() + error.size()}, tables);
-  const std::string u_step = controller.has.rate_limit
-                                 ? tables.add("U_STEP", limits_row(controller::rate_steps(controller), -1, is_double))
-                                 : "NULL";
+  const std::string xi_scale = tables.add("XI_SCALE", inverse_powers(controller, controller.bounds.xi));
+  const std::string error_limit = tables.add("ERROR_LIMIT", names_of(controller, step::Quantity::error_limit, error));
+  const std::string u_step =
+      controller.has.rate_limit
+          ? tables.add("U_STEP", names_of(controller, step::Quantity::u_step, controller::rate_steps(controller)))
+          : "NULL";
   return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +
          fields({NAME + "_NX", NAME + "_NU", std::to_string(controller.size.nr), std::to_string(controller.size.nxi),
                  controller.has.input_change ? "1" : "0", NAME + "_SAMPLE_TIME"}) +

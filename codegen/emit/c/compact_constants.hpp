@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "emit/controller.hpp"
 
@@ -17,11 +18,14 @@ class Tables {
   // Defines NAME_<owner>_<suffix>[] and returns its name; "NULL" and no definition when there is nothing in it. Stages
   // share what is the same.
   std::string add(const std::string& suffix, const design::RealMatrix& matrix);
+  std::string add(const std::string& suffix, const std::vector<std::string>& values);
   std::string add_unless_zero(const std::string& suffix, const design::RealMatrix& matrix);
 
   std::string text;
 
  private:
+  std::string define(const std::string& suffix, const std::string& values, Eigen::Index size);
+
   const Controller& controller_;
   std::string name_;
   std::map<std::string, std::map<std::string, std::string>> defined_;  // by suffix, then by values: the names

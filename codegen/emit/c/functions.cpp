@@ -13,21 +13,28 @@ namespace {
 bool is_steady(const Controller& controller) { return controller.filter == step::Filter::steady; }
 
 std::string init_function(const Controller& controller, const FunctionBodies& bodies) {
-  std::string begin = !controller.has.filter  ? "As at the start"
-                      : is_steady(controller) ? "x̂ = x0"
-                                              : "x̂ = x0, its covariance P0";
-  if (controller.size.nxi) begin += ", ξ = 0";
-  if (controller.size.nr) begin += ", r = 0";
+  std::string begin = controller.linear        ? "z of x̂ = x0"
+                      : !controller.has.filter ? ""
+                      : is_steady(controller)  ? "x̂ = x0"
+                                               : "x̂ = x0, its covariance P = P0";
+  const auto add = [&](bool is_kept, const char* what) {
+    if (is_kept) begin += (begin.empty() ? "" : ", ") + std::string(what);
+  };
+  add(controller.size.nxi > 0, "ξ = 0");
+  add(controller.size.nr > 0, "r = 0");
+  add(controller.keeps.input, "last input = 0");
+  add(controller.keeps.sample, "sample 0");
+  add(controller.has.filter, "counters = 0");
   return write_function(templates::init, controller, {{"begin", begin}, {"body", bodies.init}});
 }
 
-// What stays after a reset.
+// What a reset keeps: ", keeps the counters and r".
 std::string what_stays(const Controller& controller) {
   std::string out;
   for (const auto& [stays, what] :
-       {std::pair(controller.size.nr > 0, "r"), std::pair(controller.keeps.sample, "the time"),
-        std::pair(controller.has.filter, "what was counted")})
-    if (stays) out += std::string(out.empty() ? ", but for " : " and ") + what;
+       {std::pair(controller.has.filter, "the counters"), std::pair(controller.size.nr > 0, "r"),
+        std::pair(controller.keeps.sample, "the sample number")})
+    if (stays) out += std::string(out.empty() ? ", keeps " : " and ") + what;
   return out;
 }
 
@@ -36,7 +43,7 @@ std::string reset_function(const Controller& controller) {
   const std::string but = what_stays(controller);
   return write_function(templates::reset, controller,
                         {{"but", but},
-                         {"counts", controller.has.filter ? ", and counts it" : ""},
+                         {"counts", controller.has.filter ? ", increments `resets`" : ""},
                          {"within", controller.bounds.x.empty() ? "finite" : "within its bounds"}},
                         {{"anything_stays", !but.empty()}});
 }
@@ -58,18 +65,28 @@ std::string covariance_status(const Controller& controller) {
   return carries_covariance(controller) ? " LQG_COVARIANCE_RESET," : "";
 }
 
-// What happens to an output that cannot be used, and what an update may say.
+// The bits that an update may return. Its bounds check finds no fault of U and d: that is up to predict.
+std::string statuses_of_update(const Controller& controller) {
+  const bool is_plain = controller.filter == step::Filter::plain;
+  return std::string(" LQG_OUTPUT_REJECTED,") + (controller.has.gate ? " LQG_OUTPUT_GATED," : "") +
+         (is_plain ? " LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET," : "") + " LQG_STATE_RESET";
+}
+
+// Which values of an output are not used.
+std::string unusable(const Controller& controller) {
+  return std::string("that is not finite") + (controller.has.range ? ", out of its sensor's range" : "") +
+         (controller.has.gate ? ", or further than " + decimal(controller.gate.sigma) + " σ from its expected value"
+                              : " or so large that x̂ could leave its bounds");
+}
+
 Words update_words(const Controller& controller) {
-  const std::string sigma = decimal(controller.gate.sigma);
-  return {{"unusable", controller.has.gate ? "that is not finite, absurd or more than " + sigma + " σ off"
-                                           : "that is not finite or absurd"},
-          {"left_out", is_steady(controller) ? "is taken as having come as expected" : "is left out of this sample"},
-          {"gated", controller.has.gate ? " LQG_OUTPUT_GATED," : ""},
-          {"not_positive", controller.filter == step::Filter::plain ? " LQG_INNOVATION_NOT_POSITIVE," : ""},
-          {"covariance_reset", covariance_status(controller)},
+  return {{"unusable", unusable(controller)},
+          {"left_out", is_steady(controller) ? "counts as equal to its expected value: its innovation is 0"
+                                             : "is not used in this sample"},
+          {"statuses", statuses_of_update(controller)},
           {"gain", is_steady(controller) ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P"},
           {"law",
-           controller.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u),  u the input that acts" : "x̂ ← x̂ + L (y − C x̂)"}};
+           controller.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u), u: the input that acts" : "x̂ ← x̂ + L (y − C x̂)"}};
 }
 
 std::string update_function(const Controller& controller, const FunctionBodies& bodies) {
@@ -78,24 +95,24 @@ std::string update_function(const Controller& controller, const FunctionBodies& 
   return write_function(templates::update, controller, words);
 }
 
-// Why an update by one output alone is what it is.
-std::string company(const Controller& controller) {
-  if (controller.size.ny == 1) return "There is no other: it is the update.";
-  if (is_steady(controller)) return "An approximation: its gain is the best in the company of the other outputs only.";
+// How good an update by one output alone is.
+std::string quality_alone(const Controller& controller) {
+  if (controller.size.ny == 1) return "It is the only output: the same as update.";
+  if (is_steady(controller)) return "An approximation: its gain is optimal only when all outputs are used together.";
   if (controller.keeps.innovation) return "At most one such call between two predictions: w and v are correlated.";
-  return "Exact, in any order, as often as there is something to hear.";
+  return "Exact, in any order, and as often as there is a new value.";
 }
 
 std::string update_alone_functions(const Controller& controller, const FunctionBodies& bodies) {
   std::string out;
   std::size_t at = 0;
   for (int i = 0; i < controller.size.ny; ++i) {
-    if (!can_update_alone(controller, i)) continue;
+    if (!has_update_alone(controller, i)) continue;
     const design::Signal& signal = controller.problem.plant.outputs[static_cast<std::size_t>(i)];
     Words words = update_words(controller);
     words["output"] = signal.name;
     words["unit"] = signal.unit.empty() ? "in its unit" : "in " + signal.unit;
-    words["company"] = company(controller);
+    words["quality"] = quality_alone(controller);
     words["body"] = bodies.updates_alone[at++];
     out += write_function(templates::update_alone, controller, words);
   }
@@ -105,7 +122,7 @@ std::string update_alone_functions(const Controller& controller, const FunctionB
 std::string innovation_function(const Controller& controller) {
   if (controller.has.stages) return "";
   const std::string variance =
-      is_steady(controller) ? " and the steady variance of each" : " and the variance of each, C P Cᵀ + V";
+      is_steady(controller) ? " and their variances in the steady state" : " and their variances C P Cᵀ + V";
   return write_function(templates::innovation, controller,
                         {{"law", controller.has.feedthrough ? "y − C x̂ − D u" : "y − C x̂"},
                          {"variance", controller.has.variance ? variance : ""},
@@ -113,10 +130,10 @@ std::string innovation_function(const Controller& controller) {
 }
 
 std::string why_partial(const Controller& controller) {
-  if (is_steady(controller)) return "An approximation: the gains are the best in the company of all outputs.";
+  if (is_steady(controller)) return "An approximation: the gains are optimal only when all outputs are used together.";
   if (controller.keeps.innovation)
-    return "An approximation, and to be called once between two predictions: w and v are correlated.";
-  return "Exact: as if the others were not there in this sample.";
+    return "An approximation. At most one such call between two predictions: w and v are correlated.";
+  return "Exact: as if the plant did not have the other outputs in this sample.";
 }
 
 // Where there is something to choose from, and a NAME_innovation to look at the outputs with.
@@ -136,18 +153,21 @@ std::string predict_function(const Controller& controller, const FunctionBodies&
       {{"input", controller.size.nu ? " + B u" : ""},
        {"covariance", is_steady(controller) ? "" : ",  P ← A P Aᵀ + G W Gᵀ"},
        {"covariance_reset", covariance_status(controller)},
-       {"integral", controller.size.nxi ? ",  ξ ← ξ + H (u − what control asked for) + T (r − y)" : ""},
+       {"integral", controller.size.nxi ? ",\n *                              ξ ← ξ + H (u − demand) + T (r − y)" : ""},
        {"body", bodies.predict}});
 }
 
 std::string control_function(const Controller& controller, const FunctionBodies& bodies) {
   const bool has_filter = controller.has.filter, writes = control_changes_state(controller);
+  const bool limits = controller.problem.limits.has_value();
   return write_function(
       templates::control, controller,
       {{"law", equation_of_law(controller)},
-       {"on_their_way", controller.size.delayed ? "; behind it the inputs on their way, the oldest first" : ""},
-       {"limits", controller.problem.limits ? " and within the limits" : ""},
+       {"within_limits", limits ? ", limited" : ""},
+       {"delayed", controller.size.delayed ? "; after them the delayed inputs, the oldest first" : ""},
+       {"limits", limits ? " and within the limits" : ""},
        {"reference", controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as 0), " : ""},
+       {"limited", limits ? " (at a limit, or not finite and set to 0)" : " (not finite and set to 0)"},
        {"reset", !has_filter && controller.has.servo ? ", LQG_STATE_RESET" : ""},
        {"body", bodies.control}},
       {{"writes_beside_filter", has_filter && writes},
@@ -157,9 +177,9 @@ std::string control_function(const Controller& controller, const FunctionBodies&
 
 std::string step_function(const Controller& controller) {
   const bool acts = controller.has.regulator, is_predictor = controller.is_predictor;
-  const std::string order = !acts          ? "update and predict"
-                            : is_predictor ? "control, update and predict, for an actuator that applies u as it is"
-                                           : "update, control and predict, for an actuator that applies u as it is";
+  const std::string order = !acts          ? "update, predict"
+                            : is_predictor ? "control, update, predict; assumes that the actuator applies u as it is"
+                                           : "update, control, predict; assumes that the actuator applies u as it is";
   return write_function(templates::step, controller, {{"order", order}},
                         {{"is_told_u", !acts && controller.size.nu},
                          {"control_first", acts && is_predictor},
@@ -177,7 +197,7 @@ std::string covariance_function(const Controller& controller) {
 
 std::string set_state_function(const Controller& controller) {
   return write_function(templates::set_state, controller,
-                        {{"covariance", is_steady(controller) ? "" : "; its covariance stays"},
+                        {{"covariance", is_steady(controller) ? "" : "; its covariance does not change"},
                          {"body", body(controller, trace_set_state(controller), {"self", "x"})}},
                         {{"can_set_input", can_set_input(controller)}});
 }
@@ -185,12 +205,15 @@ std::string set_state_function(const Controller& controller) {
 std::string set_input_function(const Controller& controller) {
   if (!can_set_input(controller)) return "";
   const TracedFunction traced = trace_set_input(controller);
-  return write_function(templates::set_input, controller,
-                        {{"delayed", controller.size.delayed ? ", and so are those on their way" : ""},
-                         {"integral", controller.size.nxi ? ".\n * ξ becomes such that control goes on there" : ""},
-                         {"when", controller.size.nxi && controller.has.filter ? ": to be called before control" : ""},
-                         {"body", controller.has.filter ? body(controller, traced, {"self", "u"})
-                                                        : body(controller, traced, {"self", "x", "u"})}});
+  return write_function(
+      templates::set_input, controller,
+      {{"delayed", controller.size.delayed ? "; sets the delayed inputs, too" : ""},
+       {"integral", controller.size.nxi ? " * ξ becomes such that the transfer to automatic is bumpless: "
+                                          "the law demands u next.\n"
+                                        : ""},
+       {"when", controller.size.nxi && controller.has.filter ? " * Call it before control.\n" : ""},
+       {"body", controller.has.filter ? body(controller, traced, {"self", "u"})
+                                      : body(controller, traced, {"self", "x", "u"})}});
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "emit/c/header.hpp"
 
+#include <algorithm>
+
 #include "emit/c/functions.hpp"
 #include "emit/c/preamble.hpp"
 #include "controller/state_fields.hpp"
+#include "emit/recorded/constants.hpp"
+#include "emit/text/columns.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 
@@ -21,38 +25,85 @@ std::string declaration(const Field& field) {
   }
 }
 
-std::string handshake(const Controller& controller) {
+std::string handshake() {
   return fill(R"(
 #if LQG_HEADER_FORMAT != {format}
-#error "{name}.h was made by lqgen {version}, which this TinyLQG does not know: run the lqgen of this TinyLQG on {file} again."
+#error "This file needs header format {format}, the library has another one: regenerate it with the library's lqgen."
 #endif
 )",
-              {{"format", header_format()},
-               {"name", controller.problem.name},
-               {"version", version()},
-               {"file", controller.source.file}});
+              {{"format", header_format()}});
 }
 
 // Some compilers' double is float, avr-gcc's by default.
 std::string width_of_double(const Controller& controller) {
   if (!controller.target.is_double) return "";
-  return fill(R"(
+  return R"(
 #if defined __SIZEOF_DOUBLE__ && __SIZEOF_DOUBLE__ < 8
-#error "{name}.h computes in double, which has less than 64 bits here: run lqgen with --real float."
+#error "This file computes in double, which has less than 64 bits here: run lqgen with --real float."
 #endif
-)",
-              {{"name", controller.problem.name}});
+)";
 }
 
 // A macro, because it is a list that any array may begin with.
 std::string bounds(const Controller& controller) {
-  std::string values;
-  for (const double bound : controller::powers_of_two(controller.bounds.x))
-    values += (values.empty() ? "" : ", ") + trace::literal(bound, controller.target.is_double);
+  std::string out = fill(
+      "/* Limit of |x̂_i|: the state is reset when it is reached. */\n"
+      "#define {NAME}_X_BOUNDS { \\\n",
+      common_words(controller));
+  const std::vector<design::Signal> states = state_signals(controller);
+  const std::vector<double> values = controller::powers_of_two(controller.bounds.x);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out += "    " + trace::literal(values[i], controller.target.is_double) + (i + 1 < values.size() ? "," : "") +
+           "  /* 2^" + std::to_string(controller.bounds.x[i]) + ": " + name_with_unit(states[i]) + " */ \\\n";
+  return out + "}\n";
+}
+
+// Where a table of gains, or the time, ends.
+std::string last_rows(const Controller& controller) {
+  const auto define = [&](const std::string& what, std::size_t value, const char* origin) {
+    return fill("#define {NAME}_", common_words(controller)) + what + " " + std::to_string(value) + "u  /* " + origin +
+           " */\n";
+  };
   std::string out;
-  for (const char c : trace::wrap(fill("#define {NAME}_X_BOUNDS {", common_words(controller)) + values + "}", 4, 98))
-    out += c == '\n' ? std::string(" \\\n") : std::string(1, c);
-  return out + "  /* x̂ stays below them in size, or begins anew */\n";
+  if (controller.keeps.sample)
+    out += define("LAST_SAMPLE", controller.last_sample, "`sample` stops there: nothing changes any more");
+  int stage = 0;
+  for (const std::size_t start : controller.stage_starts)
+    if (start > 0) out += define("STAGE_" + std::to_string(++stage), start, "the sample from which on it is in force");
+  if (controller.laws.size() > 1)
+    out += define("LAST_LAW_ROW", controller.laws.size() - 1, "rows of the law's gains, less 1");
+  if (controller.keeps.gain_row)
+    out += define("LAST_GAIN_ROW", controller.filters.size() - 1, "rows of the filter's gains, less 1");
+  return out;
+}
+
+// Columns aligned where there is room; the origin above it where it does not fit behind.
+std::string define(const Constant& constant, std::size_t name, std::size_t value) {
+  const std::string comment = "/* " + constant.origin + " */";
+  const auto line = [&](std::size_t name_width, std::size_t value_width) {
+    const auto fill_up = [](const std::string& text, std::size_t to) {
+      return std::string(std::max(text.size(), to) - text.size(), ' ');
+    };
+    return "#define " + constant.name + fill_up(constant.name, name_width) + " " + constant.value +
+           fill_up(constant.value, value_width);
+  };
+  for (const std::string& text : {line(name, value), line(name, 0), line(0, 0)})
+    if (columns(text + "  " + comment) <= widest_line) return text + "  " + comment + "\n";
+  return comment + "\n" + line(0, 0) + "\n";
+}
+
+// Numbers that are no gains.
+std::string constants(const Controller& controller, const std::string& code) {
+  const std::vector<Constant> all = constants_of(controller, code);
+  std::string out = last_rows(controller);
+  std::size_t name = 0, value = 0;
+  for (const Constant& constant : all) {
+    name = std::max(name, constant.name.size());
+    value = std::max(value, constant.value.size());
+  }
+  for (const Constant& constant : all) out += define(constant, name, value);
+  if (out.empty()) return "";
+  return "\n/* Limits, bounds and thresholds of the code below, each with its unit and origin. */\n" + out;
 }
 
 // How long a fault lasts, and where it stays.
@@ -63,13 +114,14 @@ std::string recovery(const Controller& controller) {
     lasting += (lasting.empty() ? "" : ", ") + controller.problem.plant.states[static_cast<std::size_t>(state)].name;
   std::string out;
   if (recovery.samples)
-    out =
-        fill("#define {NAME}_RECOVERY_SAMPLES {samples}  /* after a fault has ended its effect is below the noise */\n",
-             {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
+    out = fill(
+        "#define {NAME}_RECOVERY_SAMPLES {samples}  /* samples after a fault until its effect is below the noise */\n",
+        {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
   else if (controller.has.filter)
-    out = "/* For no number of samples is it certain that a fault is forgotten: not every error dies out. */\n";
+    out = "/* No number of samples until recovery can be stated: not every error decays. */\n";
   if (!lasting.empty())
-    out += "/* No noise reaches " + lasting + ": a fault's effect stays there, and in what is estimated by it. */\n";
+    out += "/* No noise reaches " + lasting +
+           ": the effect of a fault stays there, and in estimates that depend on it. */\n";
   return out;
 }
 
@@ -78,13 +130,13 @@ std::string dimensions(const Controller& controller) {
   std::string out = fill("\n#define {NAME}_NX {nx}  /* states */\n", words);
   if (controller.size.nu) out += fill("#define {NAME}_NU {nu}  /* inputs */\n", words);
   if (controller.has.filter) out += fill("#define {NAME}_NY {ny}  /* outputs */\n", words);
-  if (controller.linear) out += fill("#define {NAME}_NZ {nz}  /* numbers that stand for them */\n", words);
+  if (controller.linear) out += fill("#define {NAME}_NZ {nz}  /* numbers z that represent them */\n", words);
   if (controller.size.nr) out += fill("#define {NAME}_NR {nr}  /* references */\n", words);
   if (!controller.bounds.x.empty()) out += bounds(controller);
   out += recovery(controller);
   return out + fill("#define {NAME}_SAMPLE_TIME ", words) +
          trace::literal(controller.problem.plant.sample_time, controller.target.is_double) +
-         "  /* s between two samples */\n";
+         "  /* s, plant.sample_time */\n";
 }
 
 std::string index_enum(const Controller& controller, const char* kind, const std::vector<design::Signal>& signals) {
@@ -106,7 +158,8 @@ std::string state_type(const Controller& controller) {
     fields += field.comment.empty() ? ";\n" : ";  /* " + field.comment + " */\n";
   }
   return fill(
-      "\n/* The whole state of the controller: no pointers inside, may be copied. Begin it with {name}_init. */\n"
+      "\n/* The whole state of the controller. It has no pointers and may be copied. "
+      "Initialise it with {name}_init. */\n"
       "typedef struct {\n" +
           fill(fields, common_words(controller)) + "} {name}_t;\n",
       common_words(controller));
@@ -119,15 +172,17 @@ std::string header(const Controller& controller) {
                                 : controller.style == design::Style::compact ? compact_bodies(controller)
                                                                              : unrolled_bodies(controller);
   const design::Plant& plant = controller.problem.plant;
-  const std::string guard = upper(controller.problem.name) + "_H";
-  std::string out = preamble(controller) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;
-  out += handshake(controller) + width_of_double(controller) + dimensions(controller);
+  const std::string guard = upper(controller.problem.name) + "_H", code = functions(controller, bodies);
+  std::string out = preamble(controller, code) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;
+  out += handshake() + width_of_double(controller) + dimensions(controller);
+  out += constants(controller, bodies.constants + code);
   out += index_enum(controller, "X", state_signals(controller)) + index_enum(controller, "U", plant.inputs);
   if (controller.has.filter) out += index_enum(controller, "Y", plant.outputs);
   out += index_enum(controller, "R", reference_signals(controller)) + state_type(controller);
   if (!bodies.constants.empty()) out += "\n" + bodies.constants;
-  out += "\nLQG_STRICT_BEGIN\n" + bodies.options + functions(controller, bodies);
-  return out + "\nLQG_STRICT_END\n\n#endif\n";
+  out += "\nLQG_STRICT_BEGIN\n" + bodies.options + code;
+  out += "\nLQG_STRICT_END\n\n#endif\n";
+  return controller.target.is_prover ? out : fit_columns(out);
 }
 
 }  // namespace lqg::emit

@@ -18,11 +18,9 @@ std::string functions_of_filter_form(const Controller& controller, const TracedL
                          {"advance", body(controller, traced.advance, {"self"})}});
 }
 
-std::string others(int i) { return "others_" + std::to_string(i); }
-
 // sum − sum = 0, beside which a prover reads that each y is finite.
 std::string all_finite(const Controller& controller, const std::string& sum) {
-  const std::string test = sum + " - " + sum + " == " + trace::literal(0, controller.target.is_double);
+  const std::string test = "(" + sum + " - " + sum + ") == " + trace::literal(0, controller.target.is_double);
   if (!controller.target.is_prover) return test;
   std::string facts;
   for (int i = 0; i < controller.size.ny; ++i) facts += (i ? " && FINITE(" : "FINITE(") + element("y", i) + ")";
@@ -32,12 +30,15 @@ std::string all_finite(const Controller& controller, const std::string& sum) {
 // y_0 + y_1 + …, which is finite where each is: its statements, and the test.
 Words sum_of_outputs(const Controller& controller) {
   const std::string declare = controller.target.is_double ? "    const double " : "    const float ";
+  const std::vector<design::Signal>& outputs = controller.problem.plant.outputs;
+  const std::string first = "y_" + outputs[0].name;
   if (controller.size.ny == 1)
-    return {{"sum_of_outputs", declare + "y_0 = y[0];\n"}, {"all_finite", all_finite(controller, "y_0")}};
+    return {{"sum_of_outputs", declare + first + " = y[0];\n"}, {"all_finite", all_finite(controller, first)}};
   std::string statements, sum = "y[0]";
-  for (int i = 1; i < controller.size.ny; ++i) {
-    statements += declare + others(i) + " = " + sum + " + y[" + std::to_string(i) + "];\n";
-    sum = others(i);
+  for (std::size_t i = 1; i < outputs.size(); ++i) {
+    const std::string name = "sum_to_y_" + outputs[i].name;
+    statements += declare + name + " = " + sum + " + y[" + std::to_string(i) + "];\n";
+    sum = name;
   }
   return {{"sum_of_outputs", statements}, {"all_finite", all_finite(controller, sum)}};
 }

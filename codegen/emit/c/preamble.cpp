@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "emit/c/preamble.hpp"
 
+#include "emit/c/contents.hpp"
 #include "emit/text/description.hpp"
 #include "emit/text/wording.hpp"
 
@@ -21,10 +22,10 @@ std::string comment_lines(const std::string& text) {
 
 }  // namespace
 
-std::string preamble(const Controller& controller) {
+std::string preamble(const Controller& controller, const std::string& functions) {
   const design::Problem& problem = controller.problem;
   return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" +
-         provenance(controller) +
+         provenance(controller) + " *\n" + table_of_contents(controller, functions) +
          comment_lines(describe_plant(controller) + describe_regulator(controller) + describe_estimator(controller) +
                        describe_linear_form(controller) + describe_loop(controller) + describe_forms(controller) +
                        describe_cost(controller)) +

@@ -8,7 +8,7 @@
 
 namespace lqg::emit {
 
-// The whole comment that opens the header.
-std::string preamble(const Controller& controller);
+// The whole comment that opens the header with these functions.
+std::string preamble(const Controller& controller, const std::string& functions);
 
 }  // namespace lqg::emit

@@ -35,44 +35,65 @@ struct Printed {
   }
 };
 
-// "    if (!(sum < 1.0f))", with what makes the state unsound besides.
-std::string unless_sound(const Controller& controller, const Printed& printed) {
-  const TracedFunction& function = printed.function;
-  const std::string faults = function.faults.empty() ? "" : " || status & " + function.faults;
-  const std::string line = "    if (!(" + printed.printer.test(function.finite, function.stores) + ")" + faults + ")";
-  return controller.target.is_prover ? line : trace::wrap(line, 8);
+// What the check at the end of a function says, as an equation.
+std::string equation_of_bounds(const Controller& controller, const std::string& test, bool has_x, bool has_xi) {
+  if (test.find("TWO_TO_") == std::string::npos) return "all finite: s − s = 0";
+  const bool has_variances = test.find("!(") != std::string::npos;
+  const std::string NAME = upper(controller.problem.name);
+  std::string terms, bounds;
+  const auto add = [&](const std::string& term, const std::string& bound) {
+    terms += (terms.empty() ? "" : " + ") + term;
+    if (!bound.empty()) bounds += (bounds.empty() ? "" : ", ") + bound;
+  };
+  if (has_x) add("(x_i/b_i)²", "b = " + NAME + "_X_BOUNDS");
+  if (has_variances) add("P_ii/b_i²", "");
+  if (has_xi) add("(ξ_i/c_i)²", "c: limits of ξ");
+  return "Σ " + terms + " < 1 in units of a power of two, " + bounds + (has_variances ? "; no P_ii < 0" : "") +
+         (test.find(" - ") != std::string::npos ? "; the rest is finite" : "");
 }
 
-// The status is there already.
-std::string status_of_weighed(const Controller& controller, const Printed& printed) {
-  return unless_sound(controller, printed) + "\n        return " + controller.problem.name +
-         (printed.function.checks_covariance ? "_recover" : "_reset") + "(self, status);\n    return status;\n";
+// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides; then `answer` becomes the status.
+std::string unless_sound(const Controller& controller, const Printed& printed, const std::string& answer) {
+  const TracedFunction& function = printed.function;
+  const std::string test = printed.printer.test(function.finite, function.stores);
+  const std::string faults = function.faults.empty() ? "" : " || ((status & " + function.faults + ") != 0u)";
+  const std::string line = "    if (!(" + test + ")" + faults + ") {";
+  const bool has_x = printed.writes("self->x["), has_xi = printed.writes("self->xi[");
+  return "    /* " + equation_of_bounds(controller, test, has_x, has_xi) + " */\n" +
+         (controller.target.is_prover ? line : trace::wrap(line, 8)) + "\n        status = " + answer + ";\n    }\n";
+}
+
+// The call that answers where the state is not sound.
+std::string recovery_of(const Controller& controller, const TracedFunction& function) {
+  if (!function.recovery.empty()) return function.recovery;
+  return controller.problem.name + (function.checks_covariance ? "_recover" : "_reset") + "(self, status)";
+}
+
+// One statement for each cause.
+std::string raised_statuses(const Printed& printed) {
+  std::string out = "    lqg_status_t status = LQG_OK;\n";
+  for (const int status : printed.function.statuses) out += printed.printer.raise(status);
+  return out;
+}
+
+// A line for each bit where one is not enough.
+std::string return_of(std::string bits) {
+  constexpr std::size_t longest = 100;
+  const std::string line_end = "\n        ";
+  const bool is_long = bits.size() > longest;
+  for (std::size_t at = 0; is_long && (at = bits.find(" | ", at)) != bits.npos; at += line_end.size() + 1)
+    bits.replace(at, 1, line_end);
+  return "    return " + bits + ";";
 }
 
 std::string status(const Controller& controller, const Printed& printed) {
   const TracedFunction& function = printed.function;
-  const trace::Printer& printer = printed.printer;
-  std::string raised;
-  for (const int status : function.statuses) {
-    const std::string bits = printer.operand(status);
-    raised += raised.empty() ? bits : " | " + bits;
-  }
-  if (!function.asked.empty()) return status_of_weighed(controller, printed);
-  if (raised.empty()) raised = "LQG_OK";
-  if (function.finite < 0 && function.is_void) return "";
-  if (function.finite < 0) return "    return " + raised + ";\n";
-  if (!function.recovery.empty())
-    return "    if (!(" + printer.test(function.finite, function.stores) + "))\n        return " + function.recovery +
-           ";\n    return " + raised + ";\n";
-  return fill(R"({status}
-{unless_sound}
-        return {name}_{recover}(self, status);
-    return status;
-)",
-              {{"status", trace::wrap("    const lqg_status status = " + raised + ";", 8)},
-               {"unless_sound", unless_sound(controller, printed)},
-               {"recover", function.checks_covariance ? "recover" : "reset"},
-               {"name", controller.problem.name}});
+  const bool is_checked = function.finite >= 0;
+  if (!is_checked && function.is_void) return "";
+  if (!is_checked && function.asked.empty() && function.statuses.empty()) return "    return LQG_OK;\n";
+  return (function.asked.empty() ? raised_statuses(printed) : "") +
+         (is_checked ? unless_sound(controller, printed, recovery_of(controller, function)) : "") +
+         "    return status;\n";
 }
 
 // The rows of the tables that a body reads.
@@ -108,30 +129,39 @@ std::string body(const Controller& controller, const TracedFunction& function,
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
   return "    LQG_STRICT_BODY\n" + unused + tables +
-         (!function.asked.empty() ? "    lqg_status status = LQG_OK;\n" : "") +
+         (!function.asked.empty() ? "    lqg_status_t status = LQG_OK;\n" : "") +
          printed.printer.statements(function.stores) + (end.empty() ? "" : "\n") + end;
 }
 
 std::string recover_body(const Controller& controller) {
   const TracedFunction traced = trace_begin_covariance(controller);
   const Printed printed(traced);
+  const std::string within = printed.printer.test(traced.finite, traced.stores);
   return write_body(templates::recover_body, controller,
                     {{"statements", printed.printer.statements(traced.stores)},
-                     {"within", printed.printer.test(traced.finite, traced.stores)}});
+                     {"equation", equation_of_bounds(controller, within, true, controller.size.nxi > 0)},
+                     {"within", within}});
 }
 
 std::string weigh_body(const Controller& controller) {
   const TracedFunction traced = trace_weigh(controller);
   const Printed printed(traced);
   std::string raised;
-  for (const int status : traced.statuses) raised += (raised.empty() ? "" : " | ") + printed.printer.operand(status);
-  const auto table = [&](const Eigen::VectorXd& values) {
-    return initializer({values.data(), values.data() + values.size()}, controller.target.is_double);
+  for (const int status : traced.statuses) {
+    std::string statement = printed.printer.raise(status);
+    statement.replace(statement.find("status |="), 1, "*s");
+    raised += statement;
+  }
+  const auto table = [&](step::Quantity quantity) {
+    std::string names;
+    for (int i = 0; i < controller.size.ny; ++i)
+      names += (i ? ", {NAME}_" : "{NAME}_") + constant_name(controller, quantity, i);
+    return trace::wrap(fill("{" + names + "};", common_words(controller)), 8);
   };
   return write_body(templates::weigh_body, controller,
-                    {{"limits", table(controller.bounds.innovation)},
-                     {"widen", table(controller.gate.widen)},
-                     {"narrow", table(controller.gate.narrow)},
+                    {{"limits", table(step::Quantity::innovation_limit)},
+                     {"widen", table(step::Quantity::gate_widen)},
+                     {"narrow", table(step::Quantity::gate_narrow)},
                      {"statements", printed.printer.statements(traced.stores)},
                      {"gated", printed.printer.operand(traced.gates.front())},
                      {"raised", raised},
@@ -146,9 +176,11 @@ std::string statements(const TracedFunction& function) { return Printed(function
 std::string collect_lost(const TracedFunction& function) {
   const Printed printed(function);
   std::string out = printed.printer.statements({});
-  for (std::size_t i = 0; i < function.lost.size(); ++i)
-    out +=
-        "    lost |= " + printed.printer.expression(function.lost[i]) + " ? 1ul << " + std::to_string(i) + " : 0ul;\n";
+  for (int i = 0; i < static_cast<int>(function.lost.size()); ++i) {
+    const std::string question = "((used & " + std::to_string(1ul << i) + "uL) != 0uL) && (" +
+                                 printed.printer.expression(function.lost[static_cast<std::size_t>(i)]) + ")";
+    out += trace::wrap("    if (" + question + ") {", 8) + "\n        rejected |= " + rejection(i) + ";\n    }\n";
+  }
   return out;
 }
 
@@ -158,6 +190,20 @@ std::string initializer(const std::vector<double>& values, bool is_double) {
   return out + "}";
 }
 
+namespace {
+
+// Where an initial value comes from.
+std::string origin_of_initial(const std::string& field) {
+  if (field == "x") return "x: the initial state x0";
+  if (field == "P") return "P: the initial covariance P0";
+  if (field == "U" || field == "d") return field + ": of the initial covariance P0 = U diag(d) Uᵀ";
+  if (field == "widening") return "widening: of the variance of the first innovation, from P0, relative to S";
+  if (field == "z") return "z: of the initial state x0";
+  return field;
+}
+
+}  // namespace
+
 std::string initial_state(const Controller& controller) {
   const std::vector<Field> fields = state_fields(controller);
   std::string values;
@@ -165,21 +211,24 @@ std::string initial_state(const Controller& controller) {
     const std::vector<double> zeros(static_cast<std::size_t>(field.count), 0);
     const bool is_number = field.kind == controller::Kind::counter || field.kind == controller::Kind::total;
     const std::string value =
-        is_number ? "0"
+        is_number ? (field.kind == controller::Kind::total ? "0uL" : "0u")
         : field.kind == controller::Kind::counters
             ? "{0}"
             : initializer(field.initial.empty() ? zeros : field.initial, controller.target.is_double);
-    values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "\n" : ",\n");
+    values += trace::wrap("        " + value, 9) + (&field == &fields.back() ? "" : ",") + "  /* " +
+              origin_of_initial(field.name) + " */\n";
   }
   return write_body(templates::initial_state, controller, {{"values", values}});
 }
 
 FunctionBodies straight_line_bodies(const Controller& controller) {
   FunctionBodies bodies;
-  bodies.includes = std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n\n" : "") +
-                    "#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
-  bodies.options = R"(#if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")  /* as written: few values wait in registers */
+  bodies.includes =
+      std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
+      "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
+  bodies.options =
+      R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif
 )";
   if (controller.keeps.any) bodies.init = initial_state(controller);

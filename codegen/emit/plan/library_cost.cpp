@@ -22,16 +22,16 @@ struct Variants {
 };
 struct FilterFigures {
   Variants flash;            // init, update and predict with all that they call
-  long unwatched;            // update without a watch, which is one call more
+  long whole;                // update of all outputs, which is one call more
   Variants update, predict;  // the deepest reach of their stack
 };
-constexpr FilterFigures steady = {{{1812, 1768, 2284, 2324}}, 28, {{156, 156, 244, 244}}, {{128, 128, 168, 192}}};
-constexpr FilterFigures plain = {{{3004, 2908, 3780, 3720}}, 28, {{180, 172, 292, 276}}, {{184, 184, 256, 280}}};
-constexpr FilterFigures factored = {{{3576, 3464, 4556, 4608}}, 32, {{196, 196, 296, 328}}, {{160, 160, 248, 256}}};
+constexpr FilterFigures steady = {{{1728, 1684, 2268, 2304}}, 24, {{132, 132, 244, 244}}, {{120, 120, 160, 184}}};
+constexpr FilterFigures plain = {{{2828, 2716, 3772, 3672}}, 24, {{176, 168, 300, 284}}, {{184, 184, 256, 280}}};
+constexpr FilterFigures factored = {{{3420, 3308, 4488, 4528}}, 24, {{168, 176, 304, 328}}, {{144, 144, 240, 248}}};
 constexpr Variants law_flash = {{200, 196, 280, 304}}, law_stack = {{36, 36, 100, 120}};
-constexpr Variants servo_flash = {{1108, 1124, 1528, 1608}};  // beside a filter, with which it shares a function
-constexpr Variants observe_flash = {{144, 144, 152, 152}};
-constexpr Variants servo_stack = {{100, 100, 188, 240}};
+constexpr Variants servo_flash = {{1048, 1072, 1504, 1584}};  // beside a filter, with which it shares a function
+constexpr Variants observe_flash = {{140, 140, 172, 172}};
+constexpr Variants servo_stack = {{88, 88, 196, 240}};
 
 const FilterFigures& figures_of(step::Filter filter) {
   return filter == step::Filter::plain ? plain : filter == step::Filter::ud ? factored : steady;
@@ -56,7 +56,7 @@ long filter_constants(const Controller& controller) {
   const long stages = static_cast<long>(controller.stage_starts.size());
   long numbers = stages * (nx * nx + nx * nu + ny * nx + (controller.has.feedthrough ? ny * nu : 0));
   numbers += nx + ny;  // the bounds
-  if (controller.has.gate) numbers += 2 * ny;
+  if (controller.has.gate) numbers += 3 * ny + 16 / bytes_of_real(controller);
   if (controller.has.range) numbers += 2 * ny;
   if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
   if (controller.filter == step::Filter::steady) return numbers + numbers_of_filters(controller);
@@ -71,7 +71,7 @@ long constants_of(const Controller& controller) {
   long numbers = 0, bytes = 0;
   if (controller.has.filter) {
     numbers += filter_constants(controller);
-    bytes += (controller.filter == step::Filter::steady ? 48 : 76) * static_cast<long>(controller.stage_starts.size());
+    bytes += (controller.filter == step::Filter::steady ? 56 : 80) * static_cast<long>(controller.stage_starts.size());
   }
   if (controller.has.regulator) {
     numbers += numbers_of(controller.laws) + controller.size.nu * (controller.problem.limits ? 2 : 0) +
@@ -81,7 +81,8 @@ long constants_of(const Controller& controller) {
   return bytes + bytes_of_real(controller) * numbers;
 }
 
-bool is_watched(const Controller& controller) { return controller.has.gate || controller.size.nxi > 0; }
+// r − y is that of the outputs that were heard.
+bool is_watched(const Controller& controller) { return controller.size.nxi > 0; }
 bool remembers(const Controller& controller) { return controller.size.nxi > 0 || controller.has.last_input; }
 
 // The functions in the header.
@@ -89,17 +90,16 @@ long calls_of(const Controller& controller) {
   const long covariance = carries_covariance(controller) ? 1 : 0, ny = controller.has.gate ? controller.size.ny : 0;
   const long rows = controller.keeps.gain_row ? 1 : 0, laws = has_law_table(controller) ? 1 : 0,
              servo = controller.has.servo ? 1 : 0;
-  const long init = 30 + 6 * ny + 16 * covariance + 32 * servo + (controller.size.nr ? 8 + 2 * controller.size.nr : 0);
-  const long reset = 36 + 14 * ny + 16 * covariance + 40 * servo + 4 * controller.size.nr;
+  const long init = 44 + 4 * ny + 16 * covariance + 40 * servo;
+  const long reset = 40 + 14 * ny + 16 * covariance + 54 * servo + 4 * controller.size.nr;
   long bytes = init;
   if (controller.has.filter) {
     bytes += reset + 28 * covariance;
-    bytes += (is_watched(controller) ? 106 : 54) + 12 * covariance + (controller.size.nxi ? 60 : 0) + 76 * rows +
-             (controller.has.range ? 60 : 0);
-    bytes += 50 + 16 * covariance + (remembers(controller) ? 36 : 0) + 68 * rows + 40 * laws;
+    bytes += (is_watched(controller) ? 148 : 64) + 12 * covariance + 82 * rows + (controller.has.range ? 60 : 0);
+    bytes += 64 + 16 * covariance + (remembers(controller) ? 44 : 0) + 74 * rows + 40 * laws;
   }
   if (controller.has.regulator)
-    bytes += 16 + 32 * servo + 60 * laws + (controller.has.feedthrough ? 40 : 0) +
+    bytes += 16 + 36 * servo + 60 * laws + (controller.has.feedthrough ? 40 : 0) +
              (controller.has.filter ? 0 : 120 + 80 * servo);
   return bytes + (controller.target.is_double ? 24 : 0);
 }
@@ -108,7 +108,7 @@ long flash_of_library(const Controller& controller) {
   long bytes = 0;
   if (controller.has.filter)
     bytes += figures_of(controller.filter).flash.of(controller) +
-             (is_watched(controller) ? 0 : figures_of(controller.filter).unwatched);
+             (is_watched(controller) ? 0 : figures_of(controller.filter).whole);
   if (controller.has.regulator && controller.has.servo)
     bytes += servo_flash.of(controller) + (controller.size.nxi ? observe_flash.of(controller) : 0);
   else if (controller.has.regulator)
@@ -142,12 +142,12 @@ long stack_of_loops(const Controller& controller) {
   const long ny = controller.size.ny, covariance = carries_covariance(controller) ? 8 : 0,
              real = bytes_of_real(controller);
   const long work = work_of(controller);
-  const long update = work + (is_watched(controller) ? 72 : 16) + covariance + tables +
+  const long update = work + (is_watched(controller) ? 76 : 36) + covariance + tables +
                       (controller.size.nxi ? aligned(real * ny) + aligned(ny) + 8 : 0) +
                       (controller.has.range ? aligned(real * ny) : 0);
   const long predict = work + 16 + covariance + (remembers(controller) ? 8 : 0) + tables;
-  const long unwatched = is_watched(controller) ? 0 : figures.unwatched - 4;
-  return std::max({law, update + unwatched + figures.update.of(controller), predict + figures.predict.of(controller)});
+  const long whole = is_watched(controller) ? 0 : figures.whole - 8;
+  return std::max({law, update + whole + figures.update.of(controller), predict + figures.predict.of(controller)});
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ class Order {
   void put(const trace::Store& store) {
     make(store.node);
     ++traffic_.stores;
-    steps.push_back({{store.node}, -1, -1});
+    steps.push_back({{same(store.node)}, -1, -1});
     stored[store.target] = static_cast<long>(steps.size());
   }
 
@@ -96,7 +96,7 @@ class Order {
     for (const int operand : {node(i).a, node(i).b, node(i).c}) {
       if (operand < 0) continue;
       make(operand);
-      if (is_number(operand)) step.operands.push_back(operand);
+      if (is_number(operand)) step.operands.push_back(same(operand));
     }
     if (is_number(i)) step.result = i;
     const bool is_one =
@@ -125,9 +125,13 @@ class Order {
     }
   }
 
+  // Of constants of one value, whatever their names, the first.
+  int same(int i) { return node(i).op == Op::constant ? constants_.try_emplace(node(i).value, i).first->second : i; }
+
   const Listing& listing_;
   Traffic& traffic_;
   std::vector<bool> made_;
+  std::map<double, int> constants_;
 };
 
 // The registers while the instructions run.

@@ -25,12 +25,12 @@ void grow(std::vector<bool>& pattern, const Controller& controller, bool predict
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
   const SymbolicModel model = symbolic_model(controller);
-  SymbolicState state = load_state(model, pattern);
+  SymbolicState state = load_state(controller, model, pattern);
   TraceListener listener(controller, function);
   if (predicts)
-    step::predict(model, state, load(*function.graph, "u", "u", model.nu), listener);
+    step::predict(model, state, load(controller, "u", "u", model.nu, at_input), listener);
   else
-    step::update(model, state, load(*function.graph, "y", "y", model.ny), listener);
+    step::update(model, state, load(controller, "y", "y", model.ny, at_output), listener);
   for (std::size_t k = 0; k < pattern.size(); ++k) {
     const Expr& entry = !state.P.empty() ? state.P[k] : k < state.U.size() ? state.U[k] : state.D[k - state.U.size()];
     if (!trace::is_zero(entry)) pattern[k] = true;

@@ -25,8 +25,8 @@ TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
   const Model model = controller::linear_model_of<Expr>(controller, [&](const design::Real& value) {
     return Expr(rounded_to_target(value, controller.target.is_double));
   });
-  State state{load(*function.graph, "self->z", "z", controller.size.nz),
-              load(*function.graph, "self->y", "y", hears ? controller.size.ny : 0)};
+  State state{load(controller, "self->z", "z", controller.size.nz, at_entry),
+              load(controller, "self->y", "y", hears ? controller.size.ny : 0, at_output)};
   TraceListener listener(controller, function);
   step(function, model, state, listener);
   return function;
@@ -35,7 +35,7 @@ TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
 // In filter form control keeps y for advance.
 bool keeps_outputs(const Controller& controller) { return !controller.is_predictor; }
 
-Symbols load_outputs(const Controller& controller) { return load(trace::graph(), "y", "y", controller.size.ny); }
+Symbols load_outputs(const Controller& controller) { return load(controller, "y", "y", controller.size.ny, at_output); }
 
 TracedFunction trace_control(const Controller& controller) {
   const auto step = [&](Function& into, const Model& model, State& state, TraceListener& listener) {
@@ -84,7 +84,7 @@ TracedFunction trace_estimate(const Controller& controller) {
 
 TracedFunction trace_set_z(const Controller& controller) {
   return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
-    const Symbols x = load(*into.graph, "x", "x", controller.size.nx);
+    const Symbols x = load(controller, "x", "x", controller.size.nx, at_state);
     into.finite = step::set_state(model, state, x, listener).node;
     store_all(into, "self->z", state.z);
   });

@@ -51,8 +51,33 @@ void read_row(const Controller& controller, const std::vector<Gains>& rows, cons
     step::Matrix<Expr>& gain = *matrices[matrix];
     const std::string entry =
         compact ? element(names[matrix], i * static_cast<int>(gain.cols()) + j) : element(table, at++);
-    gain(i, j) = Expr::of(trace::graph().input(entry, names[matrix] + index_suffix(i, j, controller.size.nx)));
+    const bool is_of_output = std::string(names[matrix]) == "variance";
+    gain(i, j) = Expr::of(trace::graph().input(
+        entry, names[matrix] + suffix_of(controller, is_of_output ? step::of_output(i) : step::of_entry(i, j))));
   }
+}
+
+// Names for the numbers that are no gains. A factor of the gate that all outputs share has one name.
+void name_constants(const Controller& controller, SymbolicModel& model) {
+  const auto name = [&](step::Vector<Expr>& values, step::Quantity quantity) {
+    for (int i = 0; i < values.size(); ++i) values(i) = named(controller, values(i), quantity, i);
+  };
+  const auto name_factors = [&](step::Vector<Expr>& values, const Eigen::VectorXd& given, step::Quantity quantity) {
+    for (int i = 0; i < values.size(); ++i)
+      values(i) = named(controller, values(i), quantity, is_same_for_all(given) ? -1 : i);
+  };
+  name(model.u_min, step::Quantity::u_min);
+  name(model.u_max, step::Quantity::u_max);
+  name(model.u_step, step::Quantity::u_step);
+  name(model.y_min, step::Quantity::y_min);
+  name(model.y_max, step::Quantity::y_max);
+  name(model.nu_limit, step::Quantity::innovation_limit);
+  name(model.error_limit, step::Quantity::error_limit);
+  name(model.variance, step::Quantity::innovation_variance);
+  name_factors(model.gate_widen, controller.gate.widen, step::Quantity::gate_widen);
+  name_factors(model.gate_narrow, controller.gate.narrow, step::Quantity::gate_narrow);
+  if (controller.has.gate) model.gate = named(controller, model.gate, step::Quantity::gate);
+  model.T = named(controller, model.T, step::Quantity::sample_time);
 }
 
 }  // namespace
@@ -66,6 +91,7 @@ SymbolicModel symbolic_model(const Controller& controller) {
   step::Matrix<Expr> variance = model.variance;
   read_row(controller, controller.filters, "gains", {"L", "M", "variance"}, {&model.L, &model.M, &variance});
   if (controller.has.gate) model.variance = variance;
+  name_constants(controller, model);
   return model;
 }
 
@@ -79,35 +105,35 @@ SymbolicModel model_of_outputs(const Controller& controller) {
     for (int i = 0; i < model.ny; ++i)  // as the library's loops find them
       model.variance(i) = Expr::of(trace::graph().input(
           fill("{NAME}_KALMAN_S[{filter_row} * {NAME}_NY + ", common_words(controller)) + std::to_string(i) + "]",
-          "variance"));
+          "variance" + suffix_of(controller, step::of_output(i))));
   return model;
 }
 
-void load_memory(const SymbolicModel& model, SymbolicState& state) {
+void load_memory(const Controller& controller, const SymbolicModel& model, SymbolicState& state) {
   const SymbolicState sizes = step::initial_state(model);
-  const auto load_as = [&](const Symbols& like, const char* array, const char* name) {
-    return load(trace::graph(), std::string("self->") + array, name, static_cast<int>(like.size()));
+  const auto load_as = [&](const Symbols& like, const char* array, const char* name, step::Place (*place)(int)) {
+    return load(controller, std::string("self->") + array, name, static_cast<int>(like.size()), place);
   };
-  state.u = load_as(sizes.u, "u_applied", "u_applied");
-  state.widening = load_as(sizes.widening, "widening", "widening");
-  state.innovation = load_as(sizes.innovation, "innovation", "kept");
-  state.r = load_as(sizes.r, "r", "r");
-  state.xi = load_as(sizes.xi, "xi", "integral");
-  state.error = load_as(sizes.error, "error", "error");
-  state.demand = load_as(sizes.demand, "demand", "asked");
+  state.u = load_as(sizes.u, "u_applied", "u_applied", at_input);
+  state.widening = load_as(sizes.widening, "widening", "widening", at_output);
+  state.innovation = load_as(sizes.innovation, "innovation", "last_innovation", at_output);
+  state.r = load_as(sizes.r, "r", "r", at_reference);
+  state.xi = load_as(sizes.xi, "xi", "xi", at_integral);
+  state.error = load_as(sizes.error, "error", "error", at_integral);
+  state.demand = load_as(sizes.demand, "demand", "demand", at_input);
 }
 
-SymbolicState load_state(const SymbolicModel& model, const std::vector<bool>& pattern) {
+SymbolicState load_state(const Controller& controller, const SymbolicModel& model, const std::vector<bool>& pattern) {
   trace::Graph& graph = trace::graph();
   SymbolicState state;
-  state.x = load(graph, model.filter == step::Filter::none ? "x" : "self->x", "x", model.nx);
+  state.x = load(controller, model.filter == step::Filter::none ? "x" : "self->x", "x", model.nx, at_state);
   if (!pattern.empty()) {
     state.P = load_pattern(graph, "self->P", "P", model.nx, model.P0, pattern, 0, place_in_triangle);
     state.U = load_pattern(graph, "self->U", "U", model.nx, model.U0, pattern, 0, place_in_strict_triangle);
     state.D = load_pattern(graph, "self->d", "d", model.nx, model.D0, pattern, model.U0.size(),
                            [](int k) { return std::pair(k, -1); });
   }
-  load_memory(model, state);
+  load_memory(controller, model, state);
   return state;
 }
 

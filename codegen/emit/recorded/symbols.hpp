@@ -16,10 +16,10 @@ SymbolicModel symbolic_model(const Controller& controller);
 SymbolicModel model_of_outputs(const Controller& controller);
 
 // With the entries of the covariance that are in `pattern`; no pattern: without it.
-SymbolicState load_state(const SymbolicModel& model, const std::vector<bool>& pattern);
+SymbolicState load_state(const Controller& controller, const SymbolicModel& model, const std::vector<bool>& pattern);
 
 // All of a state that is neither the estimate nor its covariance.
-void load_memory(const SymbolicModel& model, SymbolicState& state);
+void load_memory(const Controller& controller, const SymbolicModel& model, SymbolicState& state);
 
 void store_state(TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern);
 

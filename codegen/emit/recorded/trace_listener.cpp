@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "emit/recorded/trace_listener.hpp"
 
+#include "emit/text/text.hpp"
+
 namespace lqg::emit {
 
 using trace::Condition;
 
-const char* status_name(step::Event event) {
+std::string status_name(step::Event event) {
+  if (event >= step::Event::first_rejected)
+    return "LQG_OUTPUT_REJECTED_BIT(" +
+           std::to_string(static_cast<int>(event) - static_cast<int>(step::Event::first_rejected)) + ")";
   switch (event) {
-    case step::Event::output_not_finite: return "LQG_OUTPUT_NOT_FINITE";
+    case step::Event::output_rejected: return "LQG_OUTPUT_REJECTED";
     case step::Event::innovation_not_positive: return "LQG_INNOVATION_NOT_POSITIVE";
     case step::Event::input_limited: return "LQG_INPUT_LIMITED";
     case step::Event::output_gated: return "LQG_OUTPUT_GATED";
@@ -17,12 +22,17 @@ const char* status_name(step::Event event) {
   }
 }
 
-void TraceListener::section(const std::string& equation, int output) {
-  if (output < 0) return function_.graph->section(equation, "");
+std::string rejection(int output) {
+  return "(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(" + (output < 0 ? "i" : std::to_string(output)) + "))";
+}
+
+void TraceListener::section(const std::string& equation, int output, const char* supplement) {
+  is_of_output_ = output >= 0;
+  if (output < 0) return function_.graph->section(equation + supplement, "");
   const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
   const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";
-  function_.graph->section("output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation,
-                           "_" + signal.name);
+  function_.graph->section(
+      "output " + std::to_string(output) + ", " + signal.name + unit + ": " + equation + supplement, "_" + signal.name);
 }
 
 void TraceListener::raise(step::Event event, const Condition& condition) {
@@ -30,14 +40,14 @@ void TraceListener::raise(step::Event event, const Condition& condition) {
     function_.statuses.push_back(choice(condition, function_.graph->flag(status_name(event)), flag_ok()));
 }
 
-Condition TraceListener::accept(const Condition& usable, step::Event reason) {
-  return accept_or(usable, function_.graph->flag(status_name(reason)));
+Condition TraceListener::accept(const Condition& usable, int output) {
+  return accept_or(usable, function_.graph->flag(rejection(output)));
 }
 
-Condition TraceListener::accept(const Condition& usable, const Condition& finite, step::Event if_finite,
-                                step::Event if_not) {
-  const int one = function_.graph->flag(status_name(if_finite)), other = function_.graph->flag(status_name(if_not));
-  return accept_or(usable, choice(finite, one, other));
+Condition TraceListener::accept(const Condition& usable, const Condition& believable, int output) {
+  const int one = function_.graph->flag(status_name(step::Event::innovation_not_positive)),
+            other = function_.graph->flag(rejection(output));
+  return accept_or(usable, choice(believable, one, other));
 }
 
 // The status knows: no condition has to wait for the end of the function.
@@ -51,11 +61,11 @@ void TraceListener::gate(const Condition& gated, int) {
   function_.gates.push_back(gated.node);
 }
 
-Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& nu,
+Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& innovation,
                                    const trace::Expr& variance) {
   const std::string call = controller_.problem.name + "_weigh(self, &status, " + std::to_string(output);
   function_.asked.push_back(
-      function_.graph->ask(expected.node, call, nu.node, variance.node, controller_.bounds.innovation(output)));
+      function_.graph->ask(expected.node, call, innovation.node, variance.node, controller_.bounds.innovation(output)));
   return {function_.asked.back()};
 }
 
@@ -75,16 +85,19 @@ Condition TraceListener::accept_or(const Condition& usable, int fault) {
 TracedFunction new_function(const Controller& controller) {
   TracedFunction function;
   function.graph = std::make_shared<trace::Graph>(
-      trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover});
+      trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover},
+      upper(controller.problem.name) + "_");
+  function.graph->reserve(reserved_names(controller));
   return function;
 }
 
 std::string element(const std::string& array, int i) { return array + "[" + std::to_string(i) + "]"; }
 
-Symbols load(trace::Graph& graph, const std::string& array, const std::string& name, int size) {
+Symbols load(const Controller& controller, const std::string& array, const std::string& name, int size,
+             step::Place (*place)(int)) {
   Symbols symbols(size);
   for (int i = 0; i < size; ++i)
-    symbols(i) = trace::Expr::of(graph.input(element(array, i), name + index_suffix(i, -1, size)));
+    symbols(i) = trace::Expr::of(trace::graph().input(element(array, i), name + suffix_of(controller, place(i))));
   return symbols;
 }
 
@@ -92,12 +105,6 @@ void store(TracedFunction& function, const std::string& target, const trace::Exp
   const trace::Node& node = function.graph->nodes()[static_cast<std::size_t>(value.node)];
   if (node.op == trace::Op::input && node.text == target) return;  // as it was
   function.stores.push_back({target, value.node});
-}
-
-std::string index_suffix(int i, int j, int size) {
-  if (i < 0) return "";
-  if (j < 0) return "_" + std::to_string(i);
-  return "_" + std::to_string(i) + (size > 10 ? "_" : "") + std::to_string(j);
 }
 
 }  // namespace lqg::emit

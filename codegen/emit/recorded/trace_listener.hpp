@@ -2,6 +2,8 @@
 // From a step that runs over symbols to a TracedFunction: who listens to it, what it loads and stores.
 #pragma once
 
+#include "emit/recorded/constants.hpp"
+#include "emit/recorded/place_names.hpp"
 #include "emit/recorded/traced.hpp"
 #include "step/model.hpp"
 #include "trace/expr.hpp"
@@ -16,27 +18,37 @@ class TraceListener {
   TraceListener(const Controller& controller, TracedFunction& function)
       : controller_(controller), function_(function) {}
 
-  void section(const std::string& equation, int output = -1);
+  void section(const std::string& equation, int output = -1, const char* supplement = "");
   template <class Value>  // Expr or Condition
-  void name(const Value& value, const char* base, int i = -1, int j = -1) {
-    function_.graph->name(value.node, base + index_suffix(i, j, controller_.size.nx));
+  void name(const Value& value, const char* base, const step::Place& place = {}) {
+    function_.graph->name(value.node, base + suffix(place));
+  }
+  template <class Value>
+  void hint(const Value& value, const char* base, const step::Place& place = {}) {
+    function_.graph->hint(value.node, base + suffix(place));
+  }
+  trace::Expr constant(const trace::Expr& value, step::Quantity quantity, int i = -1) const {
+    return named(controller_, value, quantity, i);
   }
   void raise(step::Event event, const trace::Condition& condition);
   // The fault is decided where it is found and asked for afterwards: one comparison on the way of an honest output.
-  trace::Condition accept(const trace::Condition& usable, step::Event reason);
-  trace::Condition accept(const trace::Condition& usable, const trace::Condition& finite, step::Event if_finite,
-                          step::Event if_not);
+  trace::Condition accept(const trace::Condition& usable, int output);
+  trace::Condition accept(const trace::Condition& usable, const trace::Condition& believable, int output);
   trace::Condition without(step::Event event, const trace::Condition& condition);
   void gate(const trace::Condition& gated, int output);
   // NAME_weigh answers where the innovation is not as expected.
   template <class Variance, class Otherwise>
-  trace::Condition weigh(const trace::Condition& expected, int output, const trace::Expr& nu, Variance variance,
+  trace::Condition weigh(const trace::Condition& expected, int output, const trace::Expr& innovation, Variance variance,
                          Otherwise) {
-    return ask_weigh(expected, output, nu, trace::Expr(variance()));
+    return ask_weigh(expected, output, innovation, trace::Expr(variance()));
   }
 
  private:
-  trace::Condition ask_weigh(const trace::Condition& expected, int output, const trace::Expr& nu,
+  // In the block of an output its name stands behind each value already.
+  std::string suffix(const step::Place& place) const {
+    return place.kind == step::Place::Kind::output && is_of_output_ ? "" : suffix_of(controller_, place);
+  }
+  trace::Condition ask_weigh(const trace::Condition& expected, int output, const trace::Expr& innovation,
                              const trace::Expr& variance);
   int flag_ok() { return function_.graph->flag("LQG_OK"); }
   int choice(const trace::Condition& condition, int yes, int no);
@@ -44,10 +56,14 @@ class TraceListener {
 
   const Controller& controller_;
   TracedFunction& function_;
+  bool is_of_output_ = false;  // the block
 };
 
 // "LQG_STATE_RESET"
-const char* status_name(step::Event event);
+std::string status_name(step::Event event);
+
+// "(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0))", of a negative output that of i.
+std::string rejection(int output);
 
 // With an empty graph for the target's numbers.
 TracedFunction new_function(const Controller& controller);
@@ -55,8 +71,16 @@ TracedFunction new_function(const Controller& controller);
 // "array[i]"
 std::string element(const std::string& array, int i);
 
-// array[0], array[1] … as inputs name_0, name_1 …
-Symbols load(trace::Graph& graph, const std::string& array, const std::string& name, int size);
+inline step::Place at_state(int i) { return step::of_state(i); }
+inline step::Place at_input(int i) { return step::of_input(i); }
+inline step::Place at_output(int i) { return step::of_output(i); }
+inline step::Place at_integral(int i) { return step::of_integral(i); }
+inline step::Place at_reference(int i) { return step::of_reference(i); }
+inline step::Place at_entry(int i) { return step::of_entry(i); }
+
+// array[0], array[1] … as inputs, each with the name of its place.
+Symbols load(const Controller& controller, const std::string& array, const std::string& name, int size,
+             step::Place (*place)(int));
 
 // Nothing where it is what was loaded from there.
 void store(TracedFunction& function, const std::string& target, const trace::Expr& value);

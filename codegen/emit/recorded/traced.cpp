@@ -22,7 +22,7 @@ TracedFunction trace_step(const Controller& controller, const std::vector<bool>&
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
-  State state = load_state(model, pattern);
+  State state = load_state(controller, model, pattern);
   TraceListener listener(controller, function);
   function.finite = step(model, state, listener).node;
   function.checks_covariance = !pattern.empty();
@@ -31,15 +31,15 @@ TracedFunction trace_step(const Controller& controller, const std::vector<bool>&
 }
 
 TracedFunction trace_update(const Controller& controller, const std::vector<bool>& pattern) {
-  return trace_step(controller, pattern, [](const Model& model, State& state, TraceListener& listener) {
-    return step::update(model, state, load(trace::graph(), "y", "y", model.ny), listener);
+  return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
+    return step::update(model, state, load(controller, "y", "y", model.ny, at_output), listener);
   });
 }
 
 // y_OUTPUT
 Expr load_output(const Controller& controller, int output) {
-  return Expr::of(
-      trace::graph().input("y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name, "y"));
+  const std::string parameter = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+  return Expr::of(trace::graph().input(parameter, parameter));
 }
 
 TracedFunction trace_update_alone(const Controller& controller, const std::vector<bool>& pattern, int output) {
@@ -49,8 +49,8 @@ TracedFunction trace_update_alone(const Controller& controller, const std::vecto
 }
 
 TracedFunction trace_predict(const Controller& controller, const std::vector<bool>& pattern) {
-  return trace_step(controller, pattern, [](const Model& model, State& state, TraceListener& listener) {
-    return step::predict(model, state, load(trace::graph(), "u", "u", model.nu), listener);
+  return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
+    return step::predict(model, state, load(controller, "u", "u", model.nu, at_input), listener);
   });
 }
 
@@ -58,7 +58,7 @@ TracedFunction trace_control(const Controller& controller) {
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
-  State state = load_state(model, {});
+  State state = load_state(controller, model, {});
   TraceListener listener(controller, function);
   Symbols u;
   if (controller.has.filter || !controller.has.servo)
@@ -94,6 +94,8 @@ TracedFunction trace_weigh(const Controller& controller) {
   TraceListener listener(controller, function);
   const auto input = [&](const char* text, const char* name) { return Expr::of(function.graph->input(text, name)); };
   step::Weighing<Expr> weighing = step::weighing_of(model, 0);
+  weighing.square = named(controller, weighing.square, step::Quantity::gate_squared);
+  weighing.limit = named(controller, weighing.limit, step::Quantity::innovation_limit);
   const auto of_output = [&](Expr& constant, const Eigen::VectorXd& values, const char* text, const char* name) {
     if (!is_same_for_all(values)) constant = input(text, name);
   };
@@ -101,8 +103,8 @@ TracedFunction trace_weigh(const Controller& controller) {
   of_output(weighing.widen, controller.gate.widen, "widen[i]", "wider");
   of_output(weighing.narrow, controller.gate.narrow, "narrow[i]", "narrower");
   Expr widening = input("self->widening[i]", "widening");
-  const Expr nu = input("nu", "innovation"), variance = input("S", "variance");
-  function.answer = step::weigh_unexpected(weighing, widening, nu, variance, -1, listener).node;
+  const Expr innovation = input("innovation", "innovation"), variance = input("S", "variance");
+  function.answer = step::weigh_unexpected(weighing, widening, innovation, variance, -1, listener).node;
   store(function, "self->widening[i]", widening);
   return function;
 }
@@ -112,10 +114,11 @@ TracedFunction trace_innovation(const Controller& controller) {
   function.is_void = true;
   const trace::Recording recording(*function.graph);
   const Model model = model_of_outputs(controller);
-  const State state = load_state(model, covariance_pattern(controller));
+  const State state = load_state(controller, model, covariance_pattern(controller));
   TraceListener listener(controller, function);
-  const Symbols nu = step::innovations(model, state, load(*function.graph, "y", "y", model.ny), listener);
-  for (int i = 0; i < model.ny; ++i) store(function, element("nu", i), nu(i));
+  const Symbols innovations =
+      step::innovations(model, state, load(controller, "y", "y", model.ny, at_output), listener);
+  for (int i = 0; i < model.ny; ++i) store(function, element("innovation", i), innovations(i));
   if (!controller.has.variance) return function;
   for (int i = 0; i < model.ny; ++i) {
     listener.section("S = C P Cᵀ + V", i);
@@ -129,16 +132,17 @@ TracedFunction trace_set_state(const Controller& controller) {
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   State state;  // without an x̂: it is not read
-  load_memory(model, state);
+  load_memory(controller, model, state);
   TraceListener listener(controller, function);
-  function.finite = step::set_state(model, state, load(*function.graph, "x", "x", model.nx), listener).node;
+  function.finite = step::set_state(model, state, load(controller, "x", "x", model.nx, at_state), listener).node;
   store_state(function, state, {});
   return function;
 }
 
 TracedFunction trace_set_input(const Controller& controller) {
   return trace_step(controller, {}, [&](const Model& model, State& state, TraceListener& listener) {
-    const trace::Condition within = step::set_input(model, state, load(trace::graph(), "u", "u", model.nu), listener);
+    const trace::Condition within =
+        step::set_input(model, state, load(controller, "u", "u", model.nu, at_input), listener);
     if (!controller.has.filter) state.x.resize(0);  // it is only read
     return within;
   });
@@ -149,7 +153,8 @@ TracedFunction trace_covariance(const Controller& controller) {
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
-  const std::vector<Expr> P = step::covariance(model, load_state(model, covariance_pattern(controller)), listener);
+  const std::vector<Expr> P =
+      step::covariance(model, load_state(controller, model, covariance_pattern(controller)), listener);
   for (std::size_t k = 0; k < P.size(); ++k) store(function, element("P", static_cast<int>(k)), P[k]);
   function.is_void = true;
   return function;
@@ -166,9 +171,9 @@ TracedFunction trace_observation(const Controller& controller, int output) {
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
-  State state = load_state(model, {});
+  State state = load_state(controller, model, {});
   TraceListener listener(controller, function);
-  step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "y")), trace::is_less(Expr(0), Expr(1)),
+  step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "heard")), trace::is_less(Expr(0), Expr(1)),
                       output, listener);
   store_state(function, state, {});
   return function;
@@ -179,8 +184,9 @@ TracedFunction trace_lost_outputs(const Controller& controller) {
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
-  for (const trace::Condition& lost : step::lost_outputs(model, load(*function.graph, "nu", "nu", model.ny),
-                                                         load(*function.graph, "there", "y", model.ny), listener))
+  for (const trace::Condition& lost :
+       step::lost_outputs(model, load(controller, "innovation", "innovation", model.ny, at_output),
+                          load(controller, "there", "y", model.ny, at_output), listener))
     function.lost.push_back(lost.node);
   return function;
 }
@@ -192,7 +198,7 @@ TracedController trace_controller(const Controller& controller) {
     traced.update = trace_update(controller, pattern);
     traced.predict = trace_predict(controller, pattern);
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
-      if (can_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
+      if (has_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
   }
   if (controller.has.regulator) traced.control = trace_control(controller);
   return traced;

@@ -37,13 +37,14 @@ struct TracedController {
 
 TracedController trace_controller(const Controller& controller);
 
-// Whether output i is used, of its nu and S. What is not the same for all outputs is limits[i], widen[i] or narrow[i].
+// Whether output i is used, of its innovation and S. What is not the same for all outputs is limits[i], widen[i] or
+// narrow[i].
 TracedFunction trace_weigh(const Controller& controller);
 bool is_same_for_all(const Eigen::VectorXd& values);
 
 // What both styles have as straight-line code: who does not call it does not pay for it.
 
-// nu[] and S[] of y[].
+// innovation[] and S[] of y[].
 TracedFunction trace_innovation(const Controller& controller);
 
 // x̂ of x[], and the input of u[].
@@ -59,13 +60,10 @@ TracedFunction trace_begin_covariance(const Controller& controller);
 // r − y of the integrals of an output, of which y was `heard`; no stores where it has none.
 TracedFunction trace_observation(const Controller& controller, int output);
 
-// Those that an update leaves out, of the innovations nu[] of the outputs as they are, infinite where one is not there.
+// Those that an update leaves out, of the innovation[] of the outputs as they are, infinite where one is not there.
 TracedFunction trace_lost_outputs(const Controller& controller);
 
 // Which entries of P (or of U, then D) are ever different from 0: those of P0, and those that a step makes so.
 std::vector<bool> covariance_pattern(const Controller& controller);
-
-// "_0", "_31", "_3_11": row and column behind the name of a matrix with up to `size` rows.
-std::string index_suffix(int i, int j, int size);
 
 }  // namespace lqg::emit

@@ -45,6 +45,10 @@ std::string poles(const design::Poles& poles) {
   return out;
 }
 
+std::string poles_line(const std::string& matrix, const design::Poles& of) {
+  return "  " + indented(trace::wrap("poles of " + matrix + ": " + poles(of), 0, 96)) + "\n";
+}
+
 }  // namespace
 
 std::string describe_plant(const Controller& controller) {
@@ -61,7 +65,8 @@ std::string describe_plant(const Controller& controller) {
   out += matrix_lines("C", plant.C, is_double);
   if (controller.size.nu) out += matrix_lines("D", plant.D, is_double);
   for (const std::size_t start : controller.stage_starts)
-    if (start > 0) out += "  from sample " + std::to_string(start) + " on another plant, whose numbers stand below\n";
+    if (start > 0)
+      out += "  from sample " + std::to_string(start) + " on another plant, with its numbers in the code\n";
   return out;
 }
 
@@ -92,8 +97,8 @@ std::string integrals(const Controller& controller) {
   std::string outputs;
   for (const int i : controller.integrated)
     outputs += (outputs.empty() ? "" : ", ") + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name;
-  return "  ξ⁺ = ξ + T (r − y) of " + outputs +
-         "; ξ ← ξ + H (u − what the law asked for) with the u that was applied\n" +
+  return "  " + indented(trace::wrap("ξ⁺ = ξ + T (r − y) of " + outputs, 0, 96)) +
+         "\n  anti-windup: ξ ← ξ + H (u − demand), u: what was applied, demand: what the law asked for\n" +
          matrix_lines("H", controller.laws.back()[2], controller.target.is_double);
 }
 
@@ -105,11 +110,11 @@ std::string describe_regulator(const Controller& controller) {
   const bool is_double = controller.target.is_double;
   std::string out = "\nRegulator  u = " + equation_of_law(controller) + ":\n\n";
   if (controller.laws.size() > 1)
-    out += "  K of " + std::to_string(controller.laws.size()) + " samples from init on; the last one is held:\n";
+    out += "  one K for each of the first " + std::to_string(controller.laws.size()) + " samples; from then on:\n";
   out += matrix_lines("K", solution.K, is_double);
   if (controller.laws.back()[1].size()) out += matrix_lines("Nbar", controller.laws.back()[1], is_double);
   out += integrals(controller);
-  out += "  poles of A − B K: " + poles(solution.poles) + "\n";
+  out += poles_line("A − B K", solution.poles);
   return out + limits(controller);
 }
 
@@ -125,20 +130,20 @@ std::string describe_gains(const Controller& controller) {
   const bool has_M = !is_in_one && !controller.solution.online && !is_zero(solution.M);
   if (has_M) out += matrix_lines("M", solution.M, is_double);
   if (predicts) out += matrix_lines("L_predictor", solution.L_predictor, is_double);
-  return out + "  poles of A − L_predictor C: " + poles(solution.poles) + "\n";
+  return out + poles_line("A − L_predictor C", solution.poles);
 }
 
 namespace {
 
 std::string gain_in_words(const Controller& controller) {
   if (controller.solution.online)
-    return "its covariance carried on line as " +
+    return "covariance updated on line as " +
            std::string(controller.filter == step::Filter::ud ? "U diag(d) Uᵀ" : "a lower triangle") +
-           (controller.solution.estimator ? "; in the steady state, of samples:\n" : ":\n");
+           (controller.solution.estimator ? "; covariances per sample, gain in the steady state:\n" : ":\n");
   if (controller.filters.size() > 1)
-    return "with the gains of " + std::to_string(controller.filters.size()) +
-           " samples from init on; the last one is held; of samples:\n";
-  return "with its constant gain; of samples:\n";
+    return "one gain for each of the first " + std::to_string(controller.filters.size()) +
+           " samples, then constant; covariances per sample:\n";
+  return "constant gain; covariances per sample:\n";
 }
 
 template <class Values>
@@ -150,8 +155,11 @@ std::string bounds_line(const std::string& what, const Values& values) {
 
 std::string bounds(const Controller& controller) {
   if (controller.bounds.x.empty()) return "";
-  return bounds_line("x̂ begins anew when it reaches, in size: ", controller::powers_of_two(controller.bounds.x)) +
-         bounds_line("an innovation is not believed from, in size: ", controller.bounds.innovation);
+  return bounds_line("limit of |x̂_i| (reset when exceeded): ", controller::powers_of_two(controller.bounds.x)) +
+         bounds_line("innovation limit: ", controller.bounds.innovation) +
+         (controller.bounds.xi.empty()
+              ? ""
+              : bounds_line("limit of |ξ_i| (reset when exceeded): ", controller::powers_of_two(controller.bounds.xi)));
 }
 
 }  // namespace
@@ -160,8 +168,8 @@ std::string describe_estimator(const Controller& controller) {
   if (!controller.has.filter) return "";
   const bool is_double = controller.target.is_double, is_observer = controller.problem.estimator->poles.has_value();
   std::string out = is_observer ? "\nObserver, " : "\nKalman filter, ";
-  out += controller.is_predictor ? "predictor form (u[k] is made of the outputs up to y[k−1])"
-                                 : "filter form (u[k] is made of the outputs up to y[k])";
+  out += controller.is_predictor ? "predictor form (u[k] depends on the outputs up to y[k−1])"
+                                 : "filter form (u[k] depends on the outputs up to y[k])";
   out += ",\n" + gain_in_words(controller) + "\n";
   if (!controller.solution.estimator || is_observer) return out + describe_gains(controller) + bounds(controller);
   const design::SampledNoise& noise = controller.solution.estimator->noise;
@@ -247,18 +255,18 @@ std::string describe_forms(const Controller& controller) {
   if (!controller.forms) return "";
   const FormChoice& forms = *controller.forms;
   std::string out =
-      "\nForms of the controller, what a sample costs, and the error of u that rounding makes (rms, beside u):\n\n" +
+      "\nForms of the controller: multiply-adds of a sample, and the rounding error of u (rms, relative to u):\n\n" +
       form_cost("physical  ", forms.physical);
   if (forms.folded) out += form_cost("folded    ", *forms.folded);
   if (forms.modal) out += form_cost("modal     ", *forms.modal);
-  return out + "  of these it is the " + controller::name_of(forms.chosen) + " one\n";
+  return out + "  chosen: " + controller::name_of(forms.chosen) + "\n";
 }
 
 std::string describe_linear_form(const Controller& controller) {
   if (!controller.linear) return "";
   const design::LinearForm& form = *controller.linear;
   const bool is_double = controller.target.is_double, predicts = controller.is_predictor;
-  std::string out = "\nThe same as one linear system, equal to it in " +
+  std::string out = "\nThe same controller as one linear system; the two agree to " +
                     std::to_string(static_cast<int>(chosen_form(*controller.forms).agreement)) +
                     " digits:\n\n  z⁺ = A z + B y,  u = C z" + (predicts ? "" : " + D y") + ",  x̂ = X z" +
                     (predicts ? "" : " + L y") + "\n\n";

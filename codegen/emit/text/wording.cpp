@@ -56,11 +56,10 @@ std::string filter_name(step::Filter filter) {
 namespace {
 
 // A counter as the index of a table with so many rows: it may have been damaged, or never begun, and is not taken as it is.
-// Empty without a table.
-std::string row(const std::string& counter, std::size_t rows) {
+// Empty without a table. `last` is the name of the last row in C.
+std::string row(const std::string& counter, std::size_t rows, const std::string& last) {
   if (rows < 2) return "";
-  const std::string last = std::to_string(rows - 1);
-  return "(" + counter + " < " + last + " ? " + counter + " : " + last + ")";
+  return "((" + counter + " < " + last + ") ? " + counter + " : " + last + ")";
 }
 
 }  // namespace
@@ -78,8 +77,8 @@ Words common_words(const Controller& controller) {
           {"nz", std::to_string(controller.size.nz)},
           {"file", controller.source.file},
           {"filter", filter_name(controller.filter)},
-          {"law_row", row("self->sample", controller.laws.size())},
-          {"filter_row", row("self->gain_row", controller.filters.size())}};
+          {"law_row", row("self->sample", controller.laws.size(), upper(name) + "_LAST_LAW_ROW")},
+          {"filter_row", row("self->gain_row", controller.filters.size(), upper(name) + "_LAST_GAIN_ROW")}};
 }
 
 std::string number(const design::Real& value, bool is_double) {
@@ -90,21 +89,47 @@ std::string number(const design::Real& value, bool is_double) {
   return text;
 }
 
-std::string matrix_lines(const std::string& name, const design::RealMatrix& matrix, bool is_double) {
-  std::vector<std::size_t> width(static_cast<std::size_t>(matrix.cols()), 0);
-  for (int j = 0; j < matrix.cols(); ++j)
-    for (int i = 0; i < matrix.rows(); ++i)
-      width[static_cast<std::size_t>(j)] =
-          std::max(width[static_cast<std::size_t>(j)], number(matrix(i, j), is_double).size());
+namespace {
+
+// Columns `from` to `to` of the matrix, under the head "  A = ".
+std::string block_lines(const std::string& name, const std::vector<std::vector<std::string>>& rows,
+                        const std::vector<std::size_t>& widths, std::size_t from, std::size_t to) {
   std::string out;
-  for (int i = 0; i < matrix.rows(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string head = i == 0 ? name + " = " : std::string(letters(name) + 3, ' ');
     out += "  " + head + "[";
-    for (int j = 0; j < matrix.cols(); ++j) {
-      const std::string text = number(matrix(i, j), is_double);
-      out += std::string(width[static_cast<std::size_t>(j)] - text.size() + (j ? 2 : 1), ' ') + text;
-    }
+    for (std::size_t j = from; j < to; ++j)
+      out += std::string(widths[j] - rows[i][j].size() + (j > from ? 2 : 1), ' ') + rows[i][j];
     out += " ]\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string matrix_lines(const std::string& name, const design::RealMatrix& matrix, bool is_double) {
+  constexpr std::size_t widest = 106;  // of a line, in a comment of a file with 120 columns
+  const auto columns = static_cast<std::size_t>(matrix.cols());
+  std::vector<std::size_t> width(columns, 0);
+  std::vector<std::vector<std::string>> rows(static_cast<std::size_t>(matrix.rows()));
+  for (int i = 0; i < matrix.rows(); ++i)
+    for (int j = 0; j < matrix.cols(); ++j) {
+      rows[static_cast<std::size_t>(i)].push_back(number(matrix(i, j), is_double));
+      std::size_t& most = width[static_cast<std::size_t>(j)];
+      most = std::max(most, rows[static_cast<std::size_t>(i)].back().size());
+    }
+  std::size_t total = letters(name) + 8;
+  for (const std::size_t one : width) total += one + 2;
+  std::string out;
+  for (std::size_t from = 0; from < columns;) {
+    const std::size_t label = total <= widest ? letters(name) : letters(name) + 22;  // "A, columns 10 to 19"
+    std::size_t to = from, taken = label + 8;
+    while (to < columns && (to == from || taken + width[to] + 2 <= widest)) taken += width[to++] + 2;
+    const bool is_whole = from == 0 && to == columns;
+    const std::string part =
+        name + (is_whole ? "" : ", columns " + std::to_string(from) + " to " + std::to_string(to - 1));
+    out += block_lines(part, rows, width, from, to);
+    from = to;
   }
   return out;
 }

@@ -86,7 +86,7 @@ std::string predict_case(const Controller& controller) {
 std::string update_alone_case(const Controller& controller) {
   std::string out;
   for (int i = 0; i < controller.size.ny; ++i)
-    if (can_update_alone(controller, i))
+    if (has_update_alone(controller, i))
       out += "            if (turns[k].entry == " + std::to_string(i) + ")\n    " +
              answered("update_" + controller.problem.plant.outputs[static_cast<std::size_t>(i)].name +
                       "(&self, turns[k].number)");
@@ -117,8 +117,8 @@ std::string body_of(const Controller& controller, Call call) {
     case Call::update: return given_outputs() + answered("update(&self, given)");
     case Call::update_alone: return update_alone_case(controller);
     case Call::partial_without:
-      return given_outputs() + answered("partial_update(&self, given, ~(1ul << turns[k].entry))");
-    case Call::partial_alone: return given_outputs() + answered("partial_update(&self, given, 1ul << turns[k].entry)");
+      return given_outputs() + answered("partial_update(&self, given, ~(1uL << turns[k].entry))");
+    case Call::partial_alone: return given_outputs() + answered("partial_update(&self, given, 1uL << turns[k].entry)");
     case Call::control: return control_case(controller);
     case Call::predict: return predict_case(controller);
     case Call::advance: return advance_case(controller);
@@ -156,7 +156,7 @@ std::string state_in_hash(const Controller& controller) {
 std::string told() {
   std::string names;
   for (const step::Event event : told_events) names += std::string(names.empty() ? "" : ", ") + status_name(event);
-  return trace::wrap("    static const lqg_status told[] = {" + names + "};", 8);
+  return trace::wrap("    static const lqg_status_t told[] = {" + names + "};", 8);
 }
 
 }  // namespace
@@ -209,14 +209,14 @@ static uint32_t hash_of_count(uint32_t hash, unsigned long count)
     return hash;
 }
 
-static uint32_t hash_of_status(uint32_t hash, lqg_status status)
+static uint32_t hash_of_status(uint32_t hash, lqg_status_t status)
 {
 {told}
     unsigned long bits = 0;
 
     for (unsigned i = 0; i < sizeof told / sizeof told[0]; i++)
         bits |= status & told[i] ? 1ul << i : 0ul;
-    return hash_of_count(hash, bits);
+    return hash_of_count(hash, bits | (status & LQG_OUTPUT_REJECTED_BITS));
 }
 
 static void test_{name}_answers_every_call_as_the_host_does(void)
@@ -226,7 +226,7 @@ static void test_{name}_answers_every_call_as_the_host_does(void)
 {self}
 {init}    for (int k = 0; k < TURNS; k++) {
         const int row = turns[k].row;
-        lqg_status status = LQG_OK;
+        lqg_status_t status = LQG_OK;
         int count = 0;
 
         switch (turns[k].call) {

@@ -24,7 +24,7 @@ std::string linear_hostile_sample(const Controller& controller) {
                 status |= {name}_advance(&self)" +
          (predicts ? ", y);\n" : ");\n") +
          R"(                if (k % 3 == 1 && what < 3)
-                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
+                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_REJECTED);
                 if (what < 3)
                     TEST_ASSERT_FALSE(status & LQG_STATE_RESET);
                 for (int i = 0; i < {NAME}_NZ; i++)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "emit/text/columns.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/unit_test/calls_test.hpp"
 #include "emit/unit_test/linear_unit_test.hpp"
@@ -43,17 +44,17 @@ std::string data(const Controller& controller, const Vectors& vectors) {
   };
   std::string out;
   if (controller.has.filter) {
-    out += "/* What the sensors say. */\n" +
+    out += "/* Outputs of the plant. */\n" +
            table("y_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
     out += std::string("\n/* What the reference says: the estimate ") +
-           (controller.linear ? "that u is made of" : "after update") + " … */\n" +
+           (controller.linear ? "of which u is made" : "after update") + " … */\n" +
            table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
   } else {
     out +=
         "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
   }
   if (controller.size.nr)
-    out += "\n/* What the outputs should be. */\n" +
+    out += "\n/* References. */\n" +
            table("r_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.r; });
   if (controller.size.nu)
     out +=
@@ -65,9 +66,8 @@ std::string data(const Controller& controller, const Vectors& vectors) {
            std::to_string(samples_per_covariance) + "th sample. */\n" +
            table("P_out", vectors.samples, samples_per_covariance, is_double,
                  [](const Sample& sample) { return sample.P; });
-  out += "\n/* How far from that the controller may be: " + decimal(Tolerances::margin) +
-         " times the error that the host makes when it runs the same samples in " + (is_double ? "double" : "float") +
-         ",\n * which is the precision times the conditioning of this filter. */\n";
+  out += "\n/* Tolerance: " + decimal(Tolerances::margin) + " times the error of the host's run in " +
+         (is_double ? "double" : "float") + ",\n * which is the precision times the conditioning of this filter. */\n";
   if (controller.has.filter) out += tolerances("x_tolerance", vectors.tolerance.x);
   if (controller.has.regulator) out += tolerances("u_tolerance", vectors.tolerance.u);
   if (!vectors.tolerance.P.empty()) out += tolerances("P_tolerance", vectors.tolerance.P);
@@ -158,7 +158,7 @@ std::string bits_test(const Controller& controller) {
   return std::string(
              "\nstatic void test_{name}_has_every_bit_of_the_host(void)\n{\n"
              "    uint32_t hash = 2166136261u;\n") +
-         (counts_limited ? "    lqg_status status;\n    int limited = 0;\n" : "") + begin(controller) +
+         (counts_limited ? "    lqg_status_t status;\n    int limited = 0;\n" : "") + begin(controller) +
          "    for (int k = 0; k < SAMPLES; k++) {\n" +
          sample(controller, hash_of_state(controller), control, counts_limited) +
          "    }\n    TEST_ASSERT_EQUAL_HEX32(HASH, hash);\n" +
@@ -178,7 +178,7 @@ std::string hostile_sample(const Controller& controller) {
       is_told_what_acts(controller) ? "                memcpy(self.u_applied, u_out[k], sizeof self.u_applied);\n" : "";
   const std::string update = R"(                status = {name}_update(&self, y);
                 if (k % 3 == 1 && what < 5)
-                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_NOT_FINITE);
+                    TEST_ASSERT_TRUE(status & LQG_OUTPUT_REJECTED);
 )";
   return (controller.is_predictor ? act + recorded + update : update + act) +
          "                (void){name}_predict(&self" + (controller.size.nu ? ", u_out[k]" : "") + R"();
@@ -208,7 +208,7 @@ static void test_{name}_stays_{stays}_whatever_a_sensor_says(void)
 
             {name}_init(&self);
             for (int k = 0; k < SAMPLES; k++) {
-                lqg_status status;
+                lqg_status_t status;
 
                 memcpy(y, y_in[k], sizeof y);
                 y[bad] = k % 3 == 1 ? hostile[what] : y[bad];
@@ -300,9 +300,10 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["every"] = std::to_string(samples_per_covariance);
   words["samples_at_limits"] = std::to_string(vectors.limited);
   words["limited"] = controller.problem.limits ? " & ~LQG_INPUT_LIMITED" : "";
-  words["gated"] = !controller.has.gate        ? ""
-                   : mixes_outputs(controller) ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_NOT_FINITE)"
-                                               : " & ~LQG_OUTPUT_GATED";
+  words["gated"] = !controller.has.gate ? ""
+                   : mixes_outputs(controller)
+                       ? " & ~(LQG_OUTPUT_GATED | LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)"
+                       : " & ~LQG_OUTPUT_GATED";
   words["huge"] = controller.target.is_double ? "1e308" : "3e38f";
   words["tiny"] = controller.target.is_double ? "5e-324" : "1e-45f";
   words["within"] = "";
@@ -330,9 +331,9 @@ std::string unit_test(const Controller& controller) {
       "#define TURNS {turns}\n#define HASH_OF_TURNS {hash_of_turns}u\n\n" +
       data(controller, vectors) + turns_as_data(controller, vectors.calls) + helpers() + reference_test(controller) +
       bits_test(controller) + calls_test(controller) + fault_test(controller) + main_function(controller);
-  return "/* Test of " + controller.problem.name +
-         ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" + provenance(controller) +
-         " */\n" + fill(text, test_words(controller, vectors));
+  return fit_columns("/* Test of " + controller.problem.name +
+                     ".h, to be run with Unity on the PC, under emulation or on the board.\n *\n" +
+                     provenance(controller) + " */\n" + fill(text, test_words(controller, vectors)));
 }
 
 }  // namespace lqg::emit

@@ -84,7 +84,8 @@ class Script {
     unsigned out = 0;
     for (std::size_t i = 0; i < told_events.size(); ++i)
       out |= (events >> static_cast<unsigned>(told_events[i]) & 1u) << i;
-    return out;
+    const unsigned rejected = (events & step::all_rejections()) >> static_cast<unsigned>(step::Event::first_rejected);
+    return out | rejected << 8;  // where the status has them
   }
   // Beyond the output that is too much for the state come those that nobody believes.
   static bool is_heard(Call call) {
@@ -99,7 +100,7 @@ class Script {
 
   bool can(const Turn& turn) const {
     return has_call(controller_, turn.call) &&
-           (turn.call != Call::update_alone || controller::can_update_alone(controller_, turn.entry));
+           (turn.call != Call::update_alone || controller::has_update_alone(controller_, turn.entry));
   }
   // None of the numbers of the row overflows.
   bool is_finite(const Turn& turn) const {
@@ -389,7 +390,7 @@ bool has_call(const Controller& controller, Call call) {
     case Call::update:
     case Call::predict:
     case Call::write_x: return filter && !linear;
-    case Call::update_alone: return filter && !linear;
+    case Call::update_alone: return filter && !linear && controller.problem.code.updates == design::Updates::each;
     case Call::partial_without:
     case Call::partial_alone:
       return filter && !linear && controller.size.ny > 1 && controller.size.ny < bits_of_long && !controller.has.stages;

@@ -49,10 +49,10 @@ struct Turn {
 // The row that a turn hands over, in the target's numbers.
 std::vector<double> handed_over(const Turn& turn, std::vector<double> row, const controller::Target& target);
 
-// What a status tells, in the order in which the test counts it.
+// What a status tells, in the order in which the test counts it; behind it, which outputs were rejected.
 inline constexpr std::array told_events = {
-    step::Event::output_not_finite, step::Event::output_gated, step::Event::innovation_not_positive,
-    step::Event::input_limited,     step::Event::state_reset,  step::Event::reference_not_finite,
+    step::Event::output_rejected, step::Event::output_gated, step::Event::innovation_not_positive,
+    step::Event::input_limited,   step::Event::state_reset,  step::Event::reference_not_finite,
     step::Event::covariance_reset};
 
 // Whether the header has what the turn calls.

@@ -21,9 +21,10 @@ keywords() {
   sed -nE "$@" "$root"/include/lqg/*.h | sort -u | while read -r name; do printf '%s\t%s\n' "$name" "$class"; done
 }
 {
-  keywords KEYWORD1 -e 's/^typedef .*[ *(](lqg_[a-z_]*_t|lqg_real|lqg_status)(;|\)\(.*)$/\1/p' -e 's/^} (lqg_[a-z_]*_t);$/\1/p'
-  keywords KEYWORD2 -e 's/^#define (lqg_[a-z_]*) LQG_VARIANT.*/\1/p' -e 's/^[a-z].*[ *](lqg_[a-z_]*)\(.*/\1/p'
-  keywords LITERAL1 -e 's/^#define (LQG_[A-Z_]*) [0-9].*/\1/p' -e 's/^    (LQG_[A-Z_]*_FORM).*/\1/p'
+  keywords KEYWORD1 -e 's/^typedef .*[ *(](lqg_[a-z_]*_t|lqg_real)(;|\)\(.*)$/\1/p' -e 's/^} (lqg_[a-z_]*_t);$/\1/p'
+  keywords KEYWORD2 -e 's/^#define (lqg_[a-z_]*) +LQG_VARIANT.*/\1/p' -e 's/^[a-z].*[ *](lqg_[a-z_]*)\(.*/\1/p' \
+    -e 's/^#define (LQG_[A-Z_]*_STATE)\(.*/\1/p'
+  keywords LITERAL1 -e 's/^#define (LQG_[A-Z_]*) +[0-9(].*/\1/p' -e 's/^    (LQG_[A-Z_]*_FORM).*/\1/p'
 } >"$library/keywords.txt"
 
 cp -R "$here/examples" "$library"

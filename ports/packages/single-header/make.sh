@@ -7,8 +7,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 here=$(dirname "${BASH_SOURCE[0]}")
 
 # In the order in which they need each other.
-public=(arithmetic status version kalman lqr ekf rls servo lqg check)
-private=(kernel bounds_check factors plant)
+public=(arithmetic status version kalman lqr loop ekf rls servo lqg check)
+private=(kernel bounds_check factors gate plant)
 
 check_names() {
   local folder=$1 expected

@@ -92,8 +92,8 @@ typedef struct {
 static int has_our_bits(controller_t *loop, const float *y, const answer_t *answer)
 {
     float u[CONTROLLER_NU];
-    lqg_status status = controller_update(loop, y);
-    lqg_status status_of_predict;
+    lqg_status_t status = controller_update(loop, y);
+    lqg_status_t status_of_predict;
 
     status |= controller_control(loop, u);
     status_of_predict = controller_predict(loop, answer->u);

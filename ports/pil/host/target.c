@@ -156,14 +156,14 @@ int target_run_sample(target_t *target, uint16_t sequence, const float y[CONTROL
         return -1;
     answer->round_trip = line_seconds() - before;
     pil_get_32(pil_get_floats(frame.payload, answer->u, CONTROLLER_NU), &status);
-    answer->status = (lqg_status)status;
+    answer->status = (lqg_status_t)status;
 
     if (expect(target, PIL_COST, 3 * 4 + 4 + 2, sequence, &frame) != 0)
         return -1;
     for (int i = 0; i < 3; i++)
         at = pil_get_32(at, &answer->ticks[i]);
     pil_get_16(pil_get_32(at, &status), &answer->crc);
-    answer->status_of_predict = (lqg_status)status;
+    answer->status_of_predict = (lqg_status_t)status;
     return 0;
 }
 

@@ -11,29 +11,29 @@
 static controller_t loop;
 static float y[CONTROLLER_NY], u[CONTROLLER_NU];
 
-typedef lqg_status step_t(void);
+typedef lqg_status_t step_t(void);
 
-static lqg_status update(void)
+static lqg_status_t update(void)
 {
     return controller_update(&loop, y);
 }
 
-static lqg_status control(void)
+static lqg_status_t control(void)
 {
     return controller_control(&loop, u);
 }
 
-static lqg_status predict(void)
+static lqg_status_t predict(void)
 {
     return controller_predict(&loop, u);
 }
 
-static lqg_status do_nothing(void)
+static lqg_status_t do_nothing(void)
 {
     return LQG_OK;
 }
 
-static lqg_status do_nothing_a_thousand_times(void)
+static lqg_status_t do_nothing_a_thousand_times(void)
 {
     __asm__ volatile(".rept 1000\n\t"
                      "nop\n\t"
@@ -44,7 +44,7 @@ static lqg_status do_nothing_a_thousand_times(void)
 static uint32_t ticks_of_frame; /* what measuring takes by itself */
 
 /* Not inlined: what stands between the two readings is the same for every step. */
-__attribute__((noinline)) static uint32_t ticks_of(step_t *step, lqg_status *status)
+__attribute__((noinline)) static uint32_t ticks_of(step_t *step, lqg_status_t *status)
 {
     const uint32_t before = counter_now();
 
@@ -56,7 +56,7 @@ __attribute__((noinline)) static uint32_t ticks_of(step_t *step, lqg_status *sta
 static uint32_t least_ticks_of(step_t *step)
 {
     enum { TIMES = 16 };
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     uint32_t least = counter_mask;
 
     for (int i = 0; i < TIMES; i++) {
@@ -121,7 +121,7 @@ static void start_anew(const pil_frame_t *request)
     send(&frame);
 }
 
-static void send_input(uint16_t sequence, lqg_status status)
+static void send_input(uint16_t sequence, lqg_status_t status)
 {
     pil_frame_t frame = {.type = PIL_INPUT, .length = 4 * CONTROLLER_NU + 4, .sequence = sequence};
 
@@ -129,7 +129,7 @@ static void send_input(uint16_t sequence, lqg_status status)
     send(&frame);
 }
 
-static void send_cost(uint16_t sequence, const uint32_t ticks[3], lqg_status status)
+static void send_cost(uint16_t sequence, const uint32_t ticks[3], lqg_status_t status)
 {
     pil_frame_t frame = {.type = PIL_COST, .length = 3 * 4 + 4 + 2, .sequence = sequence};
     uint8_t *at = frame.payload;
@@ -143,7 +143,7 @@ static void send_cost(uint16_t sequence, const uint32_t ticks[3], lqg_status sta
 /* One sample as firmware runs it: u first, then the prediction. */
 static void run_sample(const pil_frame_t *request)
 {
-    lqg_status status = LQG_OK, status_of_predict = LQG_OK;
+    lqg_status_t status = LQG_OK, status_of_predict = LQG_OK;
     uint32_t ticks[3];
 
     if (request->sequence != next_sample) {

@@ -119,8 +119,8 @@ std::string toml(const DesignText& design) {
            word("form", design.form) + word("covariance", design.covariance);
   if (design.u_min.size() + design.u_max.size())
     out += "[limits]\n" + vector("u_min", design.u_min) + vector("u_max", design.u_max);
-  return out + "[code]\nflash = 1000000\n" + word("real", design.real) + word("arithmetic", design.arithmetic) +
-         word("style", design.style);
+  return out + "[code]\nflash = 1000000\nupdates = \"each\"\n" + word("real", design.real) +
+         word("arithmetic", design.arithmetic) + word("style", design.style);
 }
 
 lqg::emit::Controller controller_of(const std::string& text) {

@@ -76,16 +76,18 @@ class Record {
     for (const S& value : values) add(value);
   }
   void add_status(unsigned events) {
-    const std::pair<Event, lqg_status> bits[] = {{Event::output_not_finite, LQG_OUTPUT_NOT_FINITE},
-                                                 {Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE},
-                                                 {Event::input_limited, LQG_INPUT_LIMITED},
-                                                 {Event::state_reset, LQG_STATE_RESET},
-                                                 {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE},
-                                                 {Event::output_gated, LQG_OUTPUT_GATED},
-                                                 {Event::covariance_reset, LQG_COVARIANCE_RESET}};
-    lqg_status status = LQG_OK;
+    const std::pair<Event, lqg_status_t> bits[] = {{Event::output_rejected, LQG_OUTPUT_REJECTED},
+                                                   {Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE},
+                                                   {Event::input_limited, LQG_INPUT_LIMITED},
+                                                   {Event::state_reset, LQG_STATE_RESET},
+                                                   {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE},
+                                                   {Event::output_gated, LQG_OUTPUT_GATED},
+                                                   {Event::covariance_reset, LQG_COVARIANCE_RESET}};
+    lqg_status_t status = LQG_OK;
     for (const auto& [event, bit] : bits)
       if (events >> static_cast<unsigned>(event) & 1) status |= bit;
+    for (int i = 0; i < lqg::step::told_rejections; ++i)
+      if (events >> static_cast<unsigned>(lqg::step::rejection_of(i)) & 1) status |= LQG_OUTPUT_REJECTED_BIT(i);
     text_ += std::to_string(status) + " ";
   }
   const std::string& text() const { return text_; }
@@ -160,10 +162,8 @@ class Host {
     lqg::step::Listener listener;
     const Vector<S> nu = lqg::step::innovations(outputs, emitted_.state(), there, listener);
     const auto lost = lqg::step::lost_outputs(emitted_.model(), nu, there, listener);
-    for (int i = 0; i < there.size(); ++i)
-      listener.raise(Event::output_not_finite, (used >> i & 1) && lost[static_cast<std::size_t>(i)]);
-    const unsigned not_finite = 1u << static_cast<unsigned>(Event::output_not_finite);
-    return listener.events | (emitted_.update(there) & ~not_finite);
+    for (int i = 0; i < there.size(); ++i) listener.reject(i, (used >> i & 1) && lost[static_cast<std::size_t>(i)]);
+    return listener.events | (emitted_.update(there) & ~lqg::step::all_rejections());
   }
   void add_state() {
     const auto& state = emitted_.state();
@@ -245,7 +245,7 @@ static void show(const real v[], unsigned long count)
 }
 #define SHOW(v) show(v, sizeof v / sizeof *v)
 
-static void show_status(lqg_status status)
+static void show_status(lqg_status_t status)
 {
     printf("%u ", status);
 }

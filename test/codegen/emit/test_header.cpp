@@ -5,6 +5,7 @@
 
 #include <unity.h>
 
+#include "emit/text/columns.hpp"
 #include "emit/text/wording.hpp"
 #include "design_text.hpp"
 #include "emit/c/header.hpp"
@@ -85,6 +86,9 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
                                       "Made by lqgen " + lqg::emit::version() + " from loop.toml",
                                       controller.source.sha256,
                                       "under any licence",
+                                      "What is called when:",
+                                      "loop_init(&loop)",
+                                      "loop_step(&loop, y, u)",
                                       "Plant, sampled every 0.1 s",
                                       "states   x[0] position [m], x[1] speed [m/s]",
                                       "inputs   u[0] force [N]",
@@ -110,7 +114,7 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
                                       "#include \"lqg/",
                                       "#if LQG_HEADER_FORMAT != ",
                                       "#error",
-                                      "run the lqgen",
+                                      "regenerate it with the library's lqgen",
                                       "#endif",
                                       "#define LOOP_NX 2",
                                       "#define LOOP_NU 1",
@@ -131,9 +135,10 @@ void test_header_has_its_parts_in_the_order_of_the_contract() {
 // The comment above a function says its equation, its arguments and its status.
 void test_every_function_carries_its_contract() {
   const std::string text = lqg::emit::header(controller_in(Style::unrolled));
-  expect_order(text, {"/* x̂ = x0", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1],
-                      "/* u = −K x̂", "u  out:", "Status:", functions[2], "/* x̂ ← A x̂ + B u",
-                      "u  in:", "Status:", functions[3], "/* One sample: update, control and predict", functions[4]});
+  expect_order(text,
+               {"/* Initial state: x̂", functions[0], "/* x̂ ← x̂ + L (y − C x̂)", "y  in:", "Status:", functions[1],
+                "/* u = −K x̂", "u  out:", "Status:", functions[2], "/* From this sample to the next:  x̂ ← A x̂ + B u",
+                "u  in:", "Status:", functions[3], "/* One sample: update, control, predict", functions[4]});
 }
 
 void test_step_makes_its_calls_in_the_order_of_the_form() {
@@ -171,7 +176,7 @@ void test_predictor_form_prints_the_gain_that_its_code_uses() {
     expect_order(text, {"  L_predictor = [ 0.9 ]\n", "[ 2.0 ]\n", "poles of A − L_predictor C: 0.6, 0.5"});
     TEST_ASSERT_TRUE(text.find(" L = [") == std::string::npos);
   }
-  expect_order(lqg::emit::header(observer), {"+ 0.9f * kept_0;", "+ 2.0f * kept_0;"});
+  expect_order(lqg::emit::header(observer), {"+ (0.9f * last_innovation_y0);", "+ (2.0f * last_innovation_y0);"});
   const std::string noise = "process_noise = [0.01, 0.01]\nmeasurement_noise = [0.01]\n";
   const std::string filter = lqg::emit::header(controller_of(plant + "[kalman]\nform = \"predictor\"\n" + noise));
   expect_order(filter, {" L = [", " L_predictor = [", "poles of A − L_predictor C"});
@@ -191,16 +196,95 @@ void test_the_gain_in_the_comment_is_that_of_the_design() {
   }
 }
 
-void test_lines_are_not_much_longer_than_a_screen_is_wide() {
-  constexpr std::size_t longest = 160;  // bytes; the width of a comment is not wrapped
+void expect_lines_to_fit(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    const std::string line = text.substr(at, end - at);
+    TEST_ASSERT_TRUE_MESSAGE(lqg::emit::columns(line) <= 120, line.c_str());
+    at = end + 1;
+  }
+}
+
+// Names of 31 characters, the longest there are, with units; seven states fill more than a line of a matrix.
+DesignText with_longest_names() {
+  DesignText design = double_integrators(4);
+  const auto names = [](int count, const std::string& unit) {
+    std::string out;
+    for (int i = 0; i < count; ++i)
+      out += std::string(i ? ", " : "[") + "\"a_signal_with_a_name_as_long_a" + std::to_string(i) + " [" + unit + "]\"";
+    return out + "]";
+  };
+  design.name = "a_design_with_a_name_as_long_as";
+  design.states = names(8, "rad/s"), design.inputs = names(4, "N m"), design.outputs = names(4, "m/s^2");
+  design.u_min = Eigen::VectorXd::Constant(4, -0.3), design.u_max = Eigen::VectorXd::Constant(4, 0.7);
+  return design;
+}
+
+void test_lines_fit_120_columns_whatever_the_names() {
+  for (const Style style : {Style::unrolled, Style::compact})
+    for (const char* gain : {"steady", "online"})
+      for (const char* real : {"float", "double"}) {
+        DesignText design = with_longest_names();
+        design.gain = gain, design.real = real;
+        const Controller controller = controller_in(style, design);
+        expect_lines_to_fit(lqg::emit::header(controller));
+        expect_lines_to_fit(lqg::emit::unit_test(controller));
+      }
+}
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t from = text.find(begin);
+  return text.substr(from, text.find(end, from) - from);
+}
+
+void test_limits_and_bounds_are_constants_with_their_origin() {
   for (const Style style : {Style::unrolled, Style::compact}) {
-    DesignText design = double_integrators(3);
-    design.gain = "online";
+    DesignText design = double_integrator();
+    design.inputs = "[\"force [N]\"]";
+    design.u_min = Eigen::VectorXd::Constant(1, -0.3), design.u_max = Eigen::VectorXd::Constant(1, 7);
     const std::string text = lqg::emit::header(controller_in(style, design));
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = text.find('\n', at);
-      TEST_ASSERT_TRUE_MESSAGE(end - at <= longest, text.substr(at, end - at).c_str());
-      at = end + 1;
+    TEST_ASSERT_TRUE(text.find("(-0.3f) ") != std::string::npos || text.find("(-0.29999998f) ") != std::string::npos);
+    TEST_ASSERT_TRUE(text.find("/* N, limits.u_min = -0.3, rounded inwards */") != std::string::npos);
+    TEST_ASSERT_TRUE(text.find("/* N, limits.u_max = 7.0 */") != std::string::npos);
+    const std::string code = text.substr(text.find("LQG_STRICT_BEGIN"));
+    for (const char* number : {"0.3f", "0.29999998f", "7.0f", "e+", "000.0f"})
+      TEST_ASSERT_TRUE_MESSAGE(code.find(number) == std::string::npos, number);
+  }
+}
+
+// A flipped bit of one would be undefined behaviour.
+void test_the_state_has_no_bool_and_no_enumeration() {
+  Random random(13);
+  for (int k = 0; k < 12; ++k) {
+    const std::string state =
+        between(lqg::emit::header(controller_of(random_design(random, 2))), "typedef struct {", "}");
+    for (const char* type : {"bool", "enum", "lqg_status_t"}) TEST_ASSERT_TRUE(state.find(type) == std::string::npos);
+  }
+}
+
+void test_a_contract_promises_limits_only_where_there_are_some() {
+  DesignText design = double_integrator();
+  design.u_min.resize(0), design.u_max.resize(0);
+  const std::string free = lqg::emit::header(controller_of(design));
+  TEST_ASSERT_TRUE(free.find("within the limits") == std::string::npos);
+  TEST_ASSERT_TRUE(free.find("LQG_INPUT_LIMITED (not finite and set to 0)") != std::string::npos);
+  design.u_max = Eigen::VectorXd::Constant(1, 7);
+  TEST_ASSERT_TRUE(lqg::emit::header(controller_of(design)).find("always finite and within the limits") !=
+                   std::string::npos);
+}
+
+// The table of contents names each function that firmware may call, and no other.
+void test_the_table_of_contents_names_each_function() {
+  Random random(14);
+  for (int k = 0; k < 12; ++k) {
+    const std::string text = lqg::emit::header(controller_of(random_design(random, random.between(1, 3))));
+    const std::string contents = between(text, "What is called when", " * Plant");
+    for (std::size_t at = text.find("\nstatic inline "); at != std::string::npos;
+         at = text.find("\nstatic inline ", at + 1)) {
+      const std::string line = text.substr(at, text.find('(', at) - at);
+      const std::string name = line.substr(line.rfind(' ') + 1);
+      if (name == "loop_kalman") continue;  // the description of a stage, for the library's calls
+      TEST_ASSERT_TRUE_MESSAGE(contents.find(name + "(") != std::string::npos, name.c_str());
     }
   }
 }
@@ -262,8 +346,8 @@ void test_header_of_another_format_is_refused_with_what_to_do() {
     const Controller controller = controller_in(style);
     TEST_ASSERT_TRUE(compile(controller, "").succeeded);
     expect_refusal(compile(controller, "", include),
-                   "loop.h was made by lqgen " + lqg::emit::version() +
-                       ", which this TinyLQG does not know: run the lqgen of this TinyLQG on loop.toml again.");
+                   "This file needs header format " + lqg::emit::header_format() +
+                       ", the library has another one: regenerate it with the library's lqgen.");
   }
 }
 
@@ -276,14 +360,14 @@ void test_fast_math_is_refused() {
 void test_compact_refuses_the_options_of_another_library() {
   DesignText design = double_integrator();
   expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_REAL_DOUBLE"),
-                 "loop.h computes in float: do not define LQG_REAL_DOUBLE");
+                 "This file computes in float: do not define LQG_REAL_DOUBLE");
   expect_refusal(compile(controller_in(Style::compact, design), "-DLQG_FUSED"),
-                 "loop.h uses plain arithmetic: do not define LQG_FUSED");
+                 "This file uses plain arithmetic: do not define LQG_FUSED");
   design.real = "double", design.arithmetic = "fused";
   const Controller controller = controller_in(Style::compact, design);
   TEST_ASSERT_TRUE(compile(controller, "").succeeded);
-  expect_refusal(compile(controller, "-ULQG_REAL_DOUBLE"), "loop.h computes in double: define LQG_REAL_DOUBLE");
-  expect_refusal(compile(controller, "-ULQG_FUSED"), "loop.h uses fused multiply-adds: define LQG_FUSED");
+  expect_refusal(compile(controller, "-ULQG_REAL_DOUBLE"), "This file computes in double: define LQG_REAL_DOUBLE");
+  expect_refusal(compile(controller, "-ULQG_FUSED"), "This file uses fused multiply-adds: define LQG_FUSED");
 }
 
 void test_unrolled_does_not_care_about_the_options_of_the_library() {
@@ -353,7 +437,11 @@ int main() {
   RUN_TEST(test_what_a_controller_does_not_have_is_not_written);
   RUN_TEST(test_predictor_form_prints_the_gain_that_its_code_uses);
   RUN_TEST(test_the_gain_in_the_comment_is_that_of_the_design);
-  RUN_TEST(test_lines_are_not_much_longer_than_a_screen_is_wide);
+  RUN_TEST(test_lines_fit_120_columns_whatever_the_names);
+  RUN_TEST(test_limits_and_bounds_are_constants_with_their_origin);
+  RUN_TEST(test_the_state_has_no_bool_and_no_enumeration);
+  RUN_TEST(test_a_contract_promises_limits_only_where_there_are_some);
+  RUN_TEST(test_the_table_of_contents_names_each_function);
   RUN_TEST(test_the_same_design_gives_the_same_bytes_in_any_locale);
   RUN_TEST(test_header_of_another_format_is_refused_with_what_to_do);
   RUN_TEST(test_fast_math_is_refused);

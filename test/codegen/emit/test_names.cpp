@@ -144,6 +144,12 @@ void test_a_state_is_not_called_bounds_whatever_its_capitals() {
   TEST_ASSERT_FALSE(is_refused({{"input", "bounds"}, {"output", "bounds"}}));
 }
 
+void test_an_input_or_output_is_not_called_like_a_limit_of_another_one() {
+  for (const char* name : {"min_rate", "MAX_RATE", "Step_rate"}) TEST_ASSERT_TRUE(is_refused({{"output", name}}));
+  for (const char* name : {"min_y", "max_force", "minimum_rate"}) TEST_ASSERT_FALSE(is_refused({{"output", name}}));
+  TEST_ASSERT_FALSE(is_refused({{"state", "min_speed"}}));
+}
+
 void test_a_state_of_the_name_of_a_delayed_input_stays_apart_from_it() {
   for (const char* name : {"force_delayed_1", "FORCE_DELAYED_1", "Force_delayed_2", "force_delayed_1_samples"})
     expect_no_doubles(header_of({{"state", name}, {"delay", "delay = 0.2"}}), name);
@@ -206,6 +212,71 @@ void test_a_short_name_compiles_as_c_and_cxx() {
     }
 }
 
+// Inside of the functions.
+
+// In the styles and forms that differ in what their functions call.
+const std::vector<Values> bodies = {
+    {{"filter", "gain = \"online\""}, {"more", limits}},
+    {{"filter", "gain = \"online\"\ncovariance = \"plain\""}, {"law", "integral = { outputs = [0], Q = [1] }"}},
+    {{"code", "realisation = \"modal\""}, {"filter", "form = \"predictor\""}}};
+
+// Behind all headers of C, whose macros and types have been defined.
+void expect_to_compile(const Values& names, const std::filesystem::path& folder) {
+  for (Values values : bodies) {
+    values.insert(names.begin(), names.end());
+    const std::string name = values.count("name") ? values.at("name") : "loop";
+    write(folder / (name + ".h"), header_of(values));
+    write(folder / "alone.c",
+          "#include <sys/types.h>\n#include <errno.h>\n#include <math.h>\n#include <complex.h>\n#include <limits.h>\n"
+          "#include <float.h>\n#include <signal.h>\n#include <sys/wait.h>\n#include <sys/stat.h>\n#include \"" +
+              name + ".h\"\n");
+    for (const std::string& compiler : {as_c, as_cxx}) {
+      const Outcome outcome =
+          run(compiler + " -D_GNU_SOURCE -fsyntax-only -I" LQG_INCLUDE_FOLDER " " + (folder / "alone.c").string());
+      TEST_ASSERT_TRUE_MESSAGE(outcome.succeeded, outcome.output.substr(0, 2000).c_str());
+    }
+  }
+}
+
+// x of speed_rate, and x of speed behind the update by the output rate.
+void test_two_states_of_one_identifier_are_told_apart() {
+  const Values names = {{"state", "speed_rate"}};
+  expect_to_compile(names, empty_folder("one_identifier"));
+  Values values = names;
+  values["filter"] = "gain = \"online\"";
+  const std::string header = header_of(values);
+  for (const char* declared : {"const float x_speed_rate = self->x[0];", "const float x_speed_rate_2 = "})
+    TEST_ASSERT_TRUE_MESSAGE(header.find(declared) != std::string::npos, declared);
+}
+
+void test_signals_may_be_called_as_keywords_macros_types_and_values() {
+  const std::filesystem::path folder = empty_folder("words");
+  expect_to_compile({{"state", "int"}, {"input", "class"}, {"output", "NAN"}}, folder);
+  expect_to_compile({{"state", "I"}, {"input", "errno"}, {"output", "char"}}, folder);
+  expect_to_compile({{"state", "part"}, {"input", "int"}, {"output", "r"}}, folder);  // u_int is a type
+}
+
+void test_a_value_never_gets_the_name_of_a_function_of_the_design() {
+  const std::filesystem::path folder = empty_folder("functions");
+  for (const char* name : {"reset", "update_rate", "hear"}) expect_to_compile({{"name", "x"}, {"state", name}}, folder);
+  expect_to_compile({{"name", "law"}, {"input", "t"}}, folder);
+}
+
+// Of the longest names that a design may have.
+void test_no_line_of_a_body_is_too_long_whatever_the_names() {
+  const auto longest = [](char c) { return std::string(31, c); };
+  for (Values values : bodies) {
+    values.insert({{"state", longest('s')}, {"input", longest('i')}, {"output", longest('o')}, {"name", longest('n')}});
+    bool is_inside = false;
+    std::istringstream lines(header_of(values));
+    for (std::string line; std::getline(lines, line);) {
+      if (line == "{" || line == "}") is_inside = line == "{";
+      if (is_inside && line.find("    const float ") == 0)
+        TEST_ASSERT_LESS_OR_EQUAL_INT_MESSAGE(120, static_cast<int>(line.size()), line.c_str());
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" {
@@ -218,10 +289,15 @@ int main() {
   RUN_TEST(test_no_two_things_of_a_header_have_one_name);
   RUN_TEST(test_a_signal_never_gets_the_name_of_something_else);
   RUN_TEST(test_a_state_is_not_called_bounds_whatever_its_capitals);
+  RUN_TEST(test_an_input_or_output_is_not_called_like_a_limit_of_another_one);
   RUN_TEST(test_a_state_of_the_name_of_a_delayed_input_stays_apart_from_it);
   RUN_TEST(test_no_design_is_called_as_a_header_of_c_posix_or_unity);
   RUN_TEST(test_no_design_has_the_type_of_a_standard_header);
   RUN_TEST(test_ordinary_names_are_free);
   RUN_TEST(test_a_short_name_compiles_as_c_and_cxx);
+  RUN_TEST(test_two_states_of_one_identifier_are_told_apart);
+  RUN_TEST(test_signals_may_be_called_as_keywords_macros_types_and_values);
+  RUN_TEST(test_a_value_never_gets_the_name_of_a_function_of_the_design);
+  RUN_TEST(test_no_line_of_a_body_is_too_long_whatever_the_names);
   return UNITY_END();
 }

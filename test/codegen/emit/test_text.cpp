@@ -7,7 +7,7 @@
 
 #include "controller/model_of.hpp"
 #include "design/numeric/digits.hpp"
-#include "emit/recorded/traced.hpp"
+#include "emit/recorded/place_names.hpp"
 #include "emit/text/wording.hpp"
 
 using namespace lqg::emit;

@@ -171,13 +171,13 @@ void test_a_partial_update_reports_the_outputs_that_are_used_only() {
     for (int k = 0; k < 3; k++) {
         y[0] = absurd[k];
         y[1] = 0.1f;
-        printf("%u", loop_partial_update(&self, y, 1ul << LOOP_Y_Y0));
-        printf("%u", loop_partial_update(&self, y, 1ul << LOOP_Y_Y1));
+        printf("%u,", loop_partial_update(&self, y, 1ul << LOOP_Y_Y0));
+        printf("%u,", loop_partial_update(&self, y, 1ul << LOOP_Y_Y1));
         printf("%u ", loop_partial_update(&self, y, 3));
     }
     printf("%d", self.x[0] == 0);
 )");
-    TEST_ASSERT_EQUAL_STRING("101 101 101 1", printed.c_str());
+    TEST_ASSERT_EQUAL_STRING("257,0,257 257,0,257 257,0,257 1", printed.c_str());  // 257: output 0
   }
 }
 
@@ -188,6 +188,15 @@ void test_an_output_that_needs_another_has_no_update_of_its_own() {
   const std::string header = lqg::emit::header(changed(design, [](Problem&, Solution&) {}));
   TEST_ASSERT_TRUE(header.find("loop_update_y0(") != std::string::npos);
   TEST_ASSERT_TRUE(header.find("loop_update_y1(") == std::string::npos);
+}
+
+void test_updates_by_one_output_are_there_only_where_the_design_asks_for_them() {
+  for (const lqg::design::Updates updates : {lqg::design::Updates::all, lqg::design::Updates::each}) {
+    const std::string header = lqg::emit::header(
+        changed(design_of(kinds[0]), [&](Problem& problem, Solution&) { problem.code.updates = updates; }));
+    TEST_ASSERT_EQUAL(updates == lqg::design::Updates::each, header.find("loop_update_y0(") != std::string::npos);
+    TEST_ASSERT_TRUE(header.find("loop_partial_update(") != std::string::npos);
+  }
 }
 
 // y1 is made independent by y0: without it nothing is heard of y1, which is said.
@@ -203,7 +212,7 @@ void test_a_partial_update_says_when_an_output_lacks_its_company() {
     status = loop_partial_update(&other, y, 3);
     printf("%u", status);
 )");
-  TEST_ASSERT_EQUAL_STRING("1 1 0 0", printed.c_str());
+  TEST_ASSERT_EQUAL_STRING("513 1 0 0", printed.c_str());  // 513: output 1
 }
 
 // P0 = I: S of the position is 1 + V, whatever makes the outputs uncorrelated.
@@ -235,6 +244,7 @@ int main() {
   RUN_TEST(test_the_gate_is_where_the_variance_says);
   RUN_TEST(test_updates_by_one_output_each_are_the_update_by_all);
   RUN_TEST(test_an_output_that_needs_another_has_no_update_of_its_own);
+  RUN_TEST(test_updates_by_one_output_are_there_only_where_the_design_asks_for_them);
   RUN_TEST(test_a_partial_update_is_the_update_by_those_that_are_used);
   RUN_TEST(test_a_partial_update_reports_the_outputs_that_are_used_only);
   RUN_TEST(test_a_partial_update_says_when_an_output_lacks_its_company);

@@ -260,7 +260,7 @@ void test_missing_output_is_told_and_left_out() {
     if (k == 100) y(0) = std::nan("");
   };
   const Trajectory run = simulate(problem, found, options);
-  for (int k = 0; k < 200; ++k) TEST_ASSERT_TRUE(run.has(k, lqg::step::Event::output_not_finite) == (k == 100));
+  for (int k = 0; k < 200; ++k) TEST_ASSERT_TRUE(run.has(k, lqg::step::Event::output_rejected) == (k == 100));
   TEST_ASSERT_TRUE(run.x.allFinite() && run.u.allFinite() && run.resets == 0);
 }
 

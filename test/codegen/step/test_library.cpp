@@ -35,16 +35,16 @@ bool is_identity(const Matrix<S>& matrix) {
 struct Description {
   explicit Description(const Model<S>& model);
 
-  Numbers A, B, C, D, L, M, E, V, A_free, W, G, w, x0, P0, U0, d0, K, u_min, u_max, x_scale, limit;
-  lqg_lqg_steady_t steady;
-  lqg_lqg_plain_t plain;
-  lqg_lqg_ud_t ud;
+  Numbers A, B, C, D, L, M, E, V, A_free, W, G, variances, x0, P0, U0, d0, K, u_min, u_max, x_scale, limit;
+  lqg_loop_steady_t steady;
+  lqg_loop_plain_t plain;
+  lqg_loop_ud_t ud;
 };
 
 Description::Description(const Model<S>& model)
     : A(row_major(model.A)), B(row_major(model.B)), C(row_major(model.C)), D(row_major(model.D)), L(row_major(model.L)),
       M(row_major(model.M)), E(row_major(model.E)), V(row_major(model.V)), A_free(row_major(model.A_free)),
-      G(row_major(model.G)), w(row_major(model.w)), x0(row_major(model.x0)), P0(in_order(model.P0)),
+      G(row_major(model.G)), variances(row_major(model.w)), x0(row_major(model.x0)), P0(in_order(model.P0)),
       U0(in_order(model.U0)), d0(in_order(model.D0)), K(row_major(model.K)), u_min(row_major(model.u_min)),
       u_max(row_major(model.u_max)), limit(row_major(model.nu_limit)) {
   for (const int bound : model.x_bound) x_scale.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
@@ -57,13 +57,14 @@ Description::Description(const Model<S>& model)
   const lqg_plant_t plant = {nx, nu, ny, pointer(A), pointer(B), pointer(C), pointer(D)};
   const lqg_lqr_t lqr = {nx, nu, pointer(K), pointer(u_min), pointer(u_max)};
   const lqg_form_t form = model.predictor_form ? LQG_PREDICTOR_FORM : LQG_FILTER_FORM;
-  steady = {{plant, pointer(L), pointer(M), pointer(x0), pointer(x_scale), pointer(limit)}, lqr, form};
+  steady = {
+      {plant, pointer(L), pointer(M), pointer(x0), pointer(x_scale), pointer(limit), nullptr, nullptr}, lqr, form};
   plain = {{plant, pointer(E), pointer(V), pointer(W), pointer(M), free, pointer(x0), pointer(P0), pointer(x_scale),
-            pointer(limit)},
+            pointer(limit), nullptr},
            lqr,
            form};
-  ud = {{plant, pointer(E), pointer(V), static_cast<unsigned>(model.G.cols()), pointer(G), pointer(w), pointer(M), free,
-         pointer(x0), pointer(U0), pointer(d0), pointer(x_scale), pointer(limit)},
+  ud = {{plant, pointer(E), pointer(V), static_cast<unsigned>(model.G.cols()), pointer(G), pointer(variances),
+         pointer(M), free, pointer(x0), pointer(U0), pointer(d0), pointer(x_scale), pointer(limit), nullptr},
         lqr,
         form};
 }
@@ -77,45 +78,39 @@ class Library {
         innovation_(model.M.cols() ? size(model.ny) : 0),
         work_(LQG_KALMAN_UD_WORK(size(model.nx), size(model.ny), size(static_cast<int>(model.G.cols())))) {
     switch (filter_) {
-      case Filter::plain: lqg_kalman_plain_init(&description_.plain.kalman, x(), P(), u(), innovation()); break;
-      case Filter::ud: lqg_kalman_ud_init(&description_.ud.kalman, x(), U(), d(), u(), innovation()); break;
-      default: lqg_kalman_steady_init(&description_.steady.kalman, x(), u(), innovation());
+      case Filter::plain: lqg_kalman_plain_init(&description_.plain.kalman, &plain_); break;
+      case Filter::ud: lqg_kalman_ud_init(&description_.ud.kalman, &ud_); break;
+      default: lqg_kalman_steady_init(&description_.steady.kalman, &steady_);
     }
   }
-  lqg_status update(const Numbers& y) {
+  Library(const Library&) = delete;  // the states point into it
+  lqg_status_t update(const Numbers& y) {
     switch (filter_) {
-      case Filter::plain:
-        return lqg_kalman_plain_update(&description_.plain.kalman, x(), P(), u(), innovation(), y.data(), work());
-      case Filter::ud:
-        return lqg_kalman_ud_update(&description_.ud.kalman, x(), U(), d(), u(), innovation(), y.data(), work());
-      default: return lqg_kalman_steady_update(&description_.steady.kalman, x(), u(), innovation(), y.data(), work());
+      case Filter::plain: return lqg_kalman_plain_update(&description_.plain.kalman, &plain_, y.data());
+      case Filter::ud: return lqg_kalman_ud_update(&description_.ud.kalman, &ud_, y.data());
+      default: return lqg_kalman_steady_update(&description_.steady.kalman, &steady_, y.data());
     }
   }
-  lqg_status predict(const Numbers& applied) {
+  lqg_status_t predict(const Numbers& applied) {
     switch (filter_) {
-      case Filter::plain:
-        return lqg_kalman_plain_predict(&description_.plain.kalman, x(), P(), u(), innovation(), pointer(applied),
-                                        work());
-      case Filter::ud:
-        return lqg_kalman_ud_predict(&description_.ud.kalman, x(), U(), d(), u(), innovation(), pointer(applied),
-                                     work());
-      default:
-        return lqg_kalman_steady_predict(&description_.steady.kalman, x(), u(), innovation(), pointer(applied), work());
+      case Filter::plain: return lqg_kalman_plain_predict(&description_.plain.kalman, &plain_, pointer(applied));
+      case Filter::ud: return lqg_kalman_ud_predict(&description_.ud.kalman, &ud_, pointer(applied));
+      default: return lqg_kalman_steady_predict(&description_.steady.kalman, &steady_, pointer(applied));
     }
   }
-  lqg_status control(Numbers& applied) {
-    const lqg_status status = lqg_lqr_control(&description_.steady.lqr, x(), applied.data());
+  lqg_status_t control(Numbers& applied) {
+    const lqg_status_t status = lqg_lqr_control(&description_.steady.lqr, x_.data(), applied.data());
     if (!u_.empty()) u_ = applied;
     return status;
   }
-  lqg_status step(const Numbers& y, Numbers& applied) {
+  lqg_status_t step(const Numbers& y, Numbers& applied) {
+    lqg_loop_steady_state_t steady = {steady_, applied.data()};
+    lqg_loop_plain_state_t plain = {plain_, applied.data()};
+    lqg_loop_ud_state_t ud = {ud_, applied.data()};
     switch (filter_) {
-      case Filter::plain:
-        return lqg_lqg_plain_step(&description_.plain, x(), P(), u(), innovation(), y.data(), applied.data(), work());
-      case Filter::ud:
-        return lqg_lqg_ud_step(&description_.ud, x(), U(), d(), u(), innovation(), y.data(), applied.data(), work());
-      default:
-        return lqg_lqg_steady_step(&description_.steady, x(), u(), innovation(), y.data(), applied.data(), work());
+      case Filter::plain: return lqg_loop_plain_step(&description_.plain, &plain, y.data());
+      case Filter::ud: return lqg_loop_ud_step(&description_.ud, &ud, y.data());
+      default: return lqg_loop_steady_step(&description_.steady, &steady, y.data());
     }
   }
   // In the order of numbers(State).
@@ -127,24 +122,24 @@ class Library {
 
  private:
   static std::size_t size(int count) { return static_cast<std::size_t>(count); }
-  lqg_real* x() { return pointer(x_); }
-  lqg_real* P() { return pointer(P_); }
-  lqg_real* U() { return pointer(U_); }
-  lqg_real* d() { return pointer(d_); }
-  lqg_real* u() { return pointer(u_); }
-  lqg_real* innovation() { return pointer(innovation_); }
-  lqg_real* work() { return pointer(work_); }
 
   Description description_;
   Filter filter_;
   Numbers x_, P_, U_, d_, u_, innovation_, work_;
+  lqg_kalman_steady_state_t steady_ = {pointer(x_), pointer(u_), pointer(innovation_), {}, pointer(work_)};
+  lqg_kalman_plain_state_t plain_ = {pointer(x_), pointer(P_), pointer(u_), pointer(innovation_), {}, pointer(work_)};
+  lqg_kalman_ud_state_t ud_ = {pointer(x_),          pointer(U_), pointer(d_),   pointer(u_),
+                               pointer(innovation_), {},          pointer(work_)};
 };
 
-lqg_status status_of(unsigned events) {
-  const auto bit = [&](Event event, lqg_status status) {
+lqg_status_t status_of(unsigned events) {
+  const auto bit = [&](Event event, lqg_status_t status) {
     return events >> static_cast<unsigned>(event) & 1 ? status : LQG_OK;
   };
-  return bit(Event::output_not_finite, LQG_OUTPUT_NOT_FINITE) |
+  lqg_status_t which = LQG_OK;
+  for (int i = 0; i < lqg::step::told_rejections; ++i)
+    which |= bit(lqg::step::rejection_of(i), LQG_OUTPUT_REJECTED_BIT(i));
+  return which | bit(Event::output_rejected, LQG_OUTPUT_REJECTED) |
          bit(Event::innovation_not_positive, LQG_INNOVATION_NOT_POSITIVE) |
          bit(Event::input_limited, LQG_INPUT_LIMITED) | bit(Event::state_reset, LQG_STATE_RESET) |
          bit(Event::covariance_reset, LQG_COVARIANCE_RESET);
@@ -154,25 +149,25 @@ lqg_status status_of(unsigned events) {
 class Templates {
  public:
   explicit Templates(const Model<S>& model) : model_(model), state_(lqg::step::initial_state(model)) {}
-  lqg_status update(const Vector<S>& y) {
+  lqg_status_t update(const Vector<S>& y) {
     Listener listener;
     return finish(listener, lqg::step::update(model_, state_, y, listener));
   }
-  lqg_status predict(const Vector<S>& u) {
+  lqg_status_t predict(const Vector<S>& u) {
     Listener listener;
     return finish(listener, lqg::step::predict(model_, state_, u, listener));
   }
-  lqg_status control(Vector<S>& u) {
+  lqg_status_t control(Vector<S>& u) {
     Listener listener;
     u = lqg::step::control(model_, state_.x, listener);
     if (model_.D.cols()) state_.u = u;
     return status_of(listener.events);
   }
-  lqg_status step(const Vector<S>& y, Vector<S>& u) { return status_of(lqg::step::run_sample(model_, state_, y, u)); }
+  lqg_status_t step(const Vector<S>& y, Vector<S>& u) { return status_of(lqg::step::run_sample(model_, state_, y, u)); }
   const State<S>& state() const { return state_; }
 
  private:
-  lqg_status finish(Listener& listener, bool is_within) {
+  lqg_status_t finish(Listener& listener, bool is_within) {
     if (!is_within) lqg::step::recover(model_, state_, listener);
     return status_of(listener.events);
   }
@@ -211,7 +206,7 @@ class Comparison {
     if (!model_.predictor_form) control();
     expect("predict", library_.predict(u), templates_.predict(u_of_templates));
   }
-  lqg_status seen() const { return seen_; }
+  lqg_status_t seen() const { return seen_; }
 
  private:
   static Vector<S> vector(const Numbers& numbers) {
@@ -219,8 +214,8 @@ class Comparison {
     for (std::size_t i = 0; i < numbers.size(); ++i) out(static_cast<Eigen::Index>(i)) = S(numbers[i]);
     return out;
   }
-  void expect(const char* call, lqg_status library, lqg_status templates) {
-    seen_ |= library;
+  void expect(const char* call, lqg_status_t library, lqg_status_t templates) {
+    seen_ |= library & ~LQG_OUTPUT_REJECTED_BITS;
     if (library != templates) fail(call, "status", library, templates);
     const Numbers found = library_.state();
     const std::vector<double> expected = numbers(templates_.state());
@@ -249,7 +244,7 @@ class Comparison {
   Library library_;
   Templates templates_;
   int sample_ = 0;
-  lqg_status seen_ = LQG_OK;
+  lqg_status_t seen_ = LQG_OK;
 };
 
 Shape random_shape(Random& random, Filter filter) {
@@ -285,8 +280,8 @@ void bind(Random& random, Model<S>& model) {
 }
 
 template <class Output>
-lqg_status compare_on_random_models(Filter filter, void (*change)(Random&, Model<S>&), Output output) {
-  lqg_status seen = LQG_OK;
+lqg_status_t compare_on_random_models(Filter filter, void (*change)(Random&, Model<S>&), Output output) {
+  lqg_status_t seen = LQG_OK;
   for (std::uint64_t seed = 0; seed < controllers; ++seed) {
     Random random(seed);
     const Shape shape = random_shape(random, filter);
@@ -304,19 +299,19 @@ lqg_status compare_on_random_models(Filter filter, void (*change)(Random&, Model
   return seen;
 }
 
-lqg_status compare_with_faults(Filter filter) {
+lqg_status_t compare_with_faults(Filter filter) {
   return compare_on_random_models(filter, nullptr, [](Random& random) { return random_output(random, 10); });
 }
 
 void test_steady_filter_agrees_while_sensors_fail() {
-  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED, compare_with_faults(Filter::steady));
+  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_REJECTED | LQG_INPUT_LIMITED, compare_with_faults(Filter::steady));
 }
 void test_plain_filter_agrees_while_sensors_fail() {  // and when it loses its definiteness meanwhile
-  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED,
+  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_REJECTED | LQG_INPUT_LIMITED,
                         compare_with_faults(Filter::plain) & ~LQG_COVARIANCE_RESET);
 }
 void test_ud_filter_agrees_while_sensors_fail() {
-  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_NOT_FINITE | LQG_INPUT_LIMITED, compare_with_faults(Filter::ud));
+  TEST_ASSERT_EQUAL_HEX(LQG_OUTPUT_REJECTED | LQG_INPUT_LIMITED, compare_with_faults(Filter::ud));
 }
 
 // Large, but so that no sum overflows: the state is far off, and finite.
@@ -345,16 +340,16 @@ void test_filters_agree_when_the_state_overflows_and_begins_anew() {
 
 void test_filters_agree_on_a_covariance_that_is_none() {
   for (const Filter filter : {Filter::plain, Filter::ud}) {
-    const lqg_status seen = compare_on_random_models(filter, spoil, large_output);
+    const lqg_status_t seen = compare_on_random_models(filter, spoil, large_output);
     TEST_ASSERT_TRUE(filter == Filter::ud || seen & LQG_INNOVATION_NOT_POSITIVE);
   }
 }
 
 void test_filters_agree_within_bounds_and_on_what_to_believe() {
   for (const Filter filter : {Filter::steady, Filter::plain, Filter::ud}) {
-    const lqg_status seen = compare_on_random_models(filter, bind, large_output);
+    const lqg_status_t seen = compare_on_random_models(filter, bind, large_output);
     TEST_ASSERT_TRUE(seen & LQG_STATE_RESET);
-    TEST_ASSERT_TRUE(seen & LQG_OUTPUT_NOT_FINITE);
+    TEST_ASSERT_TRUE(seen & LQG_OUTPUT_REJECTED);
   }
 }
 
@@ -372,7 +367,7 @@ void test_control_agrees_on_any_state() {
       for (int i = 0; i < shape.nx; ++i) x(i) = S(any_output(random));
       Numbers u(static_cast<std::size_t>(shape.nu));
       const Numbers x_of_library = row_major(x);
-      const lqg_status status = lqg_lqr_control(&description.steady.lqr, x_of_library.data(), u.data());
+      const lqg_status_t status = lqg_lqr_control(&description.steady.lqr, x_of_library.data(), u.data());
       Listener listener;
       const Vector<S> expected = lqg::step::control(model, x, listener);
       TEST_ASSERT_EQUAL_HEX(status_of(listener.events), status);

@@ -65,8 +65,8 @@ Vector<S> any_vector(Random& random, int size, int one_hostile_in) {
   return out;
 }
 
-lqg_status status_of(unsigned events) {
-  const auto bit = [&](Event event, lqg_status status) {
+lqg_status_t status_of(unsigned events) {
+  const auto bit = [&](Event event, lqg_status_t status) {
     return events >> static_cast<unsigned>(event) & 1 ? status : LQG_OK;
   };
   return bit(Event::input_limited, LQG_INPUT_LIMITED) | bit(Event::state_reset, LQG_STATE_RESET) |
@@ -80,8 +80,8 @@ class Comparison {
         H_(row_major(model.H)), H_input_(row_major(model.H_input)), u_min_(row_major(model.u_min)),
         u_max_(row_major(model.u_max)), u_step_(row_major(model.u_step)), error_limit_(row_major(model.error_limit)),
         output_(model.integral.begin(), model.integral.end()), reference_(model.wanted.begin(), model.wanted.end()),
-        xi_(output_.size()), error_(output_.size()), demand_(static_cast<std::size_t>(state_.demand.size())),
-        u_applied_(static_cast<std::size_t>(state_.u.size())) {
+        wanted_(static_cast<std::size_t>(model.nr)), xi_(output_.size()), error_(output_.size()),
+        demand_(static_cast<std::size_t>(state_.demand.size())), u_applied_(static_cast<std::size_t>(state_.u.size())) {
     for (const int bound : model.xi_bound) xi_scale_.push_back(std::ldexp(static_cast<lqg_real>(1), -bound));
     const auto size = [](auto count) { return static_cast<unsigned>(count); };
     servo_ = {
@@ -89,30 +89,31 @@ class Comparison {
         number(model.T),    pointer(K_),          pointer(Nbar_),  pointer(H_),          pointer(H_input_),
         output_.data(),     reference_.data(),    pointer(u_min_), pointer(u_max_),      pointer(u_step_),
         pointer(xi_scale_), pointer(error_limit_)};
-    lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
+    lqg_servo_init(&servo_, &memory_);
   }
 
-  lqg_status observe_and_control(const Vector<S>& x, const Vector<S>& r, const Vector<S>& y) {
+  lqg_status_t observe_and_control(const Vector<S>& x, const Vector<S>& r, const Vector<S>& y) {
     Listener listener;
     state_.x = x, state_.r = r;
     lqg::step::observe(model_, state_, y, std::vector<bool>(static_cast<std::size_t>(y.size()), true), listener);
     const Vector<S> u = lqg::step::control(model_, state_, listener);
-    const Numbers x_of_library = row_major(x), y_of_library = row_major(y), wanted = row_major(r);
+    const Numbers x_of_library = row_major(x), y_of_library = row_major(y);
+    wanted_ = row_major(r);
+    memory_.r = pointer(wanted_);
     Numbers found(static_cast<std::size_t>(model_.nu));
-    lqg_servo_observe(&servo_, pointer(wanted), pointer(error_), y_of_library.data());
-    const lqg_status status = lqg_servo_control(&servo_, x_of_library.data(), pointer(wanted), pointer(xi_),
-                                                pointer(demand_), pointer(u_applied_), found.data());
+    lqg_servo_observe(&servo_, &memory_, y_of_library.data());
+    const lqg_status_t status = lqg_servo_control(&servo_, &memory_, x_of_library.data(), found.data());
     expect(status, listener.events);
     TEST_ASSERT_TRUE(found == row_major(u));
     return status;
   }
   // What was applied, by the loop or by hand.
   template <class Templates, class Library>
-  lqg_status apply(const Vector<S>& u, Templates templates, Library library) {
+  lqg_status_t apply(const Vector<S>& u, Templates templates, Library library) {
     Listener listener;
     const bool within = templates(u, listener);
     const Numbers applied = row_major(u);
-    const lqg_status status = library(applied);
+    const lqg_status_t status = library(applied);
     // A u that nothing remembers is the filter's to refuse.
     if (!within && !state_.u.size() && model_.xi_bound.empty()) return forget();
     listener.raise(Event::state_reset, !within);
@@ -120,7 +121,7 @@ class Comparison {
     expect(status, listener.events);
     return status;
   }
-  lqg_status advance(const Vector<S>& u) {
+  lqg_status_t advance(const Vector<S>& u) {
     return apply(
         u,
         [&](const Vector<S>& applied, Listener& listener) {
@@ -128,31 +129,29 @@ class Comparison {
           lqg::step::remember(model_, state_, applied, bounds, listener);
           return bounds.is_within();
         },
-        [&](const Numbers& applied) {
-          return lqg_servo_advance(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_),
-                                   applied.data());
-        });
+        [&](const Numbers& applied) { return lqg_servo_advance(&servo_, &memory_, applied.data()); });
   }
-  lqg_status set_input(const Vector<S>& u) {
+  lqg_status_t set_input(const Vector<S>& u) {
     return apply(
         u,
         [&](const Vector<S>& applied, Listener& listener) {
           return lqg::step::set_input(model_, state_, applied, listener);
         },
         [&](const Numbers& applied) {
-          const Numbers x = row_major(state_.x), r = row_major(state_.r);
-          return lqg_servo_set_input(&servo_, x.data(), pointer(r), pointer(xi_), pointer(error_), pointer(demand_),
-                                     pointer(u_applied_), applied.data());
+          const Numbers x = row_major(state_.x);
+          wanted_ = row_major(state_.r);
+          memory_.r = pointer(wanted_);
+          return lqg_servo_set_input(&servo_, &memory_, x.data(), applied.data());
         });
   }
 
  private:
-  lqg_status forget() {
+  lqg_status_t forget() {
     lqg::step::begin_anew(model_, state_);
-    lqg_servo_init(&servo_, pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_));
+    lqg_servo_init(&servo_, &memory_);
     return LQG_OK;
   }
-  void expect(lqg_status status, unsigned events) {
+  void expect(lqg_status_t status, unsigned events) {
     TEST_ASSERT_EQUAL_HEX(status_of(events), status);
     TEST_ASSERT_TRUE(xi_ == row_major(state_.xi));
     TEST_ASSERT_TRUE(error_ == row_major(state_.error));
@@ -164,13 +163,14 @@ class Comparison {
   State<S> state_;
   Numbers K_, Nbar_, H_, H_input_, u_min_, u_max_, u_step_, error_limit_, xi_scale_;
   std::vector<unsigned> output_, reference_;
-  Numbers xi_, error_, demand_, u_applied_;
+  Numbers wanted_, xi_, error_, demand_, u_applied_;
   lqg_servo_t servo_{};
+  lqg_servo_state_t memory_ = {pointer(wanted_), pointer(xi_), pointer(error_), pointer(demand_), pointer(u_applied_)};
 };
 
 // One hostile number in `one_hostile_in`.
-lqg_status compare(int one_hostile_in, bool is_bounded = false) {
-  lqg_status seen = LQG_OK;
+lqg_status_t compare(int one_hostile_in, bool is_bounded = false) {
+  lqg_status_t seen = LQG_OK;
   for (std::uint64_t seed = 0; seed < laws; ++seed) {
     Random random(seed);
     Model<S> model = random_law(random);

@@ -11,7 +11,7 @@ namespace {
 
 // LQG_OK and three more of lqg/status.h.
 const std::map<double, std::string> flags = {
-    {0, "LQG_OK"}, {1, "LQG_OUTPUT_NOT_FINITE"}, {4, "LQG_INNOVATION_NOT_POSITIVE"}, {8, "LQG_INPUT_LIMITED"}};
+    {0, "LQG_OK"}, {1, "LQG_OUTPUT_REJECTED"}, {4, "LQG_INNOVATION_NOT_POSITIVE"}, {8, "LQG_INPUT_LIMITED"}};
 
 template <class T>
 T random_value(Random& random) {

@@ -46,7 +46,7 @@ Function random_function(Random& random, Target target, int number, int every) {
     results.push_back(nodes[at]);
   }
   function.text = "static void f_" + std::to_string(number) +
-                  "(const real in[], real out[], int conditions[], lqg_status statuses[])\n{\n"
+                  "(const real in[], real out[], int conditions[], lqg_status_t statuses[])\n{\n"
                   "    (void)in, (void)out, (void)conditions, (void)statuses;\n" +
                   Printer(graph, results).statements(stores) + "}\n";
   for (int run = 0; run < runs; ++run) {
@@ -75,11 +75,12 @@ std::string bits(double value, Target target) {
 std::string c_program(const std::vector<Function>& functions_of_file, Target target) {
   const std::string real = target.is_double ? "double" : "float", word = target.is_double ? "uint64_t" : "uint32_t";
   std::ostringstream text;
-  text << "#include <inttypes.h>\n#include <math.h>\n#include <stdint.h>\n#include <stdio.h>\n#include <string.h>\n"
+  text << "#include <inttypes.h>\n#include <math.h>\n#include <stdbool.h>\n"
+       << "#include <stdint.h>\n#include <stdio.h>\n#include <string.h>\n"
        << "#include \"lqg/status.h\"\ntypedef " << real << " real;\ntypedef " << word << " word;\n"
        << "enum { results = " << operations << " };\n";
   for (const Function& function : functions_of_file) text << function.text;
-  text << "static void (*const all[])(const real[], real[], int[], lqg_status[]) = {";
+  text << "static void (*const all[])(const real[], real[], int[], lqg_status_t[]) = {";
   for (std::size_t i = 0; i < functions_of_file.size(); ++i) text << (i ? ", f_" : "f_") << i;
   text << "};\nstatic const word inputs[][" << inputs << "] = {\n";
   for (const Function& function : functions_of_file)
@@ -90,7 +91,7 @@ std::string c_program(const std::vector<Function>& functions_of_file, Target tar
     }
   text << "};\nint main(void)\n{\n    for (int i = 0; i < (int)(sizeof all / sizeof *all) * " << runs << "; i++) {\n"
        << "        real in[" << inputs << "], out[results] = {0};\n        int conditions[results] = {0};\n"
-       << "        lqg_status statuses[results] = {0};\n        word words[results];\n\n"
+       << "        lqg_status_t statuses[results] = {0};\n        word words[results];\n\n"
        << "        memcpy(in, inputs[i], sizeof in);\n        all[i / " << runs << "](in, out, conditions, statuses);\n"
        << "        memcpy(words, out, sizeof words);\n        for (int k = 0; k < results; k++)\n"
        << "            printf(\"%" << "\" PRIx64 \" %d %u \", (uint64_t)words[k], conditions[k], statuses[k]);\n"

@@ -143,9 +143,9 @@ void test_prover_reads_what_follows_of_names_and_places_behind_the_stores() {
   graph.name(next, "next");
   const int condition = graph.make(Op::less, graph.make(Op::multiply, next, next), graph.constant(4));
   const Printer printer(graph, {next, condition});
-  TEST_ASSERT_EQUAL_STRING("RESTATED(next * next < 4.0f, BELOW(self->x[0], 2.0))",
+  TEST_ASSERT_EQUAL_STRING("RESTATED((next * next) < 4.0f, BELOW(self->x[0], 2.0))",
                            printer.test(condition, {{"self->x[0]", next}}).c_str());
-  TEST_ASSERT_EQUAL_STRING("RESTATED(next * next < 4.0f, BELOW(next, 2.0))", printer.expression(condition).c_str());
+  TEST_ASSERT_EQUAL_STRING("RESTATED((next * next) < 4.0f, BELOW(next, 2.0))", printer.expression(condition).c_str());
 }
 
 void test_prover_reads_an_input_that_is_not_stored_in_its_place() {
@@ -153,9 +153,9 @@ void test_prover_reads_an_input_that_is_not_stored_in_its_place() {
   const int a = graph.input("self->d[0]", "D");
   const int condition = graph.make(Op::finite, a);
   const Printer printer(graph, {condition});
-  TEST_ASSERT_EQUAL_STRING("RESTATED(D - D == 0.0f, FINITE(self->d[0]))", printer.test(condition, {}).c_str());
-  TEST_ASSERT_EQUAL_STRING("RESTATED(D - D == 0.0f, FINITE(D))", printer.expression(condition).c_str());
-  TEST_ASSERT_EQUAL_STRING("D - D == 0.0f", printer.test(condition, {{"self->d[0]", graph.constant(1)}}).c_str());
+  TEST_ASSERT_EQUAL_STRING("RESTATED((D - D) == 0.0f, FINITE(self->d[0]))", printer.test(condition, {}).c_str());
+  TEST_ASSERT_EQUAL_STRING("RESTATED((D - D) == 0.0f, FINITE(D))", printer.expression(condition).c_str());
+  TEST_ASSERT_EQUAL_STRING("(D - D) == 0.0f", printer.test(condition, {{"self->d[0]", graph.constant(1)}}).c_str());
 }
 
 }  // namespace

@@ -205,33 +205,6 @@ void test_zero_has_no_sign_and_is_one_node() {
   TEST_ASSERT_EQUAL_INT(graph.constant(0.0), graph.constant(-0.0));
 }
 
-bool is_identifier(const std::string& name) {
-  if (name.empty() || !(std::isalpha(static_cast<unsigned char>(name[0])))) return false;
-  for (const char c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return false;
-  return true;
-}
-
-// New nodes, named with few words, so that many want the same name; `x_a` may be asked for, too.
-void test_names_are_unique_identifiers_however_often_they_are_asked_for() {
-  const char* const words[] = {"x", "x_a", "x_b", "P_00", "x_again27"};
-  const char* const suffixes[] = {"", "_a", "_b", "_pos"};
-  Random random(1);
-  Graph graph({});
-  int x = graph.input("x", "x");
-  for (int i = 0; i < 2000; ++i) {
-    graph.section("", suffixes[random.below(4)]);
-    x = graph.make(Op::add, x, graph.constant(i + 1));
-    graph.name(x, words[random.below(5)]);
-  }
-  std::set<std::string> names;
-  for (const Node& node : graph.nodes()) {
-    if (node.op == Op::constant) continue;
-    TEST_ASSERT_TRUE_MESSAGE(is_identifier(node.name), node.name.c_str());
-    TEST_ASSERT_TRUE_MESSAGE(names.insert(node.name).second, node.name.c_str());
-  }
-}
-
 void test_the_first_name_of_a_node_is_kept() {
   Graph graph({});
   const int x = graph.input("in[0]", "x");
@@ -266,7 +239,6 @@ int main() {
   RUN_TEST(test_order_of_factors_and_of_summands_does_not_matter);
   RUN_TEST(test_a_node_stands_after_all_that_it_uses);
   RUN_TEST(test_zero_has_no_sign_and_is_one_node);
-  RUN_TEST(test_names_are_unique_identifiers_however_often_they_are_asked_for);
   RUN_TEST(test_the_first_name_of_a_node_is_kept);
   RUN_TEST(test_recordings_may_be_nested);
   return UNITY_END();

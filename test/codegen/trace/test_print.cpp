@@ -140,19 +140,60 @@ void test_wrap_turns_spaces_into_line_ends_and_changes_nothing_else() {
   }
 }
 
-// After a comma, or before a sum or a choice goes on.
+// After a comma or the sign of an assignment, or before an operator.
 bool may_break(const std::string& before, const std::string& after) {
   const std::string start = after.substr(0, 2);
-  return before.back() == ',' || start == "+ " || start == "- " || start == "? " || start == ": ";
+  return before.back() == ',' || before.find("result =") == before.size() - 8 || start == "+ " || start == "- " ||
+         start == "? " || start == ": " || start == "* " || start == "/ " || start == "< " || start == "&&" ||
+         start == "||";
 }
 
-void test_wrap_breaks_after_a_comma_or_before_a_sign_or_a_choice_only() {
+void test_wrap_breaks_before_an_operator_or_after_a_comma_only() {
   Random random(4);
   for (int i = 0; i < 3000; ++i) {
     const std::vector<std::string> lines = lines_of(wrap(random_line(random), 8, random.between(40, 100)));
     for (std::size_t k = 1; k < lines.size(); ++k)
       TEST_ASSERT_TRUE_MESSAGE(may_break(lines[k - 1], lines[k].substr(8)), lines[k].c_str());
   }
+}
+
+void expect_wrapped(const char* expected, const std::string& line) {
+  TEST_ASSERT_EQUAL_STRING(expected, wrap(line, 4, 24).c_str());
+}
+
+// Before a choice, else between conditions, else in a sum, else between arguments, else at a comparison or a product,
+// else behind the =.
+void test_wrap_breaks_where_a_reader_would() {
+  expect_wrapped("first = aaaaaaa + b\n    ? ccccc : ddd", "first = aaaaaaa + b ? ccccc : ddd");
+  expect_wrapped("first = aa ? bb\n    : cc ? dd : eeeeeeee", "first = aa ? bb : cc ? dd : eeeeeeee");
+  expect_wrapped("first = aaaaaa * bbb\n    + ccccccc * ddd", "first = aaaaaa * bbb + ccccccc * ddd");
+  expect_wrapped("first = aa < bb\n    && cc < dddddd", "first = aa < bb && cc < dddddd");
+  expect_wrapped("first = aa - b < c\n    && dddd < ee - fff", "first = aa - b < c && dddd < ee - fff");
+  expect_wrapped("first = aaaaaaaaa\n    * bbbbbbbbbb", "first = aaaaaaaaa * bbbbbbbbbb");
+  expect_wrapped("first =\n    aaaaaaaaaaaaaaaaaaaa", "first = aaaaaaaaaaaaaaaaaaaa");
+}
+
+void test_a_long_equation_is_broken_between_words() {
+  Graph graph({});
+  const int x = graph.input("x[0]", "x");
+  std::string equation = "α ← α + f g";
+  while (equation.size() < 400) equation += ",  U ← U − λ bᵀ";
+  graph.section(equation, "");
+  const int doubled = graph.make(Op::add, x, x);
+  graph.name(doubled, "doubled");
+  int comments = 0;
+  for (const std::string& line : lines_of(Printer(graph, {doubled}).statements({{"x[0]", doubled}}))) {
+    TEST_ASSERT_LESS_OR_EQUAL_INT_MESSAGE(120, columns_of(line), line.c_str());
+    comments += line.rfind("     * ", 0) == 0 || line.rfind("    /* ", 0) == 0;
+  }
+  TEST_ASSERT_GREATER_THAN_INT(2, comments);
+}
+
+void test_a_negative_number_is_subtracted() {
+  Graph graph({});
+  const int x = graph.input("x[0]", "x");
+  const int sum = graph.make(Op::add, graph.make(Op::multiply, x, x), graph.constant(-0.5));
+  TEST_ASSERT_EQUAL_STRING("x * x - 0.5f", Printer(graph, {sum}).expression(sum).c_str());
 }
 
 void test_wrap_keeps_every_line_within_the_width_where_it_may_break() {
@@ -307,7 +348,10 @@ int main() {
   RUN_TEST(test_what_is_not_finite_has_no_literal);
   RUN_TEST(test_literal_is_the_shortest);
   RUN_TEST(test_wrap_turns_spaces_into_line_ends_and_changes_nothing_else);
-  RUN_TEST(test_wrap_breaks_after_a_comma_or_before_a_sign_or_a_choice_only);
+  RUN_TEST(test_wrap_breaks_before_an_operator_or_after_a_comma_only);
+  RUN_TEST(test_wrap_breaks_where_a_reader_would);
+  RUN_TEST(test_a_long_equation_is_broken_between_words);
+  RUN_TEST(test_a_negative_number_is_subtracted);
   RUN_TEST(test_wrap_keeps_every_line_within_the_width_where_it_may_break);
   RUN_TEST(test_wrap_goes_on_after_a_part_that_is_too_long);
   RUN_TEST(test_what_nobody_needs_is_not_printed);

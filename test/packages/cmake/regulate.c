@@ -12,7 +12,7 @@ int main(void)
     double_integrator_init(&loop);
 
     real position = (real)0.01, speed = 0;
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     for (int k = 0; k < 200; ++k) {
         real y[DOUBLE_INTEGRATOR_NY], u[DOUBLE_INTEGRATOR_NU];
         y[0] = position;
@@ -21,6 +21,6 @@ int main(void)
         speed += T * u[0];
     }
 
-    const int is_well = (status & ~(lqg_status)LQG_INPUT_LIMITED) == LQG_OK;
+    const int is_well = (status & ~(lqg_status_t)LQG_INPUT_LIMITED) == LQG_OK;
     return is_well && fabs((double)position) < 1e-5 ? 0 : 1;
 }

@@ -44,7 +44,7 @@ static void print_line(int k, float voltage) {
 }
 
 void setup() {
-  lqg_status status = LQG_OK;
+  lqg_status_t status = LQG_OK;
   unsigned long most = 0;
 
   Serial.begin(115200);

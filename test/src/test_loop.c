@@ -12,9 +12,9 @@ void tearDown(void) {}
 
 static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise};
 
-static lqg_status three_calls(loop_t *loop, lqg_form_t form, const lqg_real y[], lqg_real u[])
+static lqg_status_t three_calls(loop_t *loop, lqg_form_t form, const lqg_real y[], lqg_real u[])
 {
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     if (form == LQG_PREDICTOR_FORM)
         status |= loop_control(loop, u);
     status |= loop_update(loop, y);
@@ -34,7 +34,7 @@ static void compare_step_with_calls(const model_t *model, unsigned filter, lqg_f
     make_loop(&called, model, filter, form);
     for (unsigned sample = 0; sample < 200; sample++) {
         simulate(model, plant, u, y, &seed);
-        const lqg_status status = loop_step(&stepped, y, u);
+        const lqg_status_t status = loop_step(&stepped, y, u);
         TEST_ASSERT_EQUAL_UINT(status, three_calls(&called, form, y, u_called));
         TEST_ASSERT_TRUE(memcmp(u, u_called, model->nu * sizeof *u) == 0);
         TEST_ASSERT_TRUE(same_state(&stepped.state, &called.state));
@@ -96,31 +96,46 @@ static void check_and_free(lqg_real *memory, unsigned length)
     free(memory);
 }
 
-static void stay_inside(const model_t *model)
+static const lqg_gate_t gate = {1000, NULL, (const lqg_real[]){2, 2}, (const lqg_real[]){0.5f, 0.5f}};
+static const lqg_real S[MAX_NY] = {1, 1};
+
+/* All loops with all that a state can have. */
+static void make_descriptions(loop_t *loop, const model_t *model)
+{
+    make_loop(loop, model, STEADY, LQG_FILTER_FORM);
+    loop->steady.kalman.gate = loop->plain.kalman.gate = loop->ud.kalman.gate = &gate;
+    loop->steady.kalman.S = S;
+}
+
+static void stay_inside_arrays(const model_t *model)
 {
     static loop_t loop;
     const unsigned nx = model->nx, nu = model->nu, ny = model->ny;
     const unsigned plain_work = LQG_KALMAN_PLAIN_WORK(nx, ny), ud_work = LQG_KALMAN_UD_WORK(nx, ny, nx);
     const unsigned steady_work = LQG_KALMAN_STEADY_WORK(nx, ny);
-    lqg_real *x = guarded(nx), *P = guarded(LQG_KALMAN_PLAIN_P(nx));
-    lqg_real *U = guarded(LQG_KALMAN_UD_U(nx)), *d = guarded(nx);
+    lqg_real *x = guarded(nx), *P = guarded(LQG_TRIANGLE(nx));
+    lqg_real *U = guarded(LQG_STRICT_TRIANGLE(nx)), *d = guarded(nx), *widening = guarded(ny);
     lqg_real *u_applied = guarded(nu), *innovation = guarded(ny), *u = guarded(nu), *y = guarded(ny);
     lqg_real *work[FILTERS] = {guarded(steady_work), guarded(plain_work), guarded(ud_work)};
+    lqg_loop_steady_state_t steady = {{x, u_applied, innovation, {widening, NULL}, work[STEADY]}, u};
+    lqg_loop_plain_state_t plain = {{x, P, u_applied, innovation, {widening, NULL}, work[PLAIN]}, u};
+    lqg_loop_ud_state_t ud = {{x, U, d, u_applied, innovation, {widening, NULL}, work[UD]}, u};
 
-    make_loop(&loop, model, STEADY, LQG_FILTER_FORM);
+    make_descriptions(&loop, model);
     for (unsigned i = 0; i < ny; i++)
         y[i] = 1;
-    lqg_kalman_steady_init(&loop.steady.kalman, x, u_applied, innovation);
-    lqg_lqg_steady_step(&loop.steady, x, u_applied, innovation, y, u, work[STEADY]);
-    lqg_kalman_plain_init(&loop.plain.kalman, x, P, u_applied, innovation);
-    lqg_lqg_plain_step(&loop.plain, x, P, u_applied, innovation, y, u, work[PLAIN]);
-    lqg_kalman_ud_init(&loop.ud.kalman, x, U, d, u_applied, innovation);
-    lqg_lqg_ud_step(&loop.ud, x, U, d, u_applied, innovation, y, u, work[UD]);
+    lqg_loop_steady_init(&loop.steady, &steady);
+    lqg_loop_steady_step(&loop.steady, &steady, y);
+    lqg_loop_plain_init(&loop.plain, &plain);
+    lqg_loop_plain_step(&loop.plain, &plain, y);
+    lqg_loop_ud_init(&loop.ud, &ud);
+    lqg_loop_ud_step(&loop.ud, &ud, y);
 
     check_and_free(x, nx);
-    check_and_free(P, LQG_KALMAN_PLAIN_P(nx));
-    check_and_free(U, LQG_KALMAN_UD_U(nx));
+    check_and_free(P, LQG_TRIANGLE(nx));
+    check_and_free(U, LQG_STRICT_TRIANGLE(nx));
     check_and_free(d, nx);
+    check_and_free(widening, ny);
     check_and_free(u_applied, nu);
     check_and_free(innovation, ny);
     check_and_free(u, nu);
@@ -128,6 +143,54 @@ static void stay_inside(const model_t *model)
     check_and_free(work[STEADY], steady_work);
     check_and_free(work[PLAIN], plain_work);
     check_and_free(work[UD], ud_work);
+}
+
+/* In the memory of the macros the arrays neither overlap nor leave it: loops with it have the bits of loops with arrays
+ * of their own. */
+static void stay_inside_memory(const model_t *model)
+{
+    static loop_t loop;
+    static state_t apart;
+    const unsigned nx = model->nx, nu = model->nu, ny = model->ny;
+    const unsigned steady_length = LQG_LOOP_STEADY_MEMORY(nx, nu, ny), plain_length = LQG_LOOP_PLAIN_MEMORY(nx, nu, ny);
+    const unsigned ud_length = LQG_LOOP_UD_MEMORY(nx, nu, ny, nx);
+    lqg_real *steady_memory = guarded(steady_length), *plain_memory = guarded(plain_length);
+    lqg_real *ud_memory = guarded(ud_length), u[MAX_NU] = {0};
+    lqg_loop_steady_state_t steady = LQG_LOOP_STEADY_STATE_IN(steady_memory, nx, nu, ny);
+    lqg_loop_plain_state_t plain = LQG_LOOP_PLAIN_STATE_IN(plain_memory, nx, nu, ny);
+    lqg_loop_ud_state_t ud = LQG_LOOP_UD_STATE_IN(ud_memory, nx, nu, ny, nx);
+    lqg_loop_ud_state_t other = {ud_state(&apart), u};
+
+    make_descriptions(&loop, model);
+    lqg_loop_steady_init(&loop.steady, &steady);
+    lqg_loop_plain_init(&loop.plain, &plain);
+    lqg_loop_ud_init(&loop.ud, &ud);
+    lqg_loop_ud_init(&loop.ud, &other);
+    for (unsigned sample = 0; sample < 5; sample++) {
+        const lqg_real y[MAX_NY] = {(lqg_real)sample, -1};
+        lqg_loop_steady_step(&loop.steady, &steady, y);
+        lqg_loop_plain_step(&loop.plain, &plain, y);
+        lqg_loop_ud_step(&loop.ud, &ud, y);
+        lqg_loop_ud_step(&loop.ud, &other, y);
+        TEST_ASSERT_TRUE(memcmp(apart.x, ud.kalman.x, nx * sizeof *apart.x) == 0);
+        TEST_ASSERT_TRUE(memcmp(apart.U, ud.kalman.U, LQG_STRICT_TRIANGLE(nx) * sizeof *apart.U) == 0);
+        TEST_ASSERT_TRUE(memcmp(apart.d, ud.kalman.d, nx * sizeof *apart.d) == 0);
+        TEST_ASSERT_TRUE(memcmp(apart.widening, ud.kalman.gate.widening, ny * sizeof *apart.widening) == 0);
+        TEST_ASSERT_TRUE(memcmp(apart.innovation, ud.kalman.innovation, ny * sizeof *apart.innovation) == 0);
+        TEST_ASSERT_TRUE(memcmp(apart.u_applied, ud.kalman.u_applied, nu * sizeof *u) == 0);
+        TEST_ASSERT_TRUE(memcmp(u, ud.u, nu * sizeof *u) == 0);
+        for (unsigned i = 0; i < nx; i++) /* the same filter, with other roundings */
+            TEST_ASSERT_DOUBLE_WITHIN(1000 * EPSILON, (double)apart.x[i], (double)plain.kalman.x[i]);
+    }
+    check_and_free(steady_memory, steady_length);
+    check_and_free(plain_memory, plain_length);
+    check_and_free(ud_memory, ud_length);
+}
+
+static void stay_inside(const model_t *model)
+{
+    stay_inside_arrays(model);
+    stay_inside_memory(model);
 }
 
 static void test_nothing_is_written_beyond_the_sizes_of_the_macros(void)
@@ -146,7 +209,8 @@ static void test_optional_state_may_be_left_out(void)
     make_loop(&without, &double_integrator, UD, LQG_FILTER_FORM);
     state_t *s = &without.state;
     loop_step(&with, y, u);
-    lqg_lqg_ud_step(&without.ud, s->x, s->U, s->d, NULL, NULL, y, u_without, s->work);
+    lqg_loop_ud_state_t bare = {{s->x, s->U, s->d, NULL, NULL, {NULL, NULL}, s->work}, u_without};
+    lqg_loop_ud_step(&without.ud, &bare, y);
     TEST_ASSERT_TRUE(u[0] == u_without[0]);
     TEST_ASSERT_TRUE(memcmp(with.state.x, s->x, sizeof s->x) == 0);
 }
