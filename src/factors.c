@@ -65,8 +65,8 @@ lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[
 
 /* T = [A U | G], nx × (nx + nw): with the weights [d | W] of its columns, A P Aᵀ + G diag(W) Gᵀ = T
  * diag(weight) Tᵀ. */
-static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nw,
-                          const lqg_real G[], lqg_real T[])
+static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nw, const lqg_real G[],
+                          lqg_real T[])
 {
     for (unsigned i = 0; i < nx; i++) {
         for (unsigned j = 0; j < nx; j++)
@@ -104,8 +104,8 @@ static void orthogonalise(lqg_real U[], lqg_real d[], unsigned rows, unsigned co
     }
 }
 
-void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw,
-                         const lqg_real G[], const lqg_real W[], lqg_real work[])
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw, const lqg_real G[],
+                         const lqg_real W[], lqg_real work[])
 {
     const unsigned columns = nx + nw;
     lqg_real *weight = work, *v = work + columns, *T = work + 2 * columns;

@@ -66,8 +66,8 @@ static inline int is_expected(const gatekeeper_t *keeper, unsigned i, lqg_real i
 
     if (watch && (watch->innovation || watch->S))
         return 0;
-    if (gate && (!(innovation * innovation < gate->sigma * gate->sigma * s) ||
-                 (gate->widen && 1 < keeper->state->widening[i])))
+    if (gate &&
+        (!(innovation * innovation < gate->sigma * gate->sigma * s) || (gate->widen && 1 < keeper->state->widening[i])))
         return 0;
     if (watch && watch->heard)
         watch->heard[i] = 1;

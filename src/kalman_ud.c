@@ -62,8 +62,8 @@ static lqg_status_t recover_from_update(const lqg_kalman_ud_t *kalman, lqg_kalma
 }
 
 /* Takes output i, y_i, into x̂, U and d, or leaves it out and says why. */
-static lqg_status_t update_output(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_state_t *state, unsigned i,
-                                  lqg_real y_i, const gatekeeper_t *keeper)
+static lqg_status_t update_output(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_state_t *state, unsigned i, lqg_real y_i,
+                                  const gatekeeper_t *keeper)
 {
     LQG_STRICT_BODY
     const unsigned nx = kalman->plant.nx;

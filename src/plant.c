@@ -15,8 +15,8 @@ void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[]
     lqg_begin(innovation, NULL, plant->ny);
 }
 
-lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[],
-                              const lqg_real u_applied[], lqg_real y_i)
+lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[], const lqg_real u_applied[],
+                              lqg_real y_i)
 {
     const lqg_real without_x = subtract_row_product(y_i, plant->C, i, plant->nx, x);
     return plant->D ? subtract_row_product(without_x, plant->D, i, plant->nu, u_applied) : without_x;

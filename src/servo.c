@@ -72,7 +72,8 @@ static lqg_status_t check_reference(const lqg_servo_t *servo, const lqg_real r[]
 /* *value within [low, high]. */
 static lqg_status_t limit(lqg_real *value, lqg_real low, lqg_real high)
 {
-    const int is_low = *value < low, is_high = *value > high;
+    const int is_low = *value < low;
+    const int is_high = *value > high;
 
     *value = is_low ? low : is_high ? high : *value;
     return is_low || is_high ? LQG_INPUT_LIMITED : LQG_OK;

@@ -4,10 +4,6 @@
 void setUp(void);
 void tearDown(void);
 
-void setUp(void)
-{
-}
+void setUp(void) {}
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}

@@ -42,9 +42,7 @@ void board_leave(int status)
 /* What has to be done before a program that failed stops: nothing, unless it says so itself. */
 void stop_outputs(void);
 
-__attribute__((weak)) void stop_outputs(void)
-{
-}
+__attribute__((weak)) void stop_outputs(void) {}
 
 static void fault(void)
 {
@@ -86,7 +84,14 @@ typedef union {
 } vector;
 
 __attribute__((used, section(".vectors"))) static const vector vectors[16] = {
-    {.stack = stack_top}, {.handler = reset}, {.handler = fault}, {.handler = fault}, {.handler = fault},
-    {.handler = fault},   {.handler = fault}, [11] = {.handler = SVC_Handler},
-    [14] = {.handler = PendSV_Handler}, [15] = {.handler = SysTick_Handler},
+    {.stack = stack_top},
+    {.handler = reset},
+    {.handler = fault},
+    {.handler = fault},
+    {.handler = fault},
+    {.handler = fault},
+    {.handler = fault},
+    [11] = {.handler = SVC_Handler},
+    [14] = {.handler = PendSV_Handler},
+    [15] = {.handler = SysTick_Handler},
 };

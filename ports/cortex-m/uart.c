@@ -7,8 +7,8 @@ typedef struct {
     volatile uint32_t data, state, control, interrupt, divisor;
 } uart_t;
 
-enum { TRANSMIT_FULL = 1 << 0, RECEIVE_FULL = 1 << 1 };         /* state */
-enum { TRANSMIT_ENABLE = 1 << 0, RECEIVE_ENABLE = 1 << 1 };     /* control */
+enum { TRANSMIT_FULL = 1 << 0, RECEIVE_FULL = 1 << 1 };     /* state */
+enum { TRANSMIT_ENABLE = 1 << 0, RECEIVE_ENABLE = 1 << 1 }; /* control */
 enum { CLOCK = 25000000, BAUD = 115200 };
 
 static uart_t *const uart = (uart_t *)LQG_UART;

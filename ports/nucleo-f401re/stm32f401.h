@@ -8,14 +8,14 @@
 
 /* Chapter 6, reset and clock control: a bit switches a peripheral on. */
 typedef struct {
-    volatile uint32_t cr, pllcfgr, cfgr, cir, ahb1rstr, ahb2rstr, reserved_0[2], apb1rstr, apb2rstr, reserved_1[2], ahb1enr, ahb2enr,
-        reserved_2[2], apb1enr, apb2enr;
+    volatile uint32_t cr, pllcfgr, cfgr, cir, ahb1rstr, ahb2rstr, reserved_0[2], apb1rstr, apb2rstr, reserved_1[2],
+        ahb1enr, ahb2enr, reserved_2[2], apb1enr, apb2enr;
 } rcc_t;
 
 #define RCC ((rcc_t *)0x40023800u)
-enum { RCC_GPIOA = 1 << 0, RCC_GPIOB = 1 << 1 };                                              /* ahb1enr */
-enum { RCC_TIM2 = 1 << 0, RCC_TIM3 = 1 << 1, RCC_USART2 = 1 << 17, RCC_I2C1 = 1 << 21 };      /* apb1enr */
-enum { RCC_TIM1 = 1 << 0 };                                                                   /* apb2enr */
+enum { RCC_GPIOA = 1 << 0, RCC_GPIOB = 1 << 1 };                                         /* ahb1enr */
+enum { RCC_TIM2 = 1 << 0, RCC_TIM3 = 1 << 1, RCC_USART2 = 1 << 17, RCC_I2C1 = 1 << 21 }; /* apb1enr */
+enum { RCC_TIM1 = 1 << 0 };                                                              /* apb2enr */
 
 /* Chapter 8, general-purpose inputs and outputs. */
 typedef struct {
@@ -28,7 +28,8 @@ enum { GPIO_OUTPUT = 1, GPIO_ALTERNATE = 2 };
 
 /* Chapter 12 (TIM1) and 13 (TIM2 to TIM5), timers. */
 typedef struct {
-    volatile uint32_t cr1, cr2, smcr, dier, sr, egr, ccmr1, ccmr2, ccer, cnt, psc, arr, rcr, ccr1, ccr2, ccr3, ccr4, bdtr;
+    volatile uint32_t cr1, cr2, smcr, dier, sr, egr, ccmr1, ccmr2, ccer, cnt, psc, arr, rcr, ccr1, ccr2, ccr3, ccr4,
+        bdtr;
 } timer_t;
 
 #define TIM1 ((timer_t *)0x40010000u)
@@ -49,8 +50,15 @@ typedef struct {
 } i2c_t;
 
 #define I2C1 ((i2c_t *)0x40005400u)
-enum { I2C_PE = 1 << 0, I2C_START = 1 << 8, I2C_STOP = 1 << 9, I2C_ACK = 1 << 10, I2C_SWRST = 1 << 15 };           /* cr1 */
-enum { I2C_SB = 1 << 0, I2C_ADDR = 1 << 1, I2C_BTF = 1 << 2, I2C_RXNE = 1 << 6, I2C_TXE = 1 << 7, I2C_AF = 1 << 10 };  /* sr1 */
+enum { I2C_PE = 1 << 0, I2C_START = 1 << 8, I2C_STOP = 1 << 9, I2C_ACK = 1 << 10, I2C_SWRST = 1 << 15 }; /* cr1 */
+enum {
+    I2C_SB = 1 << 0,
+    I2C_ADDR = 1 << 1,
+    I2C_BTF = 1 << 2,
+    I2C_RXNE = 1 << 6,
+    I2C_TXE = 1 << 7,
+    I2C_AF = 1 << 10
+}; /* sr1 */
 
 /* Chapter 19, USART. */
 typedef struct {
@@ -58,8 +66,8 @@ typedef struct {
 } usart_t;
 
 #define USART2 ((usart_t *)0x40004400u)
-enum { USART_RXNE = 1 << 5, USART_TXE = 1 << 7 };                   /* sr */
-enum { USART_RE = 1 << 2, USART_TE = 1 << 3, USART_UE = 1 << 13 };  /* cr1 */
+enum { USART_RXNE = 1 << 5, USART_TXE = 1 << 7 };                  /* sr */
+enum { USART_RE = 1 << 2, USART_TE = 1 << 3, USART_UE = 1 << 13 }; /* cr1 */
 
 /* A pin's mode (GPIO_…) and, where it is GPIO_ALTERNATE, its function. */
 static inline void gpio_set_mode(gpio_t *port, unsigned pin, unsigned mode, unsigned function)

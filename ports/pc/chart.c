@@ -3,8 +3,8 @@
 
 #include <stdio.h>
 
-enum { COLUMNS = 96, ROWS = 9 };                    /* of characters */
-enum { WIDTH = 900, HEIGHT = 150, MARGIN = 60 };    /* of a curve in the SVG, in pixels */
+enum { COLUMNS = 96, ROWS = 9 };                 /* of characters */
+enum { WIDTH = 900, HEIGHT = 150, MARGIN = 60 }; /* of a curve in the SVG, in pixels */
 
 typedef struct {
     double low, high;
@@ -71,10 +71,14 @@ static void write_curve(FILE *file, const chart_curve_t *curve, int count, doubl
     const double zero = top + (double)HEIGHT * range.high / (range.high - range.low);
 
     fprintf(file, "<text x=\"%d\" y=\"%d\">%s</text>\n", MARGIN, top - 8, curve->title);
-    fprintf(file, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"#bbb\"/>\n", MARGIN, top, WIDTH, HEIGHT);
-    fprintf(file, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#bbb\"/>\n", MARGIN, MARGIN + WIDTH, zero, zero);
-    fprintf(file, "<text x=\"4\" y=\"%d\">%.3g</text>\n<text x=\"4\" y=\"%d\">%.3g</text>\n", top + 12, range.high, top + HEIGHT, range.low);
-    fprintf(file, "<text x=\"%d\" y=\"%d\">%.1f s</text>\n", MARGIN + WIDTH - 40, top + HEIGHT + 16, count * sample_time);
+    fprintf(file, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"#bbb\"/>\n", MARGIN, top,
+            WIDTH, HEIGHT);
+    fprintf(file, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#bbb\"/>\n", MARGIN, MARGIN + WIDTH, zero,
+            zero);
+    fprintf(file, "<text x=\"4\" y=\"%d\">%.3g</text>\n<text x=\"4\" y=\"%d\">%.3g</text>\n", top + 12, range.high,
+            top + HEIGHT, range.low);
+    fprintf(file, "<text x=\"%d\" y=\"%d\">%.1f s</text>\n", MARGIN + WIDTH - 40, top + HEIGHT + 16,
+            count * sample_time);
     if (curve->second)
         write_line(file, "#e08214", curve->second, count, range, top);
     write_line(file, "#2166ac", curve->values, count, range, top);
@@ -88,9 +92,14 @@ int chart_write_svg(const char *path, const char *heading, const chart_curve_t c
 
     if (!file)
         return -1;
-    fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"13\">\n",
-            WIDTH + 2 * MARGIN, curve_count * (HEIGHT + 50) + 50);
-    fprintf(file, "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n<text x=\"%d\" y=\"24\" font-size=\"16\">%s</text>\n", MARGIN, heading);
+    fprintf(
+        file,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"13\">\n",
+        WIDTH + 2 * MARGIN, curve_count * (HEIGHT + 50) + 50);
+    fprintf(
+        file,
+        "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n<text x=\"%d\" y=\"24\" font-size=\"16\">%s</text>\n",
+        MARGIN, heading);
     for (int i = 0; i < curve_count; i++)
         write_curve(file, &curves[i], count, sample_time, 60 + i * (HEIGHT + 50));
     fprintf(file, "</svg>\n");

@@ -4,9 +4,9 @@
 #define CHART_H
 
 typedef struct {
-    const char *title;     /* with the unit */
-    const double *values;  /* one a sample */
-    const double *second;  /* another curve, or NULL: drawn behind the first */
+    const char *title;    /* with the unit */
+    const double *values; /* one a sample */
+    const double *second; /* another curve, or NULL: drawn behind the first */
 } chart_curve_t;
 
 /* Draws the curve on standard output, some rows high. */

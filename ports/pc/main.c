@@ -17,10 +17,10 @@
 enum { SAMPLES = 2500 }; /* ten seconds */
 
 typedef struct {
-    double pitch[SAMPLES], pitch_estimate[SAMPLES];  /* ° */
-    double way[SAMPLES];                             /* cm */
-    double voltage[SAMPLES];                         /* V */
-    int limited, left_out, resets;                   /* samples with these bits in their status */
+    double pitch[SAMPLES], pitch_estimate[SAMPLES]; /* ° */
+    double way[SAMPLES];                            /* cm */
+    double voltage[SAMPLES];                        /* V */
+    int limited, left_out, resets;                  /* samples with these bits in their status */
 } record_t;
 
 static record_t record;
@@ -66,9 +66,10 @@ static int show(const char *picture)
 
     for (int i = 0; i < curve_count; i++)
         chart_print(&curves[i], SAMPLES, (double)BALANCING_ROBOT_SAMPLE_TIME);
-    printf("\n  Let go at 3 degrees, pushed at 4 s, gyroscope dead from 7.0 s to 7.1 s.\n"
-           "  Of %d samples: %d with the voltage at its limit, %d with an output left out, %d with a reset.\n",
-           SAMPLES, record.limited, record.left_out, record.resets);
+    printf(
+        "\n  Let go at 3 degrees, pushed at 4 s, gyroscope dead from 7.0 s to 7.1 s.\n"
+        "  Of %d samples: %d with the voltage at its limit, %d with an output left out, %d with a reset.\n",
+        SAMPLES, record.limited, record.left_out, record.resets);
     if (!picture)
         return 0;
     if (chart_write_svg(picture, "Balancing robot, emitted controller, nonlinear plant", curves, curve_count, SAMPLES,
@@ -87,7 +88,7 @@ int main(int argc, char **argv)
     const int shown = show(argc > 1 ? argv[1] : NULL);
 
     printf("  After %.0f s the robot %s: pitch %.2f degrees, %.1f cm from where it began.\n",
-           (double)SAMPLES * (double)BALANCING_ROBOT_SAMPLE_TIME, stands ? "stands" : "HAS FALLEN",
-           end.pitch * DEGREES, end.wheel * 4.0);
+           (double)SAMPLES * (double)BALANCING_ROBOT_SAMPLE_TIME, stands ? "stands" : "HAS FALLEN", end.pitch * DEGREES,
+           end.wheel * 4.0);
     return stands && shown == 0 ? 0 : 1;
 }

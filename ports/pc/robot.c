@@ -5,16 +5,16 @@
 
 /* NXTway-GS: Y. Yamamoto, "NXTway-GS Model-Based Design", Cybernet Systems, revision 1.4, 2009, chapter 3, equations of
  * motion in the vertical plane; α and β are the motor's, of both wheels. */
-static const double gravity = 9.81;             /* m/s² */
-static const double wheel_mass = 0.03;          /* kg, m */
-static const double wheel_radius = 0.04;        /* m, R */
-static const double body_mass = 0.6;            /* kg, M */
-static const double body_center = 0.072;        /* m above the axle, L */
-static const double motor_inertia = 1e-5;       /* kg m², Jm */
-static const double motor_resistance = 6.69;    /* Ω, Rm */
-static const double motor_back_emf = 0.468;     /* V s/rad, Kb */
-static const double motor_torque = 0.317;       /* N m/A, Kt */
-static const double motor_friction = 0.0022;    /* N m s/rad, fm */
+static const double gravity = 9.81;          /* m/s² */
+static const double wheel_mass = 0.03;       /* kg, m */
+static const double wheel_radius = 0.04;     /* m, R */
+static const double body_mass = 0.6;         /* kg, M */
+static const double body_center = 0.072;     /* m above the axle, L */
+static const double motor_inertia = 1e-5;    /* kg m², Jm */
+static const double motor_resistance = 6.69; /* Ω, Rm */
+static const double motor_back_emf = 0.468;  /* V s/rad, Kb */
+static const double motor_torque = 0.317;    /* N m/A, Kt */
+static const double motor_friction = 0.0022; /* N m s/rad, fm */
 
 /* (2m + M)R² + 2Jw + 2Jm   M L R cos ψ − 2Jm    [θ̈]   2α v − 2β (θ̇ − ψ̇) + M L R ψ̇² sin ψ
  * M L R cos ψ − 2Jm        M L² + Jψ + 2Jm      [ψ̈] = −2α v + 2β (θ̇ − ψ̇) + M g L sin ψ + push */
@@ -26,7 +26,8 @@ static robot_t derivative(const robot_t *robot, double voltage, double push)
     const double beta = motor_torque * motor_back_emf / motor_resistance + motor_friction;
     const double arm = body_mass * body_center * wheel_radius;
 
-    const double e11 = (2.0 * wheel_mass + body_mass) * wheel_radius * wheel_radius + 2.0 * wheel_inertia + 2.0 * motor_inertia;
+    const double e11 =
+        (2.0 * wheel_mass + body_mass) * wheel_radius * wheel_radius + 2.0 * wheel_inertia + 2.0 * motor_inertia;
     const double e12 = arm * cos(robot->pitch) - 2.0 * motor_inertia;
     const double e22 = body_mass * body_center * body_center + body_inertia + 2.0 * motor_inertia;
     const double slip = robot->wheel_rate - robot->pitch_rate;

@@ -4,8 +4,8 @@
 #define ROBOT_H
 
 typedef struct {
-    double wheel, pitch;            /* rad: mean angle of the wheels; 0 is upright */
-    double wheel_rate, pitch_rate;  /* rad/s */
+    double wheel, pitch;           /* rad: mean angle of the wheels; 0 is upright */
+    double wheel_rate, pitch_rate; /* rad/s */
 } robot_t;
 
 /* Lets `seconds` pass at a constant motor voltage [V], while a torque [N m] pushes the body. */

@@ -23,7 +23,11 @@
 #define CONTROLLER_TEXT_NOW(name) #name
 #define CONTROLLER_TEXT(name) CONTROLLER_TEXT_NOW(name)
 
-enum { CONTROLLER_NX = CONTROLLER_CONSTANT(_NX), CONTROLLER_NU = CONTROLLER_CONSTANT(_NU), CONTROLLER_NY = CONTROLLER_CONSTANT(_NY) };
+enum {
+    CONTROLLER_NX = CONTROLLER_CONSTANT(_NX),
+    CONTROLLER_NU = CONTROLLER_CONSTANT(_NU),
+    CONTROLLER_NY = CONTROLLER_CONSTANT(_NY)
+};
 
 /* It begins with its floats, whose bits the CRC is of; the count of resets behind them is wider on some targets. */
 typedef CONTROLLER_OF(_t) controller_t;

@@ -18,19 +18,19 @@ enum { PIL_PAYLOAD_MAX = 128, PIL_FRAME_MAX = PIL_PAYLOAD_MAX + 7 };
 
 /* Host to target is a request, target to host the answer, with the request's sequence number. */
 enum {
-    PIL_HELLO = 1,  /* request: empty                    answer: pil_hello_t */
-    PIL_START = 2,  /* request: empty                    answer: empty; the controller begins anew, the next sample is number 0 */
-    PIL_SAMPLE = 3, /* request: y, ny floats             answer: PIL_INPUT at once, then PIL_COST */
+    PIL_HELLO = 1,  /* request: empty           answer: pil_hello_t */
+    PIL_START = 2,  /* request: empty           answer: empty; the controller is reset, the next sample is number 0 */
+    PIL_SAMPLE = 3, /* request: y, ny floats    answer: PIL_INPUT at once, then PIL_COST */
     PIL_INPUT = 4,  /* u, nu floats; status (4) of update and control */
-    PIL_COST = 5,   /* ticks of update, control, predict (4 each); status (4) of predict; CRC (2) of the controller's state */
+    PIL_COST = 5,   /* ticks of update, control, predict (4 each); status (4) of predict; CRC (2) of the state */
     PIL_REFUSAL = 6 /* instead of an answer: reason (1), what was expected (2), what was found (2) */
 };
 
 /* Why a target refuses. */
 enum {
-    PIL_BAD_CRC = 1,      /* bytes were damaged or lost: expected and found are the CRCs */
-    PIL_WRONG_TYPE = 2,   /* no such request; expected: the last one there is */
-    PIL_WRONG_LENGTH = 3, /* of the payload */
+    PIL_BAD_CRC = 1,       /* bytes were damaged or lost: expected and found are the CRCs */
+    PIL_WRONG_TYPE = 2,    /* no such request; expected: the last one there is */
+    PIL_WRONG_LENGTH = 3,  /* of the payload */
     PIL_WRONG_SEQUENCE = 4 /* a sample was lost, or came twice */
 };
 
@@ -44,13 +44,13 @@ typedef struct {
 enum { PIL_NAME_SIZE = 32, PIL_DIGEST_SIZE = 32, PIL_HELLO_SIZE = 4 + 4 + PIL_DIGEST_SIZE + 8 + PIL_NAME_SIZE };
 
 typedef struct {
-    uint8_t version;                  /* PIL_VERSION */
+    uint8_t version; /* PIL_VERSION */
     uint8_t nx, nu, ny;
-    float sample_time;                /* s */
-    uint8_t digest[PIL_DIGEST_SIZE];  /* SHA-256 of the design file */
-    uint32_t ticks_of_thousand;       /* ticks of its counter for a thousand instructions that do nothing */
-    uint32_t frequency;               /* Hz of the processor, 0: emulated */
-    char name[PIL_NAME_SIZE];         /* of the controller; what is left is '\0' */
+    float sample_time;               /* s */
+    uint8_t digest[PIL_DIGEST_SIZE]; /* SHA-256 of the design file */
+    uint32_t ticks_of_thousand;      /* ticks of its counter for a thousand instructions that do nothing */
+    uint32_t frequency;              /* Hz of the processor, 0: emulated */
+    char name[PIL_NAME_SIZE];        /* of the controller; what is left is '\0' */
 } pil_hello_t;
 
 /* ---- numbers in a payload: each function returns what follows ------------------------------------------- */
@@ -82,9 +82,9 @@ unsigned pil_encode(const pil_frame_t *frame, uint8_t bytes[PIL_FRAME_MAX]);
 typedef struct {
     uint8_t bytes[PIL_FRAME_MAX];
     unsigned count;
-    unsigned long skipped;              /* bytes that belonged to no frame */
-    unsigned damaged;                   /* frames, or what looked like one, with a wrong CRC */
-    uint16_t crc_expected, crc_found;   /* of the last of these */
+    unsigned long skipped;            /* bytes that belonged to no frame */
+    unsigned damaged;                 /* frames, or what looked like one, with a wrong CRC */
+    uint16_t crc_expected, crc_found; /* of the last of these */
 } pil_decoder_t;
 
 /* Takes a byte, and may be given another only when pil_next has no frame left. */

@@ -6,20 +6,19 @@
 const uint32_t counter_mask = 0xFFFFFFFF;
 const uint32_t counter_frequency = LQG_FREQUENCY;
 
-void counter_start(void)
-{
-}
+void counter_start(void) {}
 
 uint32_t counter_now(void)
 {
     unsigned long cycles;
 
-    __asm__ volatile(".option push\n\t"
-                     ".option arch, +zicsr\n\t"
-                     "csrr %0, mcycle\n\t"
-                     ".option pop"
-                     : "=r"(cycles)
-                     :
-                     : "memory");
+    __asm__ volatile(
+        ".option push\n\t"
+        ".option arch, +zicsr\n\t"
+        "csrr %0, mcycle\n\t"
+        ".option pop"
+        : "=r"(cycles)
+        :
+        : "memory");
     return (uint32_t)cycles;
 }

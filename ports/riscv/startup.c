@@ -23,16 +23,17 @@ static void ask_host(uintptr_t operation, const void *argument)
     register const void *a1 __asm__("a1") = argument;
 
     /* three instructions of full length in one page, by which the host knows the call */
-    __asm__ volatile(".option push\n\t"
-                     ".option norvc\n\t"
-                     ".balign 16\n\t"
-                     "slli zero, zero, 0x1f\n\t"
-                     "ebreak\n\t"
-                     "srai zero, zero, 7\n\t"
-                     ".option pop"
-                     : "+r"(a0)
-                     : "r"(a1)
-                     : "memory");
+    __asm__ volatile(
+        ".option push\n\t"
+        ".option norvc\n\t"
+        ".balign 16\n\t"
+        "slli zero, zero, 0x1f\n\t"
+        "ebreak\n\t"
+        "srai zero, zero, 7\n\t"
+        ".option pop"
+        : "+r"(a0)
+        : "r"(a1)
+        : "memory");
 }
 
 /* Picolibc's way to an output of one's own: no buffers, no heap. */
@@ -74,18 +75,19 @@ void start(void)
 /* The first instruction: global pointer, stack, traps, FPU. */
 __attribute__((naked, used, section(".reset"))) void reset(void)
 {
-    __asm__ volatile(".option push\n\t"
-                     ".option norelax\n\t"
-                     ".option arch, +zicsr\n\t"
-                     "la gp, global_pointer\n\t"
-                     "la sp, stack_top\n\t"
-                     "la t0, fault\n\t"
-                     "csrw mtvec, t0\n\t"
+    __asm__ volatile(
+        ".option push\n\t"
+        ".option norelax\n\t"
+        ".option arch, +zicsr\n\t"
+        "la gp, global_pointer\n\t"
+        "la sp, stack_top\n\t"
+        "la t0, fault\n\t"
+        "csrw mtvec, t0\n\t"
 #ifdef __riscv_flen
-                     "li t0, 0x2000\n\t" /* mstatus.FS: initial */
-                     "csrs mstatus, t0\n\t"
-                     "csrw fcsr, zero\n\t"
+        "li t0, 0x2000\n\t" /* mstatus.FS: initial */
+        "csrs mstatus, t0\n\t"
+        "csrw fcsr, zero\n\t"
 #endif
-                     "j start\n\t"
-                     ".option pop");
+        "j start\n\t"
+        ".option pop");
 }

@@ -8,9 +8,9 @@ typedef struct {
     volatile uint8_t data, interrupts, fifo, line, modem, state;
 } uart_t;
 
-enum { EIGHT_BITS = 3, DIVISOR_ACCESS = 1 << 7 };               /* line */
+enum { EIGHT_BITS = 3, DIVISOR_ACCESS = 1 << 7 }; /* line */
 enum { FIFO_ON = 1 << 0 };
-enum { RECEIVED = 1 << 0, SEND_EMPTY = 1 << 5 };                /* state */
+enum { RECEIVED = 1 << 0, SEND_EMPTY = 1 << 5 }; /* state */
 enum { CLOCK = 3686400, BAUD = 115200, DIVISOR = CLOCK / (16 * BAUD) };
 
 static uart_t *const uart = (uart_t *)LQG_UART;

@@ -10,12 +10,12 @@
 
 enum { LATE_FOR = 5 };
 
-static const float upright = 0.09f;     /* rad, 5°: where it may begin */
-static const float fallen = 0.5f;       /* rad, 29°: far more than while it balances */
-static const float calm = 0.17f;        /* rad/s, 10 °/s: a hand that holds it, and any gyroscope's offset */
-static const float let_go = 0.1f;       /* rad/s, 6 °/s: it tips */
-static const float turn_gain = 1.0f;    /* V/rad: how hard it holds its direction; the design knows nothing of it */
-static const float turn_limit = 1.0f;   /* V: what that may take from a wheel */
+static const float upright = 0.09f;   /* rad, 5°: where it may begin */
+static const float fallen = 0.5f;     /* rad, 29°: far more than while it balances */
+static const float calm = 0.17f;      /* rad/s, 10 °/s: a hand that holds it, and any gyroscope's offset */
+static const float let_go = 0.1f;     /* rad/s, 6 °/s: it tips */
+static const float turn_gain = 1.0f;  /* V/rad: how hard it holds its direction; the design knows nothing of it */
+static const float turn_limit = 1.0f; /* V: what that may take from a wheel */
 
 void balancer_init(balancer_t *self)
 {
@@ -33,7 +33,8 @@ static int is_finite(float value)
 
 static int has_all(const sensors_t *sensors)
 {
-    return is_finite(sensors->left) && is_finite(sensors->right) && is_finite(sensors->gyro) && is_finite(sensors->tilt);
+    return is_finite(sensors->left) && is_finite(sensors->right) && is_finite(sensors->gyro) &&
+           is_finite(sensors->tilt);
 }
 
 static void stop(balancer_t *self, balancer_reason_t reason)

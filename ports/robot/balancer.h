@@ -17,26 +17,26 @@ typedef enum { BALANCER_WAITING, BALANCER_READY, BALANCER_BALANCING } balancer_s
 
 /* Why it does not drive. */
 typedef enum {
-    BALANCER_NEW,     /* it has been switched on, or laid down */
-    BALANCER_FALLEN,  /* the body is too far from upright, or moves as if it were: held wheels look like that */
-    BALANCER_LIFTED,  /* the voltage has been at its limit for half a second: the wheels turn in the air */
-    BALANCER_BLIND,   /* a sensor has been silent for a tenth of a second */
-    BALANCER_LATE     /* five samples in a row took longer than the sample time */
+    BALANCER_NEW,    /* it has been switched on, or laid down */
+    BALANCER_FALLEN, /* the body is too far from upright, or moves as if it were: held wheels look like that */
+    BALANCER_LIFTED, /* the voltage has been at its limit for half a second: the wheels turn in the air */
+    BALANCER_BLIND,  /* a sensor has been silent for a tenth of a second */
+    BALANCER_LATE    /* five samples in a row took longer than the sample time */
 } balancer_reason_t;
 
 typedef struct {
     balancing_robot_t loop;
     balancer_state_t state;
     balancer_reason_t reason;
-    unsigned still;               /* samples that it has been held upright and still */
-    float gyro_sum, gyro_offset;  /* rad/s; the offset is the mean of the second of waiting */
-    float zero;                   /* rad: the wheels' mean angle when it became ready */
-    float turn;                   /* rad: by how much the right wheel was ahead then */
-    float voltage;                /* V, of the last sample */
-    unsigned limited, blind, late;  /* such samples in a row */
-    unsigned in_time;               /* samples since the last that was late */
-    sensors_t sensors;              /* of the last sample */
-    unsigned long samples, overruns;  /* since the start */
+    unsigned still;                  /* samples that it has been held upright and still */
+    float gyro_sum, gyro_offset;     /* rad/s; the offset is the mean of the second of waiting */
+    float zero;                      /* rad: the wheels' mean angle when it became ready */
+    float turn;                      /* rad: by how much the right wheel was ahead then */
+    float voltage;                   /* V, of the last sample */
+    unsigned limited, blind, late;   /* such samples in a row */
+    unsigned in_time;                /* samples since the last that was late */
+    sensors_t sensors;               /* of the last sample */
+    unsigned long samples, overruns; /* since the start */
 } balancer_t;
 
 /* Waits; the motors are off. */

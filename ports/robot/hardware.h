@@ -5,9 +5,9 @@
 
 /* Forward is positive: a wheel that rolls forward, a body that tips forward. What could not be measured is NaN. */
 typedef struct {
-    float left, right;  /* rad: angles of the wheels against the body, from any zero */
-    float gyro;         /* rad/s of the body, with whatever offset the sensor has */
-    float tilt;         /* rad from upright, as gravity shows it: right only while nothing is accelerated */
+    float left, right; /* rad: angles of the wheels against the body, from any zero */
+    float gyro;        /* rad/s of the body, with whatever offset the sensor has */
+    float tilt;        /* rad from upright, as gravity shows it: right only while nothing is accelerated */
 } sensors_t;
 
 /* All of it, with the motors off. */

@@ -16,7 +16,7 @@ uint32_t ticks_of_call(void *object, const void *signals, void *results, functio
 /* What `ticks` are in instructions. */
 unsigned instructions_in(uint32_t ticks);
 
-void do_nothing(void);                 /* one instruction, the return */
+void do_nothing(void);                  /* one instruction, the return */
 void do_nothing_a_thousand_times(void); /* 1001 */
 
 #endif

@@ -13,30 +13,31 @@ enum { SYSTICK_MASK = 0xFFFFFF };
 /* The lower 24 bits of the first result are the ticks. */
 uint32_t difference_of_call(void *object, const void *signals, void *results, function *f, uint32_t *top);
 
-__asm__(".global do_nothing, do_nothing_a_thousand_times\n"
-        ".syntax unified\n"
-        ".thumb_func\n"
-        "difference_of_call:\n"
-        "    push {r4-r7, lr}\n"
-        "    ldr r7, [sp, #20]\n" /* top */
-        "    mov r4, sp\n"
-        "    mov sp, r7\n"
-        "    ldr r5, =0xE000E018\n"
-        "    ldr r6, [r5]\n"
-        "    blx r3\n"
-        "    ldr r0, [r5]\n"
-        "    mov sp, r4\n"
-        "    subs r0, r6, r0\n"
-        "    pop {r4-r7, pc}\n"
-        ".ltorg\n"
-        ".thumb_func\n"
-        "do_nothing_a_thousand_times:\n"
-        ".rept 1000\n"
-        "    nop\n"
-        ".endr\n"
-        ".thumb_func\n"
-        "do_nothing:\n"
-        "    bx lr\n");
+__asm__(
+    ".global do_nothing, do_nothing_a_thousand_times\n"
+    ".syntax unified\n"
+    ".thumb_func\n"
+    "difference_of_call:\n"
+    "    push {r4-r7, lr}\n"
+    "    ldr r7, [sp, #20]\n" /* top */
+    "    mov r4, sp\n"
+    "    mov sp, r7\n"
+    "    ldr r5, =0xE000E018\n"
+    "    ldr r6, [r5]\n"
+    "    blx r3\n"
+    "    ldr r0, [r5]\n"
+    "    mov sp, r4\n"
+    "    subs r0, r6, r0\n"
+    "    pop {r4-r7, pc}\n"
+    ".ltorg\n"
+    ".thumb_func\n"
+    "do_nothing_a_thousand_times:\n"
+    ".rept 1000\n"
+    "    nop\n"
+    ".endr\n"
+    ".thumb_func\n"
+    "do_nothing:\n"
+    "    bx lr\n");
 
 void start_counting(void)
 {

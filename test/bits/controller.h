@@ -10,7 +10,7 @@
 #define OF(part) JOIN(NAME, part)
 #define SIZE(part) JOIN(UPPER_NAME, part)
 
-static hashes_t OF(hash_state)(hashes_t hashes, const OF(t) *self)
+static hashes_t OF(hash_state)(hashes_t hashes, const OF(t) * self)
 {
 #define HASH_MEMBER(name) hashes = hash_reals(hashes, self->name, sizeof self->name);
     MEMBERS
@@ -18,7 +18,7 @@ static hashes_t OF(hash_state)(hashes_t hashes, const OF(t) *self)
     return hashes;
 }
 
-static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) *self, source_t *source)
+static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) * self, source_t *source)
 {
     lqg_status_t status = LQG_OK;
 #ifdef CONTROLS

@@ -6,8 +6,7 @@
 #include "contracted.h"
 #include "hashes.h"
 
-#define CONTROLLER(name, arithmetic, style, real) \
-    hashes_t name##_##arithmetic##_##style##_##real(void);
+#define CONTROLLER(name, arithmetic, style, real) hashes_t name##_##arithmetic##_##style##_##real(void);
 #include "controllers.h"
 #undef CONTROLLER
 

@@ -27,7 +27,11 @@ enum { QUIET_SAMPLES = 1000 };
 static const struct instant {
     int sample, phase;
 } instants[] = {{0, 0}, {0, 1}, {40, 1}, {300, 2}};
-enum { INSTANTS = sizeof instants / sizeof *instants, LAST_INSTANT = 300, SAMPLES = LAST_INSTANT + PROMISED + WATCHED + 1 };
+enum {
+    INSTANTS = sizeof instants / sizeof *instants,
+    LAST_INSTANT = 300,
+    SAMPLES = LAST_INSTANT + PROMISED + WATCHED + 1
+};
 
 static struct drawn drawn[SAMPLES];
 static struct loop twin[SAMPLES + 1]; /* before each sample */
@@ -122,8 +126,8 @@ static int is_limited(const struct loop *loop)
 static int is_same(const struct loop *a, const struct loop *b)
 {
     for (int m = 0; m < MEMBERS; m++)
-        if (memcmp((const unsigned char *)&a->controller + members[m].offset, (const unsigned char *)&b->controller + members[m].offset,
-                   members[m].size) != 0)
+        if (memcmp((const unsigned char *)&a->controller + members[m].offset,
+                   (const unsigned char *)&b->controller + members[m].offset, members[m].size) != 0)
             return 0;
     return memcmp(a->x, b->x, sizeof a->x) == 0 && memcmp(a->u, b->u, sizeof a->u) == 0;
 }
@@ -158,7 +162,8 @@ static int is_beyond_bounds(const struct loop *loop)
 }
 
 enum outcome { FORGOTTEN, LATE, NEVER, UNSOUND, BEYOND_U, BEYOND_BOUNDS, OUTCOMES };
-static const char *const words[OUTCOMES] = {"forgotten", "late", "not forgotten", "unsound", "beyond u", "beyond bounds"};
+static const char *const words[OUTCOMES] = {"forgotten", "late",     "not forgotten",
+                                            "unsound",   "beyond u", "beyond bounds"};
 
 /* What becomes of one flip, and the samples until it is forgotten. */
 static enum outcome follow(const struct flip *flip, int *samples)
@@ -169,7 +174,8 @@ static enum outcome follow(const struct flip *flip, int *samples)
     *samples = 0;
     for (int k = flip->at.sample; k < end; k++) {
         run(&loop, flip, k);
-        if (!is_limited(&loop) || (k > flip->at.sample && !is_finite(&loop))) /* a flip alone can make a number infinite */
+        if (!is_limited(&loop) ||
+            (k > flip->at.sample && !is_finite(&loop))) /* a flip alone can make a number infinite */
             return UNSOUND;
         if (is_same(&loop, &twin[k + 1]))
             break;
@@ -213,8 +219,8 @@ static int runs_away(void)
 
 static void report(const struct flip *flip, enum outcome outcome, int samples)
 {
-    printf("%s: %s[%d], bit %d, before call %d of sample %d, after %d samples\n", words[outcome], flip->of->name, flip->number,
-           flip->bit, flip->at.phase, flip->at.sample, samples);
+    printf("%s: %s[%d], bit %d, before call %d of sample %d, after %d samples\n", words[outcome], flip->of->name,
+           flip->number, flip->bit, flip->at.phase, flip->at.sample, samples);
 }
 
 int main(int count, char *arguments[])
@@ -247,8 +253,10 @@ int main(int count, char *arguments[])
                     else if (lists || outcome < BEYOND_U)
                         report(&flip, outcome, samples);
                 }
-    printf("%ld flips forgotten, the last after %d of %d samples; %ld late, %ld never, %ld unsound; plants beyond what u can bring back: %ld, "
-           "driven beyond their bounds by a u without limits: %ld\n",
-           found[FORGOTTEN], longest, RECOVERY_SAMPLES, found[LATE], found[NEVER], found[UNSOUND], found[BEYOND_U], found[BEYOND_BOUNDS]);
+    printf(
+        "%ld flips forgotten, the last after %d of %d samples; %ld late, %ld never, %ld unsound; plants beyond what u can bring back: %ld, "
+        "driven beyond their bounds by a u without limits: %ld\n",
+        found[FORGOTTEN], longest, RECOVERY_SAMPLES, found[LATE], found[NEVER], found[UNSOUND], found[BEYOND_U],
+        found[BEYOND_BOUNDS]);
     return found[LATE] || found[NEVER] || found[UNSOUND];
 }

@@ -201,10 +201,11 @@ int main(int count, char *arguments[])
     while (tally.samples < samples)
         run_lap(&tally, &source, silence, samples - tally.samples);
     most = most_gated(&tally);
-    printf("%ld honest samples in %ld laps of %d, with a silence of %d each: gated in %ld, %.0f may be; "
-           "other faults in %ld; counted by the controller: %.0f; laps beyond what u can bring back: %ld; not back "
-           "from the silence: %ld\n",
-           tally.samples, tally.laps, LAP, silence, tally.gated, most, tally.faults, tally.counted, tally.beyond_u,
-           tally.lost);
+    printf(
+        "%ld honest samples in %ld laps of %d, with a silence of %d each: gated in %ld, %.0f may be; "
+        "other faults in %ld; counted by the controller: %.0f; laps beyond what u can bring back: %ld; not back "
+        "from the silence: %ld\n",
+        tally.samples, tally.laps, LAP, silence, tally.gated, most, tally.faults, tally.counted, tally.beyond_u,
+        tally.lost);
     return (double)tally.gated > most || tally.counted > most || tally.faults;
 }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """layout.py [--fix] CLANG_FORMAT ROOT [FILE…]: fails where a C or C++ source (of FILE, if there are any) is not laid
 out as clang-format does it with ROOT/.clang-format (C++) or ROOT/src/.clang-format (C); --fix lays it out. What is
-emitted, and headers whose columns are aligned by hand, are not looked at. Other versions than VERSION break some lines
-elsewhere: with them nothing is checked, and that is said."""
+emitted, headers whose columns are aligned by hand, and sketches are not looked at. Other versions than VERSION break
+some lines elsewhere: with them nothing is checked, and that is said."""
 
 import subprocess
 import sys
@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 VERSION = "19."
-STYLES = {".cpp": ".clang-format", ".hpp": ".clang-format"}
-BY_HAND = ("include/lqg/", "test/golden/")
+STYLES = {".cpp": ".clang-format", ".hpp": ".clang-format", ".c": "src/.clang-format", ".h": "src/.clang-format"}
+BY_HAND = ("include/lqg/", "ports/packages/arduino/", "test/golden/")
 
 
 def sources(root, chosen):

@@ -58,7 +58,7 @@ static void say_anything(lqg_real v[], int length)
 
 /* An array of anything. */
 #define ANYTHING(name, length) \
-    lqg_real name[length]; \
+    lqg_real name[length];     \
     say_anything(name, length)
 
 #endif

@@ -113,7 +113,7 @@ int main(void)
         say_anything(loop->r, SIZE(NR));
 #endif
         call_any(loop);
-        /*@ slevel merge; */ ;
+        /*@ slevel merge; */;
         look_at_state(loop);
     }
     return 0;

@@ -11,10 +11,8 @@ enum { NX = 3, NY = 2, NW = 1 };
 volatile int any_int;
 volatile lqg_real any_real;
 
-static const lqg_real A[9] = {1, 0.1f, 0, 0, 1, 0.1f, 0, 0, 0.9f}, C[6] = {1, 0, 0, 0, 1, 0.5f},
-                      V[2] = {0.1f, 0.2f};
-static const lqg_real E[4] = {1, 0, 0.5f, 1}, G[3] = {0, 0, 1}, W[1] = {0.01f},
-                      M[6] = {0, 0, 0.1f, 0, 0, 0.1f};
+static const lqg_real A[9] = {1, 0.1f, 0, 0, 1, 0.1f, 0, 0, 0.9f}, C[6] = {1, 0, 0, 0, 1, 0.5f}, V[2] = {0.1f, 0.2f};
+static const lqg_real E[4] = {1, 0, 0.5f, 1}, G[3] = {0, 0, 1}, W[1] = {0.01f}, M[6] = {0, 0, 0.1f, 0, 0, 0.1f};
 static const lqg_real x0[3] = {1, 2, 3}, d0[3] = {1, 1, 1}, U0[3] = {0}, limits[3] = {10, 10, 10},
                       scale[3] = {1 / 16.0f, 1 / 64.0f, 0.25f};
 
@@ -47,8 +45,8 @@ static void any_h(void *context, lqg_real y[], lqg_real jacobian[], const lqg_re
 
 static const lqg_real widen[NY] = {1.5f, 1.5f}, narrow[NY] = {0.75f, 0.75f};
 static lqg_gate_t gate = {3, NULL, widen, narrow}; /* of any width */
-static const lqg_kalman_ud_t kalman = {{NX, 0, NY, A, NULL, C, NULL}, E, V, NW, G, W, M, A, x0, U0, d0,
-                                       scale, limits, &gate};
+static const lqg_kalman_ud_t kalman = {
+    {NX, 0, NY, A, NULL, C, NULL}, E, V, NW, G, W, M, A, x0, U0, d0, scale, limits, &gate};
 static const lqg_ekf_t ekf = {NX, NY, NW, any_f, any_h, NULL, NULL, V, G, W, x0, U0, d0, &gate};
 static const lqg_rls_t rls = {NX, 0.9f, 1, x0, d0, limits};
 

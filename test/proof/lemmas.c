@@ -49,7 +49,8 @@ static void test_a_square_is_below_a_power_of_four_exactly_when_the_number_is_be
     for (int e = -62; e <= 62; e++) {
         const float bound = ldexpf(1, e), square = ldexpf(1, 2 * e);
         for (uint32_t step = 0; step < 1000; step++) {
-            const volatile float below = float_of(0x3f7fffffu - step) * bound, above = float_of(0x3f800000u + step) * bound;
+            const volatile float below = float_of(0x3f7fffffu - step) * bound,
+                                 above = float_of(0x3f800000u + step) * bound;
             const float of_below = below * below, of_above = above * above;
             TEST_ASSERT_TRUE(of_below < square && !(of_above < square));
             TEST_ASSERT_TRUE(fmaf(below, below, 0) < square && !(fmaf(above, above, 0) < square));

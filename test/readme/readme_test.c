@@ -11,13 +11,9 @@ void every_sample(void);
 
 static float measured[2], applied;
 
-void setUp(void)
-{
-}
+void setUp(void) {}
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 void read_sensors(float y[2])
 {

@@ -18,9 +18,7 @@ void setUp(void)
     start();
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 float read_encoder(void)
 {

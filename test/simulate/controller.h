@@ -8,7 +8,7 @@
 #define OF(part) JOIN(NAME, part)
 #define SIZE(part) JOIN(UPPER_NAME, part)
 
-static int OF(replay_sample)(OF(t) *self, FILE *file)
+static int OF(replay_sample)(OF(t) * self, FILE *file)
 {
     lqg_status_t status = LQG_OK;
     REAL x[SIZE(NX)], expected_x[SIZE(NX)];

@@ -28,9 +28,10 @@ static const lqg_real scale[3] = {1 / 1024.0f, 1 / 4096.0f, 1 / 1024.0f}, limit[
 #define PLANT {NX, NU, NY, A, B, C, D}
 #define REGULATOR {NX, NU, K, u_min, u_max}
 static const lqg_loop_steady_t steady = {{PLANT, L, M, x0, scale, limit, NULL, NULL}, REGULATOR, LQG_FILTER_FORM};
-static const lqg_loop_plain_t plain = {{PLANT, E, V, W, M, A_free, x0, P0, scale, limit, NULL}, REGULATOR, LQG_FILTER_FORM};
-static const lqg_loop_ud_t ud = {{PLANT, E, V, 2, G, variances, M, A_free, x0, U0, d0, scale, limit, NULL},
-                                   REGULATOR, LQG_PREDICTOR_FORM};
+static const lqg_loop_plain_t plain = {
+    {PLANT, E, V, W, M, A_free, x0, P0, scale, limit, NULL}, REGULATOR, LQG_FILTER_FORM};
+static const lqg_loop_ud_t ud = {
+    {PLANT, E, V, 2, G, variances, M, A_free, x0, U0, d0, scale, limit, NULL}, REGULATOR, LQG_PREDICTOR_FORM};
 
 static const lqg_real P_limits[3] = {2, 3, 4};
 static const lqg_rls_t rls = {NX, 0.93f, 0.7f, x0, d0, P_limits};

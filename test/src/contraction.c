@@ -25,12 +25,10 @@ LQG_STRICT_END
 static unsigned long long hash_of_a_pair(unsigned long long hash)
 {
     const double e = sizeof(lqg_real) == sizeof(float) ? 0x1p-20 : 0x1p-50;
-    const lqg_real a[2] = {(lqg_real)(1 + e), (lqg_real)(1 + e)},
-                   b[2] = {(lqg_real)(1 - e), (lqg_real)(1 - e)};
+    const lqg_real a[2] = {(lqg_real)(1 + e), (lqg_real)(1 + e)}, b[2] = {(lqg_real)(1 - e), (lqg_real)(1 - e)};
     const lqg_real c[2] = {-1, 1};
     lqg_real out[2];
-    void (*volatile compute)(lqg_real *, const lqg_real *, const lqg_real *, const lqg_real *) =
-        sum_and_difference;
+    void (*volatile compute)(lqg_real *, const lqg_real *, const lqg_real *, const lqg_real *) = sum_and_difference;
 
     compute(out, a, b, c);
     return hash_bytes(hash, out, sizeof out);

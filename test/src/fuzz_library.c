@@ -10,8 +10,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t length);
 
-static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise,
-                                        &random_walk};
+static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise, &random_walk};
 enum { MODELS = sizeof models / sizeof *models, STEADY = 0, PLAIN, UD, EKF, RLS, ESTIMATORS };
 
 /* Bytes to be used up; then zeros. */
@@ -133,8 +132,8 @@ static void make_arrays(machine_t *machine)
 
 static void free_arrays(machine_t *machine)
 {
-    void *const arrays[] = {machine->memory, machine->y, machine->u, machine->innovation,
-                            machine->S, machine->heard, machine->gated};
+    void *const arrays[] = {machine->memory, machine->y,     machine->u,    machine->innovation,
+                            machine->S,      machine->heard, machine->gated};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
 }

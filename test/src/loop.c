@@ -17,8 +17,8 @@ void make_loop(loop_t *loop, const model_t *model, unsigned filter, lqg_form_t f
     loop->u_max[0] = 1;
 
     const lqg_lqr_t lqr = {model->nx, model->nu, loop->K, loop->u_min, loop->u_max};
-    const lqg_kalman_steady_t kalman = {loop->online.plain.plant, loop->gains, loop->online.plain.M,
-                                        loop->online.x0, NULL, NULL, NULL, NULL};
+    const lqg_kalman_steady_t kalman = {
+        loop->online.plain.plant, loop->gains, loop->online.plain.M, loop->online.x0, NULL, NULL, NULL, NULL};
     loop->steady.kalman = kalman;
     loop->plain.kalman = loop->online.plain;
     loop->ud.kalman = loop->online.ud;

@@ -4,7 +4,9 @@
 #include <string.h>
 
 const model_t double_integrator = {
-    .nx = 2, .nu = 1, .ny = 1,
+    .nx = 2,
+    .nu = 1,
+    .ny = 1,
     .A = {1, 0.1, 0, 1},
     .B = {0.005, 0.1},
     .C = {1, 0},
@@ -16,9 +18,10 @@ const model_t double_integrator = {
 /* Two masses with spring and damper, k = 0.1, b = 0.004, 1 kg and 0.2 kg, by semi-implicit Euler, T = 0.5 s.
  * */
 const model_t two_mass = {
-    .nx = 4, .nu = 1, .ny = 2,
-    .A = {0.975, 0.499, 0.025, 0.001, -0.05, 0.998, 0.05, 0.002, 0.125, 0.005, 0.875, 0.495, 0.25, 0.01,
-          -0.25, 0.99},
+    .nx = 4,
+    .nu = 1,
+    .ny = 2,
+    .A = {0.975, 0.499, 0.025, 0.001, -0.05, 0.998, 0.05, 0.002, 0.125, 0.005, 0.875, 0.495, 0.25, 0.01, -0.25, 0.99},
     .B = {0.25, 0.5, 0, 0},
     .C = {1, 0, 0, 0, 0, 0, 1, 0},
     .D = {0.1, -0.05},
@@ -29,7 +32,9 @@ const model_t two_mass = {
 };
 
 const model_t correlated = {
-    .nx = 3, .nu = 1, .ny = 2,
+    .nx = 3,
+    .nu = 1,
+    .ny = 2,
     .A = {0.9, 0.2, 0, -0.1, 0.8, 0.1, 0.05, 0, 0.7},
     .B = {0, 0.5, 1},
     .C = {1, 0, 0.5, 0, 1, -1},
@@ -41,7 +46,9 @@ const model_t correlated = {
 };
 
 const model_t cross_noise = {
-    .nx = 2, .nu = 1, .ny = 2,
+    .nx = 2,
+    .nu = 1,
+    .ny = 2,
     .A = {0.95, 0.1, -0.2, 0.9},
     .B = {0.1, 1},
     .C = {1, 0, 1, 1},
@@ -52,8 +59,14 @@ const model_t cross_noise = {
 };
 
 const model_t random_walk = {
-    .nx = 1, .ny = 1,
-    .A = {1}, .C = {1}, .W = {0.25}, .V = {1}, .x0 = {3}, .P0 = {4},
+    .nx = 1,
+    .ny = 1,
+    .A = {1},
+    .C = {1},
+    .W = {0.25},
+    .V = {1},
+    .x0 = {3},
+    .P0 = {4},
 };
 
 static void round_all(lqg_real to[], const double from[], unsigned length)
@@ -116,8 +129,7 @@ static void multiply(double to[], const double left[], const double right[], uns
         for (unsigned j = 0; j < columns; j++) {
             to[i * columns + j] = 0;
             for (unsigned k = 0; k < inner; k++)
-                to[i * columns + j] +=
-                    left[i * inner + k] * right[transposed ? j * inner + k : k * columns + j];
+                to[i * columns + j] += left[i * inner + k] * right[transposed ? j * inner + k : k * columns + j];
         }
 }
 
@@ -176,15 +188,15 @@ void prepare_online(const model_t *model, online_t *to)
     round_ud(to->U0, to->d0, model->P0, nx);
 
     const int crossed = any_nonzero(model->S, nx * ny);
-    const lqg_plant_t plant = {nx, nu, ny, to->A, nu ? to->B : NULL, to->C,
-                               any_nonzero(model->D, ny * nu) ? to->D : NULL};
+    const lqg_plant_t plant = {
+        nx, nu, ny, to->A, nu ? to->B : NULL, to->C, any_nonzero(model->D, ny * nu) ? to->D : NULL};
     const lqg_real *E_or_none = ny > 1 && model->V[1] != 0 ? to->E : NULL;
     const lqg_real *M_or_none = crossed ? to->M : NULL, *A_free_or_none = crossed ? to->A_free : NULL;
 
-    const lqg_kalman_plain_t plain = {plant, E_or_none, to->V, to->W, M_or_none, A_free_or_none, to->x0,
-                                      to->P0, NULL, NULL, NULL};
-    const lqg_kalman_ud_t ud = {plant, E_or_none, to->V, nx, to->G, to->variances,
-                                M_or_none, A_free_or_none, to->x0, to->U0, to->d0, NULL, NULL, NULL};
+    const lqg_kalman_plain_t plain = {plant,  E_or_none, to->V, to->W, M_or_none, A_free_or_none,
+                                      to->x0, to->P0,    NULL,  NULL,  NULL};
+    const lqg_kalman_ud_t ud = {plant,          E_or_none, to->V,  nx,     to->G, to->variances, M_or_none,
+                                A_free_or_none, to->x0,    to->U0, to->d0, NULL,  NULL,          NULL};
     to->plain = plain;
     to->ud = ud;
 }

@@ -32,7 +32,7 @@ static inline lqg_kalman_plain_state_t plain_state(state_t *s)
 
 static inline lqg_kalman_ud_state_t ud_state(state_t *s)
 {
-    const lqg_kalman_ud_state_t state = {s->x, s->U, s->d, s->u_applied, s->innovation, {s->widening, s->gated},
+    const lqg_kalman_ud_state_t state = {s->x,   s->U, s->d, s->u_applied, s->innovation, {s->widening, s->gated},
                                          s->work};
     return state;
 }
@@ -50,14 +50,14 @@ static inline lqg_status_t steady_update(const lqg_kalman_steady_t *kalman, stat
 }
 
 static inline lqg_status_t steady_partial_update(const lqg_kalman_steady_t *kalman, state_t *s, const lqg_real y[],
-                                              unsigned long used, const lqg_watch_t *watch)
+                                                 unsigned long used, const lqg_watch_t *watch)
 {
     lqg_kalman_steady_state_t state = steady_state(s);
     return lqg_kalman_steady_partial_update(kalman, &state, y, used, watch);
 }
 
 static inline lqg_status_t steady_update_output(const lqg_kalman_steady_t *kalman, state_t *s, lqg_real y_i, unsigned i,
-                                             const lqg_watch_t *watch)
+                                                const lqg_watch_t *watch)
 {
     lqg_kalman_steady_state_t state = steady_state(s);
     return lqg_kalman_steady_update_output(kalman, &state, &y_i, i, watch);
@@ -82,14 +82,14 @@ static inline lqg_status_t plain_update(const lqg_kalman_plain_t *kalman, state_
 }
 
 static inline lqg_status_t plain_partial_update(const lqg_kalman_plain_t *kalman, state_t *s, const lqg_real y[],
-                                              unsigned long used, const lqg_watch_t *watch)
+                                                unsigned long used, const lqg_watch_t *watch)
 {
     lqg_kalman_plain_state_t state = plain_state(s);
     return lqg_kalman_plain_partial_update(kalman, &state, y, used, watch);
 }
 
 static inline lqg_status_t plain_update_output(const lqg_kalman_plain_t *kalman, state_t *s, lqg_real y_i, unsigned i,
-                                             const lqg_watch_t *watch)
+                                               const lqg_watch_t *watch)
 {
     lqg_kalman_plain_state_t state = plain_state(s);
     return lqg_kalman_plain_update_output(kalman, &state, &y_i, i, watch);
@@ -114,14 +114,14 @@ static inline lqg_status_t ud_update(const lqg_kalman_ud_t *kalman, state_t *s, 
 }
 
 static inline lqg_status_t ud_partial_update(const lqg_kalman_ud_t *kalman, state_t *s, const lqg_real y[],
-                                              unsigned long used, const lqg_watch_t *watch)
+                                             unsigned long used, const lqg_watch_t *watch)
 {
     lqg_kalman_ud_state_t state = ud_state(s);
     return lqg_kalman_ud_partial_update(kalman, &state, y, used, watch);
 }
 
 static inline lqg_status_t ud_update_output(const lqg_kalman_ud_t *kalman, state_t *s, lqg_real y_i, unsigned i,
-                                             const lqg_watch_t *watch)
+                                            const lqg_watch_t *watch)
 {
     lqg_kalman_ud_state_t state = ud_state(s);
     return lqg_kalman_ud_update_output(kalman, &state, &y_i, i, watch);

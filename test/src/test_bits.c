@@ -5,12 +5,8 @@
 #include "lqg/arithmetic.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-void tearDown(void)
-{
-}
+void setUp(void) {}
+void tearDown(void) {}
 
 #if defined LQG_REAL_DOUBLE && defined LQG_FUSED
 #define EXPECTED 0xba5664090c9b1a54ull

@@ -17,8 +17,7 @@ static const lqg_real bound[3] = {16, 64, 4}, scale[3] = {1 / 16.0f, 1 / 64.0f, 
 #define PLANT {NX, NX, NX, identity, identity, identity, NULL}
 static lqg_kalman_steady_t steady = {PLANT, L, NULL, x0, scale, limit, NULL, NULL};
 static lqg_kalman_plain_t plain = {PLANT, NULL, one, none, NULL, NULL, x0, P0, scale, limit, NULL};
-static lqg_kalman_ud_t ud = {PLANT, NULL, one, 0, NULL, NULL, NULL, NULL, x0, none, one, scale, limit,
-                             NULL};
+static lqg_kalman_ud_t ud = {PLANT, NULL, one, 0, NULL, NULL, NULL, NULL, x0, none, one, scale, limit, NULL};
 
 static lqg_real x[3], P[6], U[3], d[3], work[LQG_KALMAN_UD_WORK(3, 3, 0)];
 static unsigned long gated[3];
@@ -40,9 +39,7 @@ void setUp(void)
     set_bounds(scale, limit);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 /* Begins with x̂ = 0. */
 static void begin(int filter)

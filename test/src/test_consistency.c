@@ -6,12 +6,8 @@
 #include "model.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-void tearDown(void)
-{
-}
+void setUp(void) {}
+void tearDown(void) {}
 
 enum { RUNS = 200, SAMPLES = 40, JOINT = MAX_NX + MAX_NY };
 
@@ -33,9 +29,7 @@ static void cholesky(const double M[], unsigned n, double root[])
             double left = M[i * n + j];
             for (unsigned k = 0; k < j; k++)
                 left -= root[i * n + k] * root[j * n + k];
-            root[i * n + j] = i == j                ? sqrt(left > 1e-15 ? left : 0)
-                              : root[j * n + j] > 0 ? left / root[j * n + j]
-                                                    : 0;
+            root[i * n + j] = i == j ? sqrt(left > 1e-15 ? left : 0) : root[j * n + j] > 0 ? left / root[j * n + j] : 0;
         }
 }
 
@@ -65,8 +59,8 @@ static void joint_root(const model_t *model, double root[])
 }
 
 /* y = C x + D u + v, x ← A x + B u + w */
-static void go_on(const model_t *model, const double root[], double x[], const lqg_real u_before[],
-                  const lqg_real u[], lqg_real y[], unsigned long *seed)
+static void go_on(const model_t *model, const double root[], double x[], const lqg_real u_before[], const lqg_real u[],
+                  lqg_real y[], unsigned long *seed)
 {
     const unsigned nx = model->nx, nu = model->nu;
     double joint[JOINT], next[MAX_NX];

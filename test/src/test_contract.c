@@ -19,20 +19,20 @@ void contract_broken(const char *condition)
 }
 
 /* The call breaks a MUST whose check has this in it. */
-#define EXPECT_BROKEN(part, call)                                                                                    \
-    do {                                                                                                             \
-        broken = "nothing";                                                                                          \
-        if (setjmp(after) == 0)                                                                                      \
-            (void)(call);                                                                                            \
-        TEST_ASSERT_TRUE_MESSAGE(strstr(broken, part) != NULL, broken);                                              \
+#define EXPECT_BROKEN(part, call)                                       \
+    do {                                                                \
+        broken = "nothing";                                             \
+        if (setjmp(after) == 0)                                         \
+            (void)(call);                                               \
+        TEST_ASSERT_TRUE_MESSAGE(strstr(broken, part) != NULL, broken); \
     } while (0)
 
-#define EXPECT_KEPT(call)                                                                                            \
-    do {                                                                                                             \
-        broken = NULL;                                                                                               \
-        if (setjmp(after) == 0)                                                                                      \
-            (void)(call);                                                                                            \
-        TEST_ASSERT_TRUE_MESSAGE(broken == NULL, broken);                                                            \
+#define EXPECT_KEPT(call)                                 \
+    do {                                                  \
+        broken = NULL;                                    \
+        if (setjmp(after) == 0)                           \
+            (void)(call);                                 \
+        TEST_ASSERT_TRUE_MESSAGE(broken == NULL, broken); \
     } while (0)
 
 enum { NX = 2, NU = 1, NY = 2, NW = 1 };
@@ -53,8 +53,8 @@ static const lqg_kalman_plain_t plain_kept = {PLANT, NULL, V, W, M, A, NULL, P0,
 static const lqg_kalman_ud_t ud_kept = {PLANT, NULL, V, NW, G, W, M, A, NULL, U0, d0, NULL, NULL, &gate};
 static const lqg_lqr_t lqr_kept = {NX, NU, K, NULL, NULL};
 static const lqg_rls_t rls_kept = {2, 0.9f, 1, NULL, d0, NULL};
-static const lqg_servo_t servo_kept = {.nx = NX, .nu = NU, .nr = 1, .nxi = 1, .T = 1, .K = K_servo, .H = H,
-                                       .output = index_of, .reference = index_of};
+static const lqg_servo_t servo_kept = {
+    .nx = NX, .nu = NU, .nr = 1, .nxi = 1, .T = 1, .K = K_servo, .H = H, .output = index_of, .reference = index_of};
 
 LQG_KALMAN_STEADY_STATE(steady_state, NX, NU, NY);
 LQG_KALMAN_PLAIN_STATE(plain_state, NX, NU, NY);
@@ -98,9 +98,7 @@ void setUp(void)
     loop.form = LQG_FILTER_FORM;
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_nothing_is_said_of_callers_that_do_as_they_must(void)
 {

@@ -8,12 +8,8 @@
 #include "model.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-void tearDown(void)
-{
-}
+void setUp(void) {}
+void tearDown(void) {}
 
 enum { NX = 4, NY = 2, NW = 2 };
 
@@ -24,29 +20,29 @@ enum { NX = 4, NY = 2, NW = 2 };
 #define DRAG 0.01
 
 /* Written for any scalar, so that the filter and its reference share the plant and nothing else. */
-#define VEHICLE(scalar, root, arctangent, motion, sensors)                                                   \
-    static void motion(scalar next[], scalar A[], const scalar x[])                                          \
-    {                                                                                                        \
-        const scalar T = (scalar)PERIOD, c = (scalar)DRAG, v = root(x[1] * x[1] + x[3] * x[3]);              \
-        for (unsigned i = 0; i < 3; i += 2) {                                                                \
-            const unsigned o = 2 - i; /* the other coordinate */                                             \
-            next[i] = x[i] + T * x[i + 1];                                                                   \
-            next[i + 1] = x[i + 1] - T * c * v * x[i + 1];                                                   \
-            A[i * NX + i] = 1;                                                                               \
-            A[i * NX + i + 1] = T;                                                                           \
-            A[(i + 1) * NX + i + 1] = 1 - T * c * (v + x[i + 1] * x[i + 1] / v);                             \
-            A[(i + 1) * NX + o + 1] = -T * c * x[i + 1] * x[o + 1] / v;                                      \
-        }                                                                                                    \
-    }                                                                                                        \
-    static void sensors(scalar y[], scalar C[], const scalar x[])                                            \
-    {                                                                                                        \
-        const scalar range2 = x[0] * x[0] + x[2] * x[2], range = root(range2);                               \
-        y[0] = range;                                                                                        \
-        y[1] = arctangent(x[2], x[0]);                                                                       \
-        C[0] = x[0] / range;                                                                                 \
-        C[2] = x[2] / range;                                                                                 \
-        C[NX] = -x[2] / range2;                                                                              \
-        C[NX + 2] = x[0] / range2;                                                                           \
+#define VEHICLE(scalar, root, arctangent, motion, sensors)                                      \
+    static void motion(scalar next[], scalar A[], const scalar x[])                             \
+    {                                                                                           \
+        const scalar T = (scalar)PERIOD, c = (scalar)DRAG, v = root(x[1] * x[1] + x[3] * x[3]); \
+        for (unsigned i = 0; i < 3; i += 2) {                                                   \
+            const unsigned o = 2 - i; /* the other coordinate */                                \
+            next[i] = x[i] + T * x[i + 1];                                                      \
+            next[i + 1] = x[i + 1] - T * c * v * x[i + 1];                                      \
+            A[i * NX + i] = 1;                                                                  \
+            A[i * NX + i + 1] = T;                                                              \
+            A[(i + 1) * NX + i + 1] = 1 - T * c * (v + x[i + 1] * x[i + 1] / v);                \
+            A[(i + 1) * NX + o + 1] = -T * c * x[i + 1] * x[o + 1] / v;                         \
+        }                                                                                       \
+    }                                                                                           \
+    static void sensors(scalar y[], scalar C[], const scalar x[])                               \
+    {                                                                                           \
+        const scalar range2 = x[0] * x[0] + x[2] * x[2], range = root(range2);                  \
+        y[0] = range;                                                                           \
+        y[1] = arctangent(x[2], x[0]);                                                          \
+        C[0] = x[0] / range;                                                                    \
+        C[2] = x[2] / range;                                                                    \
+        C[NX] = -x[2] / range2;                                                                 \
+        C[NX + 2] = x[0] / range2;                                                              \
     }
 
 #ifdef LQG_REAL_DOUBLE
@@ -370,14 +366,12 @@ static void test_outputs_that_h_cannot_tell_are_left_out(void)
         const unsigned long others = 1ul << (1 - bad), rest = 1ul << (1 - bad_row);
         ekf_arrays_t s = begun(), expected = begun();
 
-        TEST_ASSERT_EQUAL_HEX(REJECTED(bad),
-                               update(&bad_value, &s, y, NULL));
+        TEST_ASSERT_EQUAL_HEX(REJECTED(bad), update(&bad_value, &s, y, NULL));
         partial_update(&vehicle, &expected, y, NULL, others, NULL);
         TEST_ASSERT_TRUE(same(&expected, &s));
 
         s = expected = begun();
-        TEST_ASSERT_EQUAL_HEX(REJECTED(bad_row),
-                               update(&bad_jacobian, &s, y, NULL));
+        TEST_ASSERT_EQUAL_HEX(REJECTED(bad_row), update(&bad_jacobian, &s, y, NULL));
         partial_update(&vehicle, &expected, y, NULL, rest, NULL);
         TEST_ASSERT_TRUE(same(&expected, &s));
     }
@@ -409,8 +403,7 @@ static void test_outputs_that_are_no_numbers_change_nothing_to_the_bit(void)
     const lqg_real y[NY] = {NAN, -INFINITY};
     ekf_arrays_t s = begun();
     const ekf_arrays_t before = s;
-    TEST_ASSERT_EQUAL_HEX(REJECTED(0) | REJECTED(1),
-                           update(&vehicle, &s, y, NULL));
+    TEST_ASSERT_EQUAL_HEX(REJECTED(0) | REJECTED(1), update(&vehicle, &s, y, NULL));
     TEST_ASSERT_TRUE(same(&before, &s));
 }
 
@@ -421,8 +414,7 @@ static void test_gate_leaves_out_an_unlikely_bearing(void)
     const lqg_real likely[NY] = {36, 2.55f}, unlikely[NY] = {36, 1};
     ekf_arrays_t s = begun();
     TEST_ASSERT_EQUAL_UINT(LQG_OK, update(&gated, &s, likely, NULL));
-    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED,
-                           update(&gated, &s, unlikely, NULL));
+    TEST_ASSERT_EQUAL_UINT(LQG_OUTPUT_GATED, update(&gated, &s, unlikely, NULL));
     TEST_ASSERT_TRUE(s.gated[0] == 0 && s.gated[1] == 1);
 }
 

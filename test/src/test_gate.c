@@ -6,12 +6,8 @@
 #include "loop.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-void tearDown(void)
-{
-}
+void setUp(void) {}
+void tearDown(void) {}
 
 static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise, &random_walk};
 enum { MODELS = sizeof models / sizeof *models };

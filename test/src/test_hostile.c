@@ -16,8 +16,7 @@ void tearDown(void) {}
 #endif
 
 static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise};
-static const lqg_real hostile[] = {NAN, INFINITY, -INFINITY, LARGEST, -LARGEST, LARGEST / 1024, 1e30f,
-                                   -1e19f};
+static const lqg_real hostile[] = {NAN, INFINITY, -INFINITY, LARGEST, -LARGEST, LARGEST / 1024, 1e30f, -1e19f};
 enum { HOSTILE = sizeof hostile / sizeof *hostile, NOT_FINITE = 3, SAMPLES = 30 };
 
 /* The status when `output` is not finite: E may mix it with the one after it. */
@@ -28,8 +27,8 @@ static lqg_status_t expected_of(const model_t *model, unsigned filter, unsigned 
 }
 
 /* One loop in which output `output` says `value` in sample `when`, and for ever with when = SAMPLES. */
-static void run_hostile(const model_t *model, unsigned filter, lqg_form_t form, unsigned output,
-                        unsigned which, unsigned when)
+static void run_hostile(const model_t *model, unsigned filter, lqg_form_t form, unsigned output, unsigned which,
+                        unsigned when)
 {
     static loop_t loop;
     double plant[MAX_NX] = {0};
@@ -65,9 +64,18 @@ static void run_all_hostile(unsigned filter)
                 }
 }
 
-static void test_steady_loop_survives_every_output_at_every_sample(void) { run_all_hostile(STEADY); }
-static void test_plain_loop_survives_every_output_at_every_sample(void) { run_all_hostile(PLAIN); }
-static void test_ud_loop_survives_every_output_at_every_sample(void) { run_all_hostile(UD); }
+static void test_steady_loop_survives_every_output_at_every_sample(void)
+{
+    run_all_hostile(STEADY);
+}
+static void test_plain_loop_survives_every_output_at_every_sample(void)
+{
+    run_all_hostile(PLAIN);
+}
+static void test_ud_loop_survives_every_output_at_every_sample(void)
+{
+    run_all_hostile(UD);
+}
 
 static void test_update_without_any_usable_output_changes_nothing_to_the_bit(void)
 {

@@ -15,7 +15,10 @@ void tearDown(void) {}
  * in about 20 samples, as its slowest pole is below 0.95. */
 #define TOLERANCE (1000 * EPSILON)
 
-static double larger(double a, double b) { return a > b ? a : b; }
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 /* Both filters and the textbook, with the same y and u. */
 typedef struct {
@@ -68,8 +71,7 @@ static void compare_all(const run_t *run, unsigned nx, const double x[], const d
         for (unsigned j = 0; j <= i; j++) {
             const double P_ij = P[i * nx + j];
             TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE * largest_P, P_ij, (double)run->plain.P[LQG_TRIANGLE(i) + j]);
-            TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE * largest_P, P_ij,
-                                      ud_covariance(run->ud.U, run->ud.d, nx, i, j));
+            TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE * largest_P, P_ij, ud_covariance(run->ud.U, run->ud.d, nx, i, j));
         }
     }
 }
@@ -190,8 +192,8 @@ static void test_ud_goes_on_when_the_variance_of_a_state_dies_out(void)
 {
     const lqg_real A[4] = {1, 0, 0, 0.5f}, C[2] = {1, 1}, V[1] = {1}, G[2] = {1, 0}, W[1] = {0.5f};
     const lqg_real U0[1] = {0}, d0[2] = {1, 1}, y[1] = {1};
-    const lqg_kalman_ud_t kalman = {{2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, W, NULL, NULL, NULL, U0, d0,
-                                    NULL, NULL, NULL};
+    const lqg_kalman_ud_t kalman = {
+        {2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, W, NULL, NULL, NULL, U0, d0, NULL, NULL, NULL};
     state_t s;
 
     ud_init(&kalman, &s);
@@ -243,8 +245,8 @@ static void test_variance_too_small_to_divide_by_is_that_of_a_state_by_itself(vo
     static const lqg_real identity[4] = {1, 0, 0, 1}, C[2] = {1, 0}, V[1] = {1}, G[2] = {1, 1};
     static const lqg_real d0[2] = {1, 0}, U0[1] = {0};
     const lqg_real tiny = (sizeof(lqg_real) == sizeof(float) ? (lqg_real)FLT_MIN : (lqg_real)DBL_MIN) / 16;
-    const lqg_kalman_ud_t kalman = {.plant = {2, 0, 1, identity, NULL, C, NULL}, .V = V, .nw = 1, .G = G,
-                                    .W = &tiny, .U0 = U0, .d0 = d0};
+    const lqg_kalman_ud_t kalman = {
+        .plant = {2, 0, 1, identity, NULL, C, NULL}, .V = V, .nw = 1, .G = G, .W = &tiny, .U0 = U0, .d0 = d0};
     state_t s;
 
     ud_init(&kalman, &s);

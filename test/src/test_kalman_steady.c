@@ -207,8 +207,8 @@ static void test_status_tells_which_outputs_are_rejected_and_the_last_bit_is_of_
 {
     enum { N = 9 };
     static lqg_real identity[N * N], y[N];
-    static const lqg_kalman_steady_t many = {{N, 0, N, identity, NULL, identity, NULL}, identity, NULL, NULL,
-                                             NULL, NULL, NULL, NULL};
+    static const lqg_kalman_steady_t many = {
+        {N, 0, N, identity, NULL, identity, NULL}, identity, NULL, NULL, NULL, NULL, NULL, NULL};
     LQG_KALMAN_STEADY_STATE(states, N, 0, N);
 
     for (unsigned i = 0; i < N; i++)
@@ -229,8 +229,8 @@ static void test_outputs_beyond_the_bits_of_used_are_always_used(void)
 {
     enum { N = 34 };
     static lqg_real identity[N * N], y[N];
-    static const lqg_kalman_steady_t many = {{N, 0, N, identity, NULL, identity, NULL}, identity, NULL, NULL,
-                                             NULL, NULL, NULL, NULL};
+    static const lqg_kalman_steady_t many = {
+        {N, 0, N, identity, NULL, identity, NULL}, identity, NULL, NULL, NULL, NULL, NULL, NULL};
     LQG_KALMAN_STEADY_STATE(states, N, 0, N);
 
     for (unsigned i = 0; i < N; i++) {

@@ -85,9 +85,14 @@ static void test_a_value_out_of_nothing_respects_limits_that_exclude_zero(void)
 
 static void test_every_status_has_its_own_sentence_and_the_gravest_wins(void)
 {
-    const lqg_status_t rising[] = {LQG_OK, LQG_INPUT_LIMITED, LQG_OUTPUT_GATED, LQG_OUTPUT_REJECTED,
-                                 LQG_REFERENCE_NOT_FINITE, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET,
-                                 LQG_STATE_RESET};
+    const lqg_status_t rising[] = {LQG_OK,
+                                   LQG_INPUT_LIMITED,
+                                   LQG_OUTPUT_GATED,
+                                   LQG_OUTPUT_REJECTED,
+                                   LQG_REFERENCE_NOT_FINITE,
+                                   LQG_INNOVATION_NOT_POSITIVE,
+                                   LQG_COVARIANCE_RESET,
+                                   LQG_STATE_RESET};
     lqg_status_t all = LQG_OK;
     TEST_ASSERT_EQUAL_STRING("all is well", lqg_status_text(LQG_OK));
     for (unsigned i = 0; i < sizeof rising / sizeof *rising; i++) {

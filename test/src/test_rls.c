@@ -7,12 +7,8 @@
 #include "lqg/rls.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-void tearDown(void)
-{
-}
+void setUp(void) {}
+void tearDown(void) {}
 
 enum { MAX_NTHETA = 6, SAMPLES = 300 };
 
@@ -60,11 +56,10 @@ static void begin_batch(const lqg_rls_t *rls, batch_t *batch)
 static void add_to_batch(const lqg_rls_t *rls, batch_t *batch, const lqg_real phi[], lqg_real y)
 {
     for (unsigned i = 0; i < rls->ntheta; i++) {
-        batch->vector[i] =
-            (double)rls->forgetting * batch->vector[i] + (double)phi[i] * (double)y / (double)rls->V;
+        batch->vector[i] = (double)rls->forgetting * batch->vector[i] + (double)phi[i] * (double)y / (double)rls->V;
         for (unsigned j = 0; j < rls->ntheta; j++)
-            batch->information[i][j] = (double)rls->forgetting * batch->information[i][j] +
-                                       (double)phi[i] * (double)phi[j] / (double)rls->V;
+            batch->information[i][j] =
+                (double)rls->forgetting * batch->information[i][j] + (double)phi[i] * (double)phi[j] / (double)rls->V;
     }
 }
 
@@ -170,8 +165,7 @@ static void test_forgetting_follows_a_plant_that_changes(void)
 static void test_limits_hold_what_is_not_excited_and_leave_the_rest_alone(void)
 {
     const lqg_real limits[2] = {50, 8}, variances[2] = {1, 1}, phi[2] = {1, 0};
-    const lqg_rls_t limited = {2, 0.9f, 1, NULL, variances, limits},
-                    one = {1, 0.9f, 1, NULL, variances, NULL};
+    const lqg_rls_t limited = {2, 0.9f, 1, NULL, variances, limits}, one = {1, 0.9f, 1, NULL, variances, NULL};
     rls_arrays_t s = begun(&limited), alone = begun(&one);
 
     for (unsigned sample = 0; sample < 10000; sample++) {
@@ -348,7 +342,8 @@ static void test_nothing_behind_the_parameters_is_touched(void)
     TEST_ASSERT_EQUAL_MEMORY(U, s.U, sizeof U);
     TEST_ASSERT_EQUAL_MEMORY(d, s.d, sizeof d);
     TEST_ASSERT_EQUAL_MEMORY(untouched.theta + NTHETA, s.theta + NTHETA, sizeof s.theta - NTHETA * sizeof *s.theta);
-    TEST_ASSERT_EQUAL_MEMORY(untouched.U + LQG_RLS_U(NTHETA), s.U + LQG_RLS_U(NTHETA), sizeof s.U - LQG_RLS_U(NTHETA) * sizeof *s.U);
+    TEST_ASSERT_EQUAL_MEMORY(untouched.U + LQG_RLS_U(NTHETA), s.U + LQG_RLS_U(NTHETA),
+                             sizeof s.U - LQG_RLS_U(NTHETA) * sizeof *s.U);
     TEST_ASSERT_EQUAL_MEMORY(untouched.d + NTHETA, s.d + NTHETA, sizeof s.d - NTHETA * sizeof *s.d);
 }
 

@@ -10,13 +10,14 @@ void tearDown(void) {}
 
 enum { NX = 2, NU = 2, NR = 2, NY = 3 };
 
-static const lqg_real K[] = {1, 2, -4, 0.5f, -1, 2};                                /* [x̂; ξ] */
+static const lqg_real K[] = {1, 2, -4, 0.5f, -1, 2};                                 /* [x̂; ξ] */
 static const lqg_real K_change[] = {1, 2, -4, 0.5f, 0.25f, 0.5f, -1, 2, -1, 0.125f}; /* [x̂; ξ; u[k−1]] */
 static const lqg_real Nbar[] = {2, 0.5f, -1, 4}, H[] = {0.25f, -0.5f};
 static const unsigned output[] = {2}, reference[] = {1};
 static const lqg_real x[NX] = {1, 2}, r[NR] = {1, -2};
 
-#define WITH_INTEGRAL .nx = NX, .nu = NU, .nr = NR, .nxi = 1, .T = 0.5f, .H = H, .output = output, .reference = reference
+#define WITH_INTEGRAL \
+    .nx = NX, .nu = NU, .nr = NR, .nxi = 1, .T = 0.5f, .H = H, .output = output, .reference = reference
 static const lqg_servo_t integral = {WITH_INTEGRAL, .K = K, .Nbar = Nbar};
 static const lqg_servo_t change = {WITH_INTEGRAL, .K = K_change, .Nbar = Nbar, .gives_change = 1};
 static const lqg_servo_t without_integral = {.nx = NX, .nu = NU, .K = K};
@@ -69,7 +70,8 @@ static lqg_status_t advance(const lqg_servo_t *servo, state_t *s, lqg_real u_0, 
     return status;
 }
 
-static lqg_status_t set_input(const lqg_servo_t *servo, state_t *s, const lqg_real *references, lqg_real u_0, lqg_real u_1)
+static lqg_status_t set_input(const lqg_servo_t *servo, state_t *s, const lqg_real *references, lqg_real u_0,
+                              lqg_real u_1)
 {
     const lqg_real u[NU] = {u_0, u_1};
     lqg_servo_state_t state = over(s, references);
@@ -388,8 +390,17 @@ static void test_after_set_input_the_law_goes_on_at_that_input(void)
 {
     static const lqg_real K_one[] = {1, 2, -4}, H_one[] = {7}, H_input[] = {0.25f};
     const lqg_real u[1] = {10};
-    const lqg_servo_t servo = {.nx = NX, .nu = 1, .nr = NR, .nxi = 1, .T = 1, .K = K_one, .Nbar = Nbar, .H = H_one, .H_input = H_input,
-                               .output = output, .reference = reference};
+    const lqg_servo_t servo = {.nx = NX,
+                               .nu = 1,
+                               .nr = NR,
+                               .nxi = 1,
+                               .T = 1,
+                               .K = K_one,
+                               .Nbar = Nbar,
+                               .H = H_one,
+                               .H_input = H_input,
+                               .output = output,
+                               .reference = reference};
     state_t s = some;
     lqg_real next[1];
     lqg_servo_state_t state = over(&s, r);

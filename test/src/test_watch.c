@@ -7,19 +7,14 @@
 #include "textbook.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-void tearDown(void)
-{
-}
+void setUp(void) {}
+void tearDown(void) {}
 
 /* About 100 roundings a sample, each forgotten within about 100 samples, as the slower sensor speaks every
  * fifth. */
 #define TOLERANCE (5000 * EPSILON)
 
-static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise,
-                                        &random_walk};
+static const model_t *const models[] = {&double_integrator, &two_mass, &correlated, &cross_noise, &random_walk};
 enum { MODELS = sizeof models / sizeof *models };
 
 static loop_t tested, other; /* here once for all tests: small targets have little memory */
@@ -148,9 +143,8 @@ static void assert_prior(const model_t *model, const loop_t *loop, const textboo
         TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE * 10, textbook->x_prior[i], (double)loop->state.x[i]);
         for (unsigned j = 0; j <= i; j++) {
             const double P_ij = textbook->P_prior[i * model->nx + j];
-            const double ours = loop->filter == PLAIN
-                                    ? (double)loop->state.P[LQG_TRIANGLE(i) + j]
-                                    : ud_covariance(loop->state.U, loop->state.d, model->nx, i, j);
+            const double ours = loop->filter == PLAIN ? (double)loop->state.P[LQG_TRIANGLE(i) + j]
+                                                      : ud_covariance(loop->state.U, loop->state.d, model->nx, i, j);
             TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE * 10, P_ij, ours);
         }
     }

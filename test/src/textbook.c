@@ -27,8 +27,7 @@ static void innovation_covariance(const model_t *model, textbook_t *filter)
     double *S = filter->S, *inverse = filter->S_inverse;
     for (unsigned i = 0; i < ny; i++)
         for (unsigned j = 0; j < ny; j++)
-            S[i * ny + j] = congruence(model->C, i, filter->P_prior, model->C, j, model->nx) +
-                model->V[i * ny + j];
+            S[i * ny + j] = congruence(model->C, i, filter->P_prior, model->C, j, model->nx) + model->V[i * ny + j];
     if (ny == 1) {
         inverse[0] = 1 / S[0];
         return;
@@ -41,16 +40,14 @@ static void innovation_covariance(const model_t *model, textbook_t *filter)
 }
 
 /* gain = (F P⁻ Cᵀ + cross) S⁻¹, with F = I and no cross for the filter gain. */
-static void gain(const model_t *model, textbook_t *filter, const double F[], const double cross[],
-                 double result[])
+static void gain(const model_t *model, textbook_t *filter, const double F[], const double cross[], double result[])
 {
     const unsigned nx = model->nx, ny = model->ny;
     for (unsigned i = 0; i < nx; i++)
         for (unsigned j = 0; j < ny; j++) {
             double sum = 0;
             for (unsigned k = 0; k < ny; k++) {
-                const double covariance = congruence(F, i, filter->P_prior, model->C, k, nx) + cross[i * ny +
-                                                                                                     k];
+                const double covariance = congruence(F, i, filter->P_prior, model->C, k, nx) + cross[i * ny + k];
                 sum += covariance * filter->S_inverse[k * ny + j];
             }
             result[i * ny + j] = sum;

@@ -18,8 +18,7 @@ typedef struct {
 void textbook_init(const model_t *model, textbook_t *filter);
 
 /* x̂ = x̂⁻ + L (y − C x̂⁻ − D u),  P = P⁻ − L S Lᵀ */
-void textbook_update(const model_t *model, textbook_t *filter, const lqg_real y[],
-                     const lqg_real u_applied[]);
+void textbook_update(const model_t *model, textbook_t *filter, const lqg_real y[], const lqg_real u_applied[]);
 
 /* x̂⁻ = A x̂⁻ + B u + L_predictor innovation,  P⁻ = A P⁻ Aᵀ + W − L_predictor S L_predictorᵀ */
 void textbook_predict(const model_t *model, textbook_t *filter, const lqg_real u[]);

@@ -7,8 +7,8 @@
 #include <sys/types.h>
 
 typedef struct {
-    int file;       /* −1: closed */
-    pid_t program;  /* 0: there is none */
+    int file;      /* −1: closed */
+    pid_t program; /* 0: there is none */
 } line_t;
 
 /* Both return 0, or −1 after saying why on standard error. */

@@ -81,11 +81,11 @@ static int read_command_line(int argc, char **argv, options_t *options)
 /* ---- the loop ------------------------------------------------------------------------------------------- */
 
 typedef struct {
-    unsigned count;            /* samples that are to be run */
-    unsigned done;             /* that have been */
-    unsigned different;        /* of these: not the bits of the host */
+    unsigned count;     /* samples that are to be run */
+    unsigned done;      /* that have been */
+    unsigned different; /* of these: not the bits of the host */
     unsigned first_different;
-    double *value, *input;     /* plant_value, u[0] */
+    double *value, *input; /* plant_value, u[0] */
 } run_t;
 
 /* The same sample here, with the u of the target applied. */
@@ -97,7 +97,8 @@ static int has_our_bits(controller_t *loop, const float *y, const answer_t *answ
 
     status |= controller_control(loop, u);
     status_of_predict = controller_predict(loop, answer->u);
-    return memcmp(u, answer->u, sizeof u) == 0 && status == answer->status && status_of_predict == answer->status_of_predict &&
+    return memcmp(u, answer->u, sizeof u) == 0 && status == answer->status &&
+           status_of_predict == answer->status_of_predict &&
            pil_crc_of_floats((const float *)loop, CONTROLLER_FLOATS) == answer->crc;
 }
 
@@ -129,9 +130,8 @@ static int run_loop(target_t *target, timing_t *timing, run_t *run)
 static int write_files(const options_t *options, const timing_t *timing, const run_t *run)
 {
     char title[32];
-    const chart_curve_t curves[] = {{plant_quantity, run->value, NULL},
-                                    {"first input", run->input, NULL},
-                                    {title, timing->rows[TIMING_ALL], NULL}};
+    const chart_curve_t curves[] = {
+        {plant_quantity, run->value, NULL}, {"first input", run->input, NULL}, {title, timing->rows[TIMING_ALL], NULL}};
     const int count = (int)run->done;
     int status = GOOD;
 
@@ -140,8 +140,8 @@ static int write_files(const options_t *options, const timing_t *timing, const r
         fprintf(stderr, "%s cannot be written\n", options->csv);
         status = NO_FILE;
     }
-    if (options->svg && chart_write_svg(options->svg, "Processor in the loop", curves, 3, count,
-                                        (double)controller_sample_time) != 0) {
+    if (options->svg &&
+        chart_write_svg(options->svg, "Processor in the loop", curves, 3, count, (double)controller_sample_time) != 0) {
         fprintf(stderr, "%s cannot be written\n", options->svg);
         status = NO_FILE;
     }
@@ -155,7 +155,8 @@ static int report(const timing_t *timing, const run_t *run)
     printf("%u samples of %g s\n\n", run->done, (double)controller_sample_time);
     timing_print(timing, run->done);
     if (run->different)
-        printf("\n  %u samples had OTHER BITS than here, the first of them number %u.\n", run->different, run->first_different);
+        printf("\n  %u samples had OTHER BITS than here, the first of them number %u.\n", run->different,
+               run->first_different);
     else
         printf("\n  Every u, status and state of the target had the bits of this machine's.\n");
     is_well = plant_report(run->done * (double)controller_sample_time);

@@ -6,8 +6,8 @@
 
 #include "controller.h"
 
-extern const char plant_place[];     /* "the robot here": where the other half of the loop is */
-extern const char plant_quantity[];  /* "pitch [°]": what plant_value is */
+extern const char plant_place[];    /* "the robot here": where the other half of the loop is */
+extern const char plant_quantity[]; /* "pitch [°]": what plant_value is */
 
 /* So many samples are in these seconds, or in a run whose length nobody has said, 0. */
 unsigned plant_samples(double seconds);

@@ -43,7 +43,7 @@ int plant_report(double seconds)
 {
     const int stands = scenario_stands(&robot);
 
-    printf("  After %.1f s the robot %s: pitch %.2f degrees, %.1f cm from where it began.\n", seconds, stands ? "stands" : "HAS FALLEN",
-           robot.pitch * DEGREES, robot.wheel * 4.0);
+    printf("  After %.1f s the robot %s: pitch %.2f degrees, %.1f cm from where it began.\n", seconds,
+           stands ? "stands" : "HAS FALLEN", robot.pitch * DEGREES, robot.wheel * 4.0);
     return stands;
 }

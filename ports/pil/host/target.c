@@ -43,14 +43,15 @@ static void say_silence(const target_t *target, const char *what, unsigned seque
     if (result == LINE_BROKEN)
         fprintf(stderr, "%s %u: the line to the target is broken.\n", what, sequence);
     else
-        fprintf(stderr, "%s %u: expected the answer within %.1f s, found %u damaged frames and %lu bytes outside of frames.\n",
+        fprintf(stderr,
+                "%s %u: expected the answer within %.1f s, found %u damaged frames and %lu bytes outside of frames.\n",
                 what, sequence, target->patience, target->decoder.damaged, target->decoder.skipped);
 }
 
 static void say_refusal(const pil_frame_t *frame)
 {
-    static const char *const reasons[] = {"?", "the CRC of a frame", "a request of type", "a payload of so many bytes:",
-                                          "sample number"};
+    static const char *const reasons[] = {"?", "the CRC of a frame", "a request of type",
+                                          "a payload of so many bytes:", "sample number"};
     const unsigned reason = frame->payload[0];
     uint16_t expected, found;
 
@@ -76,8 +77,9 @@ static int expect(target_t *target, uint8_t type, uint8_t length, uint16_t seque
     if (frame->type == PIL_REFUSAL && frame->length == 5)
         say_refusal(frame);
     else
-        fprintf(stderr, "Expected %s %u of %u bytes, found %s %u of %u bytes; damaged frames until then: %u.\n", name_of(type),
-                sequence, length, name_of(frame->type), frame->sequence, frame->length, target->decoder.damaged);
+        fprintf(stderr, "Expected %s %u of %u bytes, found %s %u of %u bytes; damaged frames until then: %u.\n",
+                name_of(type), sequence, length, name_of(frame->type), frame->sequence, frame->length,
+                target->decoder.damaged);
     return -1;
 }
 
@@ -122,8 +124,9 @@ int target_greet(target_t *target, pil_hello_t *hello)
                 return drain(target);
             }
     }
-    fprintf(stderr, "No target answers HELLO: is it running, and are line and baud rate right?\n"
-                    "Found %u damaged frames and %lu bytes outside of frames.\n",
+    fprintf(stderr,
+            "No target answers HELLO: is it running, and are line and baud rate right?\n"
+            "Found %u damaged frames and %lu bytes outside of frames.\n",
             target->decoder.damaged, target->decoder.skipped);
     return -1;
 }
@@ -178,14 +181,16 @@ static void print_digest(const unsigned char *digest)
 int target_has_our_controller(const pil_hello_t *hello)
 {
     if (hello->version != PIL_VERSION) {
-        fprintf(stderr, "The target speaks version %u of the protocol, this program %u.\n", hello->version, PIL_VERSION);
+        fprintf(stderr, "The target speaks version %u of the protocol, this program %u.\n", hello->version,
+                PIL_VERSION);
         return 0;
     }
     if (strcmp(hello->name, controller_name) != 0 || hello->nx != CONTROLLER_NX || hello->nu != CONTROLLER_NU ||
         hello->ny != CONTROLLER_NY || memcmp(&hello->sample_time, &controller_sample_time, sizeof(float)) != 0) {
-        fprintf(stderr, "Expected %s with %d states, %d inputs, %d outputs every %g s, found %s with %u, %u, %u every %g s.\n",
-                controller_name, CONTROLLER_NX, CONTROLLER_NU, CONTROLLER_NY, (double)controller_sample_time, hello->name,
-                hello->nx, hello->nu, hello->ny, (double)hello->sample_time);
+        fprintf(stderr,
+                "Expected %s with %d states, %d inputs, %d outputs every %g s, found %s with %u, %u, %u every %g s.\n",
+                controller_name, CONTROLLER_NX, CONTROLLER_NU, CONTROLLER_NY, (double)controller_sample_time,
+                hello->name, hello->nx, hello->nu, hello->ny, (double)hello->sample_time);
         return 0;
     }
     if (memcmp(hello->digest, controller_digest, PIL_DIGEST_SIZE) != 0) {

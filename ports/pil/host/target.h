@@ -15,11 +15,11 @@ typedef struct {
 
 typedef struct {
     float u[CONTROLLER_NU];
-    lqg_status_t status;                  /* of update and control */
+    lqg_status_t status; /* of update and control */
     lqg_status_t status_of_predict;
-    uint32_t ticks[3];                  /* of update, control, predict */
-    uint16_t crc;                       /* of the controller's state after predict */
-    double round_trip;                  /* s from the first byte of y to the last of u */
+    uint32_t ticks[3]; /* of update, control, predict */
+    uint16_t crc;      /* of the controller's state after predict */
+    double round_trip; /* s from the first byte of y to the last of u */
 } answer_t;
 
 /* These return 0, or −1. Greeting is tried for five times `patience`: a board may be starting. */

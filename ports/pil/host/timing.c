@@ -102,8 +102,8 @@ void timing_print(const timing_t *timing, unsigned count)
             printf("  %-*s %10.0f %10.0f %10.0f %14u\n", row == TIMING_ROUND_TRIP ? 23 : 22, titles[row], summary.least,
                    summary.median, summary.most, summary.worst);
     if (timing->frequency > 0.0 && summarise(timing->rows[TIMING_ALL], count, &summary) == 0)
-        printf("  At %.0f MHz the longest sample takes %.1f µs, %.2f %% of the sample time.\n", 1e-6 * timing->frequency,
-               1e6 * summary.most / timing->frequency,
+        printf("  At %.0f MHz the longest sample takes %.1f µs, %.2f %% of the sample time.\n",
+               1e-6 * timing->frequency, 1e6 * summary.most / timing->frequency,
                100.0 * summary.most / timing->frequency / (double)controller_sample_time);
 }
 

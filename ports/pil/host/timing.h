@@ -11,9 +11,9 @@ enum { TIMING_UPDATE, TIMING_CONTROL, TIMING_PREDICT, TIMING_ALL, TIMING_ROUND_T
 typedef struct {
     unsigned count;
     double *rows[TIMING_ROWS]; /* `count` numbers each: of `unit`, and µs of the round trip */
-    const char *unit;          /* "cycles", emulated "instructions"; "ticks" of a counter that is too coarse for these */
-    double ticks_of_unit;      /* ticks of the target's counter for one of them, > 0 */
-    double frequency;          /* Hz of the processor; 0: emulated */
+    const char *unit;     /* "cycles", emulated "instructions"; "ticks" of a counter that is too coarse for these */
+    double ticks_of_unit; /* ticks of the target's counter for one of them, > 0 */
+    double frequency;     /* Hz of the processor; 0: emulated */
 } timing_t;
 
 /* Emulated: the counter's ticks are turned into instructions by what the target measured of a thousand of them. Returns 0, or −1:

@@ -35,9 +35,10 @@ static lqg_status_t do_nothing(void)
 
 static lqg_status_t do_nothing_a_thousand_times(void)
 {
-    __asm__ volatile(".rept 1000\n\t"
-                     "nop\n\t"
-                     ".endr");
+    __asm__ volatile(
+        ".rept 1000\n\t"
+        "nop\n\t"
+        ".endr");
     return LQG_OK;
 }
 
@@ -71,7 +72,7 @@ static uint32_t least_ticks_of(step_t *step)
 /* ---- what is said --------------------------------------------------------------------------------------- */
 
 static pil_decoder_t decoder;
-static unsigned damaged;       /* frames that have been complained about */
+static unsigned damaged; /* frames that have been complained about */
 static uint16_t next_sample;
 static uint32_t ticks_of_thousand;
 

@@ -6,7 +6,14 @@
 #include "stm32f401.h"
 
 enum { ADDRESS = 0x68 << 1, READ = 1 };
-enum { CONFIG = 0x1A, GYRO_CONFIG = 0x1B, ACCEL_CONFIG = 0x1C, ACCEL_XOUT_H = 0x3B, PWR_MGMT_1 = 0x6B, WHO_AM_I = 0x75 };
+enum {
+    CONFIG = 0x1A,
+    GYRO_CONFIG = 0x1B,
+    ACCEL_CONFIG = 0x1C,
+    ACCEL_XOUT_H = 0x3B,
+    PWR_MGMT_1 = 0x6B,
+    WHO_AM_I = 0x75
+};
 enum { CLOCK_OF_GYROSCOPE = 1, FASTEST_FILTER = 0, RANGE_500_DEGREES = 1 << 3, RANGE_2_G = 0, IDENTITY = 0x68 };
 enum { MHZ = 16, FAST_MODE = 1 << 15, SCL_OF_381_KHZ = 14, RISE_OF_300_NS = 5 };
 enum { SCL = 8, SDA = 9, I2C_FUNCTION = 4, LOOKS = 1000 };
@@ -131,8 +138,9 @@ static int is_there(void)
 int mpu6050_start(void)
 {
     reset_bus();
-    return is_there() && write_register(PWR_MGMT_1, CLOCK_OF_GYROSCOPE) == 0 && write_register(CONFIG, FASTEST_FILTER) == 0 &&
-                   write_register(GYRO_CONFIG, RANGE_500_DEGREES) == 0 && write_register(ACCEL_CONFIG, RANGE_2_G) == 0
+    return is_there() && write_register(PWR_MGMT_1, CLOCK_OF_GYROSCOPE) == 0 &&
+                   write_register(CONFIG, FASTEST_FILTER) == 0 && write_register(GYRO_CONFIG, RANGE_500_DEGREES) == 0 &&
+                   write_register(ACCEL_CONFIG, RANGE_2_G) == 0
                ? 0
                : -1;
 }

@@ -12,8 +12,8 @@ void mpu6050_start_bus(void);
 int mpu6050_start(void);
 
 typedef struct {
-    float acceleration[3];  /* g, along x, y, z */
-    float rate[3];          /* rad/s, around x, y, z */
+    float acceleration[3]; /* g, along x, y, z */
+    float rate[3];         /* rad/s, around x, y, z */
 } mpu6050_t;
 
 /* Takes 0.5 ms. Returns 0, or −1: it did not answer, and has to be started again. */

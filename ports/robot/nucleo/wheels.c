@@ -7,11 +7,11 @@
 static const float battery = 8.0f;          /* V, under load */
 static const float counts_of_turn = 720.0f; /* of LEGO's NXT motor: 180 periods of both channels, each edge counted */
 static const float left_sign = 1.0f;
-static const float right_sign = -1.0f;      /* the right motor is mounted the other way round */
+static const float right_sign = -1.0f; /* the right motor is mounted the other way round */
 
-enum { PWM_STEPS = 800 };                   /* 16 MHz / 800 = 20 kHz: not to be heard */
-enum { AIN1 = 10, AIN2 = 4, BIN1 = 5, BIN2 = 3 };   /* of port B */
-enum { ENCODER_A1 = 0, ENCODER_A2 = 1, ENCODER_B1 = 6, ENCODER_B2 = 7, PWMA = 8, PWMB = 9, STBY = 10 };  /* of port A */
+enum { PWM_STEPS = 800 };                         /* 16 MHz / 800 = 20 kHz: not to be heard */
+enum { AIN1 = 10, AIN2 = 4, BIN1 = 5, BIN2 = 3 }; /* of port B */
+enum { ENCODER_A1 = 0, ENCODER_A2 = 1, ENCODER_B1 = 6, ENCODER_B2 = 7, PWMA = 8, PWMB = 9, STBY = 10 }; /* of port A */
 enum { TIM1_TIM2_FUNCTION = 1, TIM3_FUNCTION = 2, PULL_UP = 1 };
 
 /* ---- encoders ------------------------------------------------------------------------------------------- */
@@ -20,8 +20,8 @@ static int32_t left_counts, right_counts;
 
 static void start_encoder(timer_t *timer)
 {
-    timer->ccmr1 = 0x3131;  /* both inputs, steady for 8 clocks */
-    timer->smcr = 3;        /* counts every edge of both */
+    timer->ccmr1 = 0x3131; /* both inputs, steady for 8 clocks */
+    timer->smcr = 3;       /* counts every edge of both */
     timer->arr = 0xFFFF;
     timer->cnt = 0;
     timer->cr1 = 1;
@@ -67,9 +67,9 @@ static void start_pwm(void)
     gpio_set_mode(GPIOA, PWMA, GPIO_ALTERNATE, TIM1_TIM2_FUNCTION);
     gpio_set_mode(GPIOA, PWMB, GPIO_ALTERNATE, TIM1_TIM2_FUNCTION);
     TIM1->arr = PWM_STEPS - 1;
-    TIM1->ccmr1 = 0x6868;   /* both channels: PWM mode 1, new values at the end of a period */
-    TIM1->ccer = 0x0011;    /* both outputs on */
-    TIM1->bdtr = 1u << 15;  /* main output enable */
+    TIM1->ccmr1 = 0x6868;  /* both channels: PWM mode 1, new values at the end of a period */
+    TIM1->ccer = 0x0011;   /* both outputs on */
+    TIM1->bdtr = 1u << 15; /* main output enable */
     TIM1->cr1 = 1;
 }
 

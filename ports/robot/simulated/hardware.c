@@ -20,17 +20,24 @@
 #define DEGREES (180.0 / 3.14159265358979323846)
 #define SAMPLE_TIME ((double)BALANCING_ROBOT_SAMPLE_TIME)
 
-enum { DROVE_TOO_SOON = 1, NEVER_DROVE = 2, FELL_AT_THE_PUSH = 4, DROVE_WHEN_FALLEN = 8, DID_NOT_GET_UP = 16, DOES_NOT_STAND = 32 };
+enum {
+    DROVE_TOO_SOON = 1,
+    NEVER_DROVE = 2,
+    FELL_AT_THE_PUSH = 4,
+    DROVE_WHEN_FALLEN = 8,
+    DID_NOT_GET_UP = 16,
+    DOES_NOT_STAND = 32
+};
 
 static robot_t robot;
-static double voltage;              /* V, mean of both motors */
-static double turned;               /* rad: half of what the right wheel is ahead of the left one */
+static double voltage; /* V, mean of both motors */
+static double turned;  /* rad: half of what the right wheel is ahead of the left one */
 static unsigned long sample;
-static int driven;                  /* since the last sample */
-static int failures;                /* of the above */
+static int driven;   /* since the last sample */
+static int failures; /* of the above */
 
-static const double lying = 1.2;            /* rad */
-static const double gyro_offset = 0.03;     /* rad/s */
+static const double lying = 1.2;        /* rad */
+static const double gyro_offset = 0.03; /* rad/s */
 
 static int is_between(double from, double to)
 {

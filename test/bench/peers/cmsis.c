@@ -3,8 +3,8 @@
 #include "arm_math.h"
 #include "peer.h"
 
-#define MATRIX(name, rows, columns)                                                                                    \
-    static float name##_entries[(rows) * (columns)];                                                                   \
+#define MATRIX(name, rows, columns)                  \
+    static float name##_entries[(rows) * (columns)]; \
     static arm_matrix_instance_f32 name = {rows, columns, name##_entries}
 #define CONSTANT(name, rows, columns) \
     static const arm_matrix_instance_f32 name##_ = {rows, columns, (float *)(uintptr_t)name}

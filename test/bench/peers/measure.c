@@ -72,9 +72,8 @@ int main(void)
         const uint32_t none = ticks_of_call(NULL, NULL, NULL, do_nothing, stack + STACK_WORDS);
 
         measure_plant(x, v_in[k], y);
-        counts[k] =
-            instructions_in(ticks_of_call(NULL, y, u, (function *)peer_sample, stack + STACK_WORDS)) -
-            instructions_in(none) + 1;
+        counts[k] = instructions_in(ticks_of_call(NULL, y, u, (function *)peer_sample, stack + STACK_WORDS)) -
+                    instructions_in(none) + 1;
         move_plant(x, u, w_in[k]);
     }
     print("instructions", median(counts, SAMPLES));

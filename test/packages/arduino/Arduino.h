@@ -8,21 +8,42 @@
 #define F(text) text
 
 static struct {
-  void begin(long) {}
-  void print(const char *text) { std::printf("%s", text); }
-  void print(char character) { std::printf("%c", character); }
-  void print(long number) { std::printf("%ld", number); }
-  void print(int number) { std::printf("%d", number); }
-  void print(unsigned number) { std::printf("%u", number); }
-  void print(unsigned long number) { std::printf("%lu", number); }
-  template <typename Value> void println(Value value) {
-    print(value);
-    std::printf("\n");
-  }
+    void begin(long) {}
+    void print(const char *text)
+    {
+        std::printf("%s", text);
+    }
+    void print(char character)
+    {
+        std::printf("%c", character);
+    }
+    void print(long number)
+    {
+        std::printf("%ld", number);
+    }
+    void print(int number)
+    {
+        std::printf("%d", number);
+    }
+    void print(unsigned number)
+    {
+        std::printf("%u", number);
+    }
+    void print(unsigned long number)
+    {
+        std::printf("%lu", number);
+    }
+    template <typename Value>
+    void println(Value value)
+    {
+        print(value);
+        std::printf("\n");
+    }
 } Serial;
 
-static unsigned long micros() {
-  return 0;
+static unsigned long micros()
+{
+    return 0;
 }
 
 void setup();

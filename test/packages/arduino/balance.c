@@ -15,23 +15,31 @@
 #include "robot.h"
 #include "uno.h"
 
-enum { ENCODER_LEFT_A = 2, ENCODER_RIGHT_A = 3, ENCODER_LEFT_B = 4, ENCODER_RIGHT_B = 5, STANDBY = 11, A1 = 15, A2 = 16 };
+enum {
+    ENCODER_LEFT_A = 2,
+    ENCODER_RIGHT_A = 3,
+    ENCODER_LEFT_B = 4,
+    ENCODER_RIGHT_B = 5,
+    STANDBY = 11,
+    A1 = 15,
+    A2 = 16
+};
 enum { ACCEL_XOUT_H = 0x3b, ACCEL_ZOUT_H = 0x3f, GYRO_YOUT_H = 0x45 };
 
 #define DEGREES 57.29577951308232
-static const double dt = 0.00025;             /* s, of the physics */
-static const double battery = 7.4;            /* V */
-static const double gyro_offset = 1.7;        /* °/s */
-static const double gyro_noise = 0.1;         /* °/s rms */
-static const double weak_motor = 0.95;        /* the left one */
-static const double dragging_wheel = 0.1;     /* V that it costs the left one */
+static const double dt = 0.00025;         /* s, of the physics */
+static const double battery = 7.4;        /* V */
+static const double gyro_offset = 1.7;    /* °/s */
+static const double gyro_noise = 0.1;     /* °/s rms */
+static const double weak_motor = 0.95;    /* the left one */
+static const double dragging_wheel = 0.1; /* V that it costs the left one */
 
 /* What happens, in s. */
 static const double stood_up = 3.0, let_go_by = 4.0, pushed = 8.0, gap = 10.0, knocked_over = 13.0, end = 15.0;
 
 static uno_i2c_device mpu = {.address = 0x68};
 static robot_t robot;
-static double turn;  /* rad: how far the right wheel is ahead, half of it */
+static double turn; /* rad: how far the right wheel is ahead, half of it */
 
 static void set_word(int address, double value)
 {
@@ -98,8 +106,8 @@ static void move_robot(const avr_t *avr, double seconds)
 }
 
 typedef struct {
-    int too_early;             /* motors on before the robot was held upright */
-    double started, stopped;   /* s; 0: never */
+    int too_early;           /* motors on before the robot was held upright */
+    double started, stopped; /* s; 0: never */
     double most_pitch, most_turn, last_pitch, last_wheel;
 } record_t;
 
@@ -141,17 +149,20 @@ int main(int argc, char **argv)
         observe(&record, avr, seconds);
     }
 
-    printf("%sstarted at %.2f s, stopped at %.2f s; pitch at most %.1f degrees, %.2f at the end; %.1f cm away, wheels at "
-           "most %.1f degrees apart\n",
-           uno_printed(), record.started, record.stopped, record.most_pitch * DEGREES, record.last_pitch * DEGREES,
-           record.last_wheel * 4.0, 2.0 * record.most_turn * DEGREES);
+    printf(
+        "%sstarted at %.2f s, stopped at %.2f s; pitch at most %.1f degrees, %.2f at the end; %.1f cm away, wheels at "
+        "most %.1f degrees apart\n",
+        uno_printed(), record.started, record.stopped, record.most_pitch * DEGREES, record.last_pitch * DEGREES,
+        record.last_wheel * 4.0, 2.0 * record.most_turn * DEGREES);
     is_well &= expect(is_well, "the sketch ran to the end");
     is_well &= expect(!record.too_early, "the motors waited for the robot to be upright");
     is_well &= expect(record.started > stood_up && record.started < let_go_by, "the motors started then");
     is_well &= expect(record.most_pitch < 0.3, "the robot stood through push and gap");
-    is_well &= expect(fabs(record.last_pitch) < 0.05 && fabs(record.last_wheel) < 0.5, "it came to rest near its start");
+    is_well &=
+        expect(fabs(record.last_pitch) < 0.05 && fabs(record.last_wheel) < 0.5, "it came to rest near its start");
     is_well &= expect(record.most_turn < 0.1, "it ran straight");
-    is_well &= expect(record.stopped > knocked_over && record.stopped < knocked_over + 1.0, "the motors stopped after the fall");
+    is_well &= expect(record.stopped > knocked_over && record.stopped < knocked_over + 1.0,
+                      "the motors stopped after the fall");
     is_well &= expect(!strstr(uno_printed(), "late"), "no period was missed");
     return is_well ? 0 : 1;
 }

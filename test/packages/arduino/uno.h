@@ -30,10 +30,10 @@ double uno_duty(const avr_t *avr, int pin);
 /* A device with registers of one byte on the I²C bus, as most sensors are: a write sets the address and may go on with
  * values, a read goes on from the address. A silent one does not answer. */
 typedef struct {
-    uint8_t address;  /* 7 bits */
+    uint8_t address; /* 7 bits */
     uint8_t registers[256];
     int silent;
-    uint8_t selected, has_pointer, pointer;  /* of the transfer that is going on */
+    uint8_t selected, has_pointer, pointer; /* of the transfer that is going on */
     struct avr_irq_t *irq;
 } uno_i2c_device;
 

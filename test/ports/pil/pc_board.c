@@ -76,9 +76,7 @@ void uart_write(uint8_t byte)
     put(&byte, 1);
 }
 
-void counter_start(void)
-{
-}
+void counter_start(void) {}
 
 /* The target measures the frame first, then a thousand instructions, in 64 readings at most. */
 static uint32_t dear_counter(void)

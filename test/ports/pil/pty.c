@@ -48,7 +48,8 @@ int main(int argc, char **argv)
 
     if (argc < 3 || argc > ARGUMENTS_MAX || board < 0 || grantpt(board) != 0 || unlockpt(board) != 0)
         return stop("pty");
-    pc = open(ptsname(board), O_RDWR | O_NOCTTY); /* as long as nobody has it open the target would hear of a broken line */
+    pc = open(ptsname(board),
+              O_RDWR | O_NOCTTY); /* as long as nobody has it open the target would hear of a broken line */
     if (pc < 0)
         return stop(ptsname(board));
     for (int i = 2; i < argc; i++)

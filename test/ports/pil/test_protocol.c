@@ -19,12 +19,11 @@ void setUp(void)
     found_count = 0;
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 /* A frame with a sync byte in all places where one can be. */
-static const pil_frame_t sample = {.type = PIL_SAMPLE, .length = 8, .sequence = 0xA5A5, .payload = {0xA5, 1, 2, 0xA5, 0xA5, 5, 6, 0xA5}};
+static const pil_frame_t sample = {
+    .type = PIL_SAMPLE, .length = 8, .sequence = 0xA5A5, .payload = {0xA5, 1, 2, 0xA5, 0xA5, 5, 6, 0xA5}};
 
 static void hear(const uint8_t *bytes, unsigned count)
 {
@@ -108,8 +107,15 @@ static void test_floats_keep_every_bit_when_they_are_not_finite(void)
 
 static void test_hello_comes_back(void)
 {
-    const pil_hello_t hello = {.version = 1, .nx = 4, .nu = 1, .ny = 2, .sample_time = 0.004f, .digest = {1, 2, 0xFF},
-                               .ticks_of_thousand = 0x89ABCDEF, .frequency = 16000000, .name = "balancing_robot"};
+    const pil_hello_t hello = {.version = 1,
+                               .nx = 4,
+                               .nu = 1,
+                               .ny = 2,
+                               .sample_time = 0.004f,
+                               .digest = {1, 2, 0xFF},
+                               .ticks_of_thousand = 0x89ABCDEF,
+                               .frequency = 16000000,
+                               .name = "balancing_robot"};
     uint8_t payload[PIL_HELLO_SIZE];
     pil_hello_t back;
 

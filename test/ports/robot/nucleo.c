@@ -58,7 +58,8 @@ static void write_register(uc_engine *uc, uint64_t offset, unsigned size, uint64
 
 static void map_registers(uint32_t base, uint32_t size)
 {
-    stop_if(uc_mmio_map(processor, base, size, read_register, (void *)(uintptr_t)base, write_register, (void *)(uintptr_t)base),
+    stop_if(uc_mmio_map(processor, base, size, read_register, (void *)(uintptr_t)base, write_register,
+                        (void *)(uintptr_t)base),
             "registers");
 }
 
@@ -210,7 +211,8 @@ static void expect_voltage(void)
         run_samples(1, IS_FREE, 0.0);
     while (!(said = strstr(stm32_serial(), "voltage ")));
     stm32_motors(&left, &right);
-    require(fabs(atof(said + strlen("voltage ")) / 1000.0 - 0.5 * (left + right)) < 0.02, "not the voltage that was reported");
+    require(fabs(atof(said + strlen("voltage ")) / 1000.0 - 0.5 * (left + right)) < 0.02,
+            "not the voltage that was reported");
 }
 
 static void put_it_up(const char *before)

@@ -36,8 +36,9 @@ enum { CR1 = 0, SMCR = 8, CCMR1 = 24, CCER = 32, CNT = 36, PSC = 40, ARR = 44, C
 static const struct {
     uint32_t peripheral, enable;
     unsigned bit;
-} clocks[] = {{GPIO_A, RCC_AHB1ENR, 0}, {GPIO_B, RCC_AHB1ENR, 1}, {TIM2, RCC_APB1ENR, 0},       {TIM3, RCC_APB1ENR, 1},
-              {TIM1, RCC_APB2ENR, 0},   {0x40004400, RCC_APB1ENR, 17}, {0x40005400, RCC_APB1ENR, 21}};
+} clocks[] = {{GPIO_A, RCC_AHB1ENR, 0},     {GPIO_B, RCC_AHB1ENR, 1}, {TIM2, RCC_APB1ENR, 0},
+              {TIM3, RCC_APB1ENR, 1},       {TIM1, RCC_APB2ENR, 0},   {0x40004400, RCC_APB1ENR, 17},
+              {0x40005400, RCC_APB1ENR, 21}};
 
 static int has_clock(uint32_t address)
 {
@@ -126,20 +127,28 @@ static void measure(void)
 /* ---- I²C, a master -------------------------------------------------------------------------------------- */
 
 enum { I2C = 0x40005400 };
-enum { START = 1 << 8, STOP = 1 << 9, ACK = 1 << 10, RESET = 1 << 15 };                                           /* cr1 */
-enum { SB = 1 << 0, ADDR = 1 << 1, BTF = 1 << 2, RXNE = 1 << 6, TXE = 1 << 7, AF = 1 << 10, LOOKS_OF_A_BYTE = 3 }; /* sr1 */
+enum { START = 1 << 8, STOP = 1 << 9, ACK = 1 << 10, RESET = 1 << 15 }; /* cr1 */
+enum {
+    SB = 1 << 0,
+    ADDR = 1 << 1,
+    BTF = 1 << 2,
+    RXNE = 1 << 6,
+    TXE = 1 << 7,
+    AF = 1 << 10,
+    LOOKS_OF_A_BYTE = 3
+}; /* sr1 */
 
 static struct {
     uint32_t control, frequency, divider, rise, state;
     enum { IDLE, ADDRESSED, SENDS, RECEIVES } phase;
-    int looks;              /* of the program, until what is going on has happened */
-    int reads_address;      /* the state has been looked at after ADDR */
+    int looks;         /* of the program, until what is going on has happened */
+    int reads_address; /* the state has been looked at after ADDR */
     int wants_to_receive;
-    unsigned sent;          /* bytes since the address */
-    uint8_t pointer;        /* the sensor's */
+    unsigned sent;   /* bytes since the address */
+    uint8_t pointer; /* the sensor's */
     uint8_t data, shift;
-    int has_data, has_shift, is_over;  /* over: a byte was not acknowledged */
-    int is_taken;           /* between start and stop */
+    int has_data, has_shift, is_over; /* over: a byte was not acknowledged */
+    int is_taken;                     /* between start and stop */
     double seconds;
 } bus;
 
@@ -153,7 +162,8 @@ static void check_set_up(void)
 {
     complain((bus.control & 1) == 0, "a start without PE");
     complain(bus.frequency != 16, "I2C_CR2 is not the bus clock in MHz");
-    complain((bus.divider >> 15 & 1) == 0 || clock_frequency / (3.0 * (bus.divider & 0xFFF)) > 400e3, "SCL is not at most 400 kHz");
+    complain((bus.divider >> 15 & 1) == 0 || clock_frequency / (3.0 * (bus.divider & 0xFFF)) > 400e3,
+             "SCL is not at most 400 kHz");
     complain(bus.rise != 5, "I2C_TRISE is not that of 300 ns"); /* 300 ns · 16 MHz, rounded down, and 1 */
     complain(!has_function(GPIO_B, 8, 4) || !has_function(GPIO_B, 9, 4), "SCL, SDA are not at the pins");
     complain((*at(GPIO_B + OTYPER) & 0x300) != 0x300, "SCL, SDA are not open drain");
@@ -161,7 +171,8 @@ static void check_set_up(void)
 
 static void write_control(uint32_t value)
 {
-    complain((bus.control & (START | STOP)) != 0 && !(value & RESET), "I2C_CR1 is written while a start or stop is on its way");
+    complain((bus.control & (START | STOP)) != 0 && !(value & RESET),
+             "I2C_CR1 is written while a start or stop is on its way");
     if (value & RESET) {
         const double seconds = bus.seconds;
 
@@ -203,7 +214,8 @@ static void move_on(void)
         bus.has_shift = 0;
         receive();
     }
-    bus.state = (bus.state & ~(uint32_t)(RXNE | BTF)) | (bus.has_data ? RXNE : 0) | (bus.has_data && bus.has_shift ? BTF : 0);
+    bus.state =
+        (bus.state & ~(uint32_t)(RXNE | BTF)) | (bus.has_data ? RXNE : 0) | (bus.has_data && bus.has_shift ? BTF : 0);
     if (bus.phase == SENDS)
         bus.state |= TXE | (bus.sent > 0 ? BTF : 0);
 }
@@ -278,19 +290,19 @@ static uint32_t read_second_state(void)
 static uint32_t read_bus(uint32_t offset)
 {
     switch (offset) {
-    case 0x00:
-        pass();
-        return bus.control;
-    case 0x10:
-        return read_data();
-    case 0x14:
-        pass();
-        bus.reads_address = (bus.state & ADDR) != 0;
-        return bus.state;
-    case 0x18:
-        return read_second_state();
-    default:
-        return 0;
+        case 0x00:
+            pass();
+            return bus.control;
+        case 0x10:
+            return read_data();
+        case 0x14:
+            pass();
+            bus.reads_address = (bus.state & ADDR) != 0;
+            return bus.state;
+        case 0x18:
+            return read_second_state();
+        default:
+            return 0;
     }
 }
 
@@ -298,23 +310,23 @@ static void write_bus(uint32_t offset, uint32_t value)
 {
     complain((offset == 0x1C || offset == 0x20) && (bus.control & 1), "I2C_CCR, I2C_TRISE are written while PE is set");
     switch (offset) {
-    case 0x00:
-        write_control(value);
-        break;
-    case 0x04:
-        bus.frequency = value & 0x3F;
-        break;
-    case 0x10:
-        write_data(value);
-        break;
-    case 0x1C:
-        bus.divider = value;
-        break;
-    case 0x20:
-        bus.rise = value;
-        break;
-    default:
-        complain(1, "a register of I²C that the model does not have");
+        case 0x00:
+            write_control(value);
+            break;
+        case 0x04:
+            bus.frequency = value & 0x3F;
+            break;
+        case 0x10:
+            write_data(value);
+            break;
+        case 0x1C:
+            bus.divider = value;
+            break;
+        case 0x20:
+            bus.rise = value;
+            break;
+        default:
+            complain(1, "a register of I²C that the model does not have");
     }
 }
 
@@ -342,7 +354,8 @@ static void write_serial(uint32_t offset, uint32_t value)
         return;
     complain(!has_function(GPIO_A, 2, 7), "TX is not at its pin");
     complain((*at(0x4000440C) & 0x2008) != 0x2008, "the serial port is not on");
-    complain(fabs(clock_frequency / (double)*at(0x40004408) / 115200.0 - 1.0) > 0.01, "the baud rate is more than 1 % off");
+    complain(fabs(clock_frequency / (double)*at(0x40004408) / 115200.0 - 1.0) > 0.01,
+             "the baud rate is more than 1 % off");
     if (serial_count < sizeof serial - 1)
         serial[serial_count++] = (char)value;
 }

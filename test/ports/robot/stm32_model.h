@@ -8,9 +8,9 @@
 
 /* The robot as its sensors see it, to be set by the test. */
 typedef struct {
-    double pitch, pitch_rate;  /* rad, rad/s */
-    double left, right;        /* rad: the wheels against the body, forward positive */
-    int sensor_is_dead;        /* it does not acknowledge its address */
+    double pitch, pitch_rate; /* rad, rad/s */
+    double left, right;       /* rad: the wheels against the body, forward positive */
+    int sensor_is_dead;       /* it does not acknowledge its address */
 } world_t;
 
 extern world_t world;
@@ -24,8 +24,8 @@ void stm32_motors(double *left, double *right);
 
 /* Begins a sample: what has happened since the last one. */
 typedef struct {
-    unsigned fed;          /* times that the watchdog was fed */
-    double bus_seconds;    /* that the I²C bus was busy */
+    unsigned fed;       /* times that the watchdog was fed */
+    double bus_seconds; /* that the I²C bus was busy */
 } stm32_sample_t;
 
 stm32_sample_t stm32_begin_sample(void);

@@ -10,18 +10,16 @@
 enum { SECOND = 250 }; /* samples */
 
 static robot_t robot;
-static sensors_t wrong;     /* is added to what the sensors say */
+static sensors_t wrong; /* is added to what the sensors say */
 static balancer_t balancer;
 static float left_voltage, right_voltage;
 static int has_current;
-static int is_held, is_lifted;  /* by a hand: it cannot tip; its wheels do not touch the ground, either */
+static int is_held, is_lifted; /* by a hand: it cannot tip; its wheels do not touch the ground, either */
 
 void setUp(void);
 void tearDown(void);
 
-void hardware_start(void)
-{
-}
+void hardware_start(void) {}
 
 /* In the air the wheels run as fast as the voltage lets them: the motor's 0.468 V s/rad, and friction. */
 static void let_a_sample_pass(void)
@@ -102,9 +100,7 @@ void setUp(void)
     balancer_init(&balancer);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_motors_are_off_from_the_start(void)
 {

@@ -32,12 +32,18 @@ static uint32_t draw(unsigned kind)
     const uint32_t random = draw16() << 16 | draw16();
 
     switch (kind) {
-    case 0: return (random & ~INFINITE) | (100 + draw16() % 56) << 23;
-    case 1: return (random & ~INFINITE) | (1 + draw16() % 254) << 23;
-    case 2: return random & ~INFINITE;
-    case 3: return random & SIGN;
-    case 4: return (random & SIGN) | INFINITE;
-    default: return UINT32_C(0x7fc00000);
+        case 0:
+            return (random & ~INFINITE) | (100 + draw16() % 56) << 23;
+        case 1:
+            return (random & ~INFINITE) | (1 + draw16() % 254) << 23;
+        case 2:
+            return random & ~INFINITE;
+        case 3:
+            return random & SIGN;
+        case 4:
+            return (random & SIGN) | INFINITE;
+        default:
+            return UINT32_C(0x7fc00000);
     }
 }
 
@@ -63,11 +69,16 @@ static uint32_t operate(unsigned operation, float left, float right)
     const volatile float a = left, b = right; /* at run time, not by the compiler */
 
     switch (operation) {
-    case ADD: return bits_of(a + b);
-    case SUBTRACT: return bits_of(a - b);
-    case MULTIPLY: return bits_of(a * b);
-    case DIVIDE: return bits_of(a / b);
-    default: return (uint32_t)((a < b) | (a > b) << 1 | (a <= b) << 2 | (a >= b) << 3 | (a == b) << 4 | (a != b) << 5);
+        case ADD:
+            return bits_of(a + b);
+        case SUBTRACT:
+            return bits_of(a - b);
+        case MULTIPLY:
+            return bits_of(a * b);
+        case DIVIDE:
+            return bits_of(a / b);
+        default:
+            return (uint32_t)((a < b) | (a > b) << 1 | (a <= b) << 2 | (a >= b) << 3 | (a == b) << 4 | (a != b) << 5);
     }
 }
 
