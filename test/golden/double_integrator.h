@@ -1,6 +1,6 @@
 /* double_integrator: mass on a frictionless axis
  *
- * Made by lqgen 0.1.0 from double_integrator.toml with the SHA-256
+ * Made by lqgen 0.2.0 from double_integrator.toml with the SHA-256
  * 9735ad7912f2b8fda1a8144a1e4e7cb6b5e0d8dc3f96c5e226f711c04c46fd48.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
  *
@@ -74,8 +74,8 @@
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 2
-#error "This file needs header format 2, the library has another one: regenerate it with the library's lqgen."
+#if LQG_HEADER_FORMAT != 3
+#error "This file needs header format 3, the library has another one: regenerate it with the library's lqgen."
 #endif
 
 #define DOUBLE_INTEGRATOR_NX 2  /* states */
@@ -148,7 +148,7 @@ static inline void double_integrator_init(double_integrator_t *self)
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status status)
+static lqg_status_t double_integrator_reset(double_integrator_t *self, lqg_status_t status)
 {
     const unsigned long resets = self->resets + 1uL;
     const unsigned long covariance_resets = self->covariance_resets;
@@ -172,75 +172,75 @@ static lqg_status double_integrator_reset(double_integrator_t *self, lqg_status 
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status double_integrator_recover(double_integrator_t *self, lqg_status status)
+static lqg_status_t double_integrator_recover(double_integrator_t *self, lqg_status_t status)
 {
     LQG_STRICT_BODY
-    lqg_status result = status | LQG_COVARIANCE_RESET;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    lqg_status_t outcome = status | LQG_COVARIANCE_RESET;
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
 
-    /* Σ x̂² in units of a bound */
-    const float sum = x_0 * x_0;
-    const float sum_a = sum + (x_1 * x_1);
+    /* x̂ within its bounds;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float squares_to_x_position = x_position * x_position;
+    const float squares_to_x_speed = squares_to_x_position + (x_speed * x_speed);
 
     self->P[0] = 0.01f;
     self->P[1] = 0.0f;
     self->P[2] = 0.01f;
 
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
-    if (sum_a < DOUBLE_INTEGRATOR_TWO_TO_64) {
+    if (squares_to_x_speed < DOUBLE_INTEGRATOR_TWO_TO_64) {
         self->covariance_resets++;
     } else {
-        result = double_integrator_reset(self, status);
+        outcome = double_integrator_reset(self, status);
     }
-    return result;
+    return outcome;
 }
 
 /* Decides whether an output is used whose innovation is larger than usual.
  * It is rejected if |innovation| is not below its limit, or innovation² > (300)² S w. The widening w is 1 in normal
  * operation; it grows while the output is rejected, so that the output is used again if it was right.
  *
- * i   in: the output
- * nu  in: its innovation
- * S   in: the variance of the innovation
+ * i           in: the output
+ * innovation  in: its innovation
+ * S           in: the variance of the innovation
  *
  * Returns whether it is used; adds the reason to status if it is not. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static bool double_integrator_weigh(double_integrator_t *self, lqg_status *status, int i, float nu, float S)
+static bool double_integrator_weigh(double_integrator_t *self, lqg_status_t *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
-    const float innovation = nu;
     const float variance = S;
 
-    /* w, at least 1 */
-    const float wide = (1.0f < widening) ? widening : 1.0f;
-    const float width = (wide < DOUBLE_INTEGRATOR_TWO_TO_80) ? wide : DOUBLE_INTEGRATOR_TWO_TO_80;
+    /* the widening, at least 1 */
+    const float width_or_1 = (1.0f < widening) ? widening : 1.0f;
+    const float width = (width_or_1 < DOUBLE_INTEGRATOR_TWO_TO_80) ? width_or_1
+        : DOUBLE_INTEGRATOR_TWO_TO_80;
 
-    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S widening */
     const bool believable = fabsf(innovation) < DOUBLE_INTEGRATOR_INNOVATION_LIMIT;
-    lqg_status fault = LQG_OK;
+    lqg_status_t fault = LQG_OK;
     if (!(believable && (0.0f < variance))) {
         if (believable) {
             fault = LQG_INNOVATION_NOT_POSITIVE;
         } else {
-            fault = LQG_OUTPUT_NOT_FINITE;
+            fault = (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(i));
         }
     }
     const bool usable = fault == LQG_OK;
-    const bool beyond = (DOUBLE_INTEGRATOR_GATE_SQUARED * variance * width)
-        < (innovation * innovation);
+    const bool beyond = (DOUBLE_INTEGRATOR_GATE_SQUARED * variance * width) < (innovation
+        * innovation);
     const bool gated = usable && beyond;
     const bool used = usable && !beyond;
 
-    /* w widens or narrows */
-    const float next_width = (used ? DOUBLE_INTEGRATOR_GATE_NARROW : gated
-        ? DOUBLE_INTEGRATOR_GATE_WIDEN : 1.0f) * width;
-    const float wide_a = (1.0f < next_width) ? next_width : 1.0f;
+    /* it widens or narrows */
+    const float next_width = (used ? DOUBLE_INTEGRATOR_GATE_NARROW
+        : gated ? DOUBLE_INTEGRATOR_GATE_WIDEN : 1.0f) * width;
+    const float next_width_or_1 = (1.0f < next_width) ? next_width : 1.0f;
 
-    self->widening[i] = (wide_a < DOUBLE_INTEGRATOR_TWO_TO_80) ? wide_a
+    self->widening[i] = (next_width_or_1 < DOUBLE_INTEGRATOR_TWO_TO_80) ? next_width_or_1
         : DOUBLE_INTEGRATOR_TWO_TO_80;
 
     if (gated) {
@@ -258,57 +258,58 @@ static bool double_integrator_weigh(double_integrator_t *self, lqg_status *statu
  * y  in: the outputs, in their units. An output that is not finite, or further than 300 σ from its expected value
  *        is not used in this sample.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET.
- * */
-static inline lqg_status double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_INNOVATION_NOT_POSITIVE, LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
+static inline lqg_status_t double_integrator_update(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    lqg_status_t status = LQG_OK;
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
     const float P_00 = self->P[0];
     const float P_10 = self->P[1];
     const float P_11 = self->P[2];
-    const float widening_0 = self->widening[0];
-    const float y_0 = y[0];
+    const float widening_position = self->widening[0];
+    const float y_position = y[0];
 
-    /* output 0, position [m]: S = C P Cᵀ + V, P Cᵀ first */
-    const float S_position = 1e-06f + P_00;
+    /* output 0, position [m]: cov(x̂, y) = P Cᵀ,  S = C P Cᵀ + V */
+    const float variance_position = 1e-06f + P_00;
 
     /* output 0, position [m]: innovation = y − C x̂; a gain of 0 leaves the output out */
-    const float measured_position = y_0 - x_0;
-    const float shared_35 = DOUBLE_INTEGRATOR_GATE_SQUARED * S_position;
-    const float threshold_position = (shared_35 < DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION)
-        ? shared_35 : DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION;
-    int usable_position = (((measured_position * measured_position) < threshold_position)
-        && !(1.0f < widening_0)) ? 1 : 0;
+    const float raw_innovation_position = y_position - x_position;
+    const float gate_square_position = DOUBLE_INTEGRATOR_GATE_SQUARED * variance_position;
+    const float threshold_position = (gate_square_position
+        < DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION) ? gate_square_position
+        : DOUBLE_INTEGRATOR_LIMIT_SQUARED_POSITION;
+    int usable_position = (((raw_innovation_position * raw_innovation_position)
+        < threshold_position) && !(1.0f < widening_position)) ? 1 : 0;
     if (usable_position == 0) {
-        usable_position = double_integrator_weigh(self, &status, 0, measured_position, S_position)
-            ? 1 : 0;
+        usable_position = double_integrator_weigh(self, &status, 0, raw_innovation_position,
+            variance_position) ? 1 : 0;
     }
-    const float reciprocal_position = (usable_position != 0) ? (1.0f / S_position) : 0.0f;
-    const float innovation_position = (usable_position != 0) ? measured_position : 0.0f;
+    const float reciprocal_position = (usable_position != 0) ? (1.0f / variance_position) : 0.0f;
+    const float innovation_position = (usable_position != 0) ? raw_innovation_position : 0.0f;
 
     /* output 0, position [m]: L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ */
-    const float gain_1_position = P_10 * reciprocal_position;
-    const float x_1_position = x_1 + (gain_1_position * innovation_position);
-    self->x[1] = x_1_position;
-    const float P_11_position = P_11 - (gain_1_position * P_10);
+    const float gain_speed_position = P_10 * reciprocal_position;
+    const float x_speed_position = x_speed + (gain_speed_position * innovation_position);
+    self->x[1] = x_speed_position;
+    const float P_11_position = P_11 - (gain_speed_position * P_10);
     self->P[2] = P_11_position;
-    const float P_10_position = P_10 - (gain_1_position * P_00);
+    const float P_10_position = P_10 - (gain_speed_position * P_00);
     self->P[1] = P_10_position;
-    const float gain_0_position = P_00 * reciprocal_position;
-    const float x_0_position = x_0 + (gain_0_position * innovation_position);
-    self->x[0] = x_0_position;
-    const float P_00_position = P_00 - (gain_0_position * P_00);
+    const float gain_position_position = P_00 * reciprocal_position;
+    const float x_position_position = x_position + (gain_position_position * innovation_position);
+    self->x[0] = x_position_position;
+    const float P_00_position = P_00 - (gain_position_position * P_00);
     self->P[0] = P_00_position;
 
-    /* Σ x̂² in units of a bound */
-    const float sum = x_0_position * x_0_position;
-    const float sum_a = sum + (x_1_position * x_1_position);
+    /* x̂ within its bounds;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float squares_to_x_position = x_position_position * x_position_position;
+    const float squares_to_x_speed = squares_to_x_position + (x_speed_position * x_speed_position);
 
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
-    if (!(sum_a < DOUBLE_INTEGRATOR_TWO_TO_64) || ((status & LQG_INNOVATION_NOT_POSITIVE) != 0u)) {
+    if (!(squares_to_x_speed < DOUBLE_INTEGRATOR_TWO_TO_64)
+        || ((status & LQG_INNOVATION_NOT_POSITIVE) != 0u)) {
         status = double_integrator_recover(self, status);
     }
     return status;
@@ -319,27 +320,27 @@ static inline lqg_status double_integrator_update(double_integrator_t *self, con
  * u  out: the inputs, in their units: always finite and within the limits
  *
  * Status: LQG_INPUT_LIMITED (at a limit, or not finite and set to 0). */
-static inline lqg_status double_integrator_control(const double_integrator_t *self, float u[DOUBLE_INTEGRATOR_NU])
+static inline lqg_status_t double_integrator_control(const double_integrator_t *self, float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
 
     /* u = −K x̂, within its limits */
-    const float law_0 = -(589.38544f * x_0) - (68.209404f * x_1);
-    const bool finite_0 = (law_0 - law_0) == 0.0f;
-    const float demand_0 = finite_0 ? law_0 : 0.0f;
-    const bool shared_37 = demand_0 < DOUBLE_INTEGRATOR_U_MIN_ACCELERATION;
-    const bool shared_38 = DOUBLE_INTEGRATOR_U_MAX_ACCELERATION < demand_0;
-    const float limited_0 = shared_37 ? DOUBLE_INTEGRATOR_U_MIN_ACCELERATION : shared_38
-        ? DOUBLE_INTEGRATOR_U_MAX_ACCELERATION : demand_0;
-    u[0] = limited_0;
+    const float law_acceleration = -(589.38544f * x_position) - (68.209404f * x_speed);
+    const bool finite_acceleration = (law_acceleration - law_acceleration) == 0.0f;
+    const float demand_acceleration = finite_acceleration ? law_acceleration : 0.0f;
+    const bool below_acceleration = demand_acceleration < DOUBLE_INTEGRATOR_U_MIN_ACCELERATION;
+    const bool above_acceleration = DOUBLE_INTEGRATOR_U_MAX_ACCELERATION < demand_acceleration;
+    const float limited_acceleration = below_acceleration ? DOUBLE_INTEGRATOR_U_MIN_ACCELERATION
+        : above_acceleration ? DOUBLE_INTEGRATOR_U_MAX_ACCELERATION : demand_acceleration;
+    u[0] = limited_acceleration;
 
-    lqg_status status = LQG_OK;
-    if (!finite_0) {
+    lqg_status_t status = LQG_OK;
+    if (!finite_acceleration) {
         status |= LQG_INPUT_LIMITED;
     }
-    if (shared_37 || shared_38) {
+    if (below_acceleration || above_acceleration) {
         status |= LQG_INPUT_LIMITED;
     }
     return status;
@@ -350,49 +351,50 @@ static inline lqg_status double_integrator_control(const double_integrator_t *se
  * u  in: the input that was applied, in its units; not the demanded one, if they differ
  *
  * Status: LQG_COVARIANCE_RESET, LQG_STATE_RESET. */
-static inline lqg_status double_integrator_predict(double_integrator_t *self, const float u[DOUBLE_INTEGRATOR_NU])
+static inline lqg_status_t double_integrator_predict(double_integrator_t *self, const float u[DOUBLE_INTEGRATOR_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
+    const float x_position = self->x[0];
+    const float x_speed = self->x[1];
     const float P_00 = self->P[0];
     const float P_10 = self->P[1];
     const float P_11 = self->P[2];
-    const float u_0 = u[0];
+    const float u_acceleration = u[0];
 
-    /* x̂ ← A x̂ + B u */
-    const float next_0 = x_0 + (0.01f * x_1) + (5e-05f * u_0);
-    self->x[0] = next_0;
-    const float sum = next_0 * next_0;
-    const float next_1 = x_1 + (0.01f * u_0);
-    self->x[1] = next_1;
-    const float sum_a = sum + (next_1 * next_1);
+    /* x̂ ← A x̂ + B u;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float next_position = x_position + (0.01f * x_speed) + (5e-05f * u_acceleration);
+    self->x[0] = next_position;
+    const float squares_to_x_position = next_position * next_position;
+    const float next_speed = x_speed + (0.01f * u_acceleration);
+    self->x[1] = next_speed;
+    const float squares_to_x_speed = squares_to_x_position + (next_speed * next_speed);
 
-    /* P ← A P Aᵀ + G W Gᵀ, lower triangle */
+    /* P ← A P Aᵀ + G W Gᵀ, lower triangle;  squares_to_P_kk adds P_kk */
     const float AP_00 = P_00 + (0.01f * P_10);
     const float AP_01 = P_10 + (0.01f * P_11);
-    const float prior_00 = 2.5e-09f + AP_00 + (0.01f * AP_01);
-    self->P[0] = prior_00;
-    const float sum_b = sum_a + prior_00;
-    const float prior_10 = 5e-07f + P_10 + (0.01f * P_11);
-    self->P[1] = prior_10;
-    const float prior_11 = 1e-04f + P_11;
-    self->P[2] = prior_11;
-    const float sum_c = sum_b + prior_11;
+    const float prior_P_00 = 2.5e-09f + AP_00 + (0.01f * AP_01);
+    self->P[0] = prior_P_00;
+    const float squares_to_P_00 = squares_to_x_speed + prior_P_00;
+    const float prior_P_10 = 5e-07f + P_10 + (0.01f * P_11);
+    self->P[1] = prior_P_10;
+    const float prior_P_11 = 1e-04f + P_11;
+    self->P[2] = prior_P_11;
+    const float squares_to_P_11 = squares_to_P_00 + prior_P_11;
 
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     /* Σ (x_i/b_i)² + P_ii/b_i² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS; no P_ii < 0 */
-    if (!((sum_c < DOUBLE_INTEGRATOR_TWO_TO_64) && !(prior_00 < 0.0f) && !(prior_11 < 0.0f))) {
+    if (!((squares_to_P_11 < DOUBLE_INTEGRATOR_TWO_TO_64) && !(prior_P_00 < 0.0f)
+        && !(prior_P_11 < 0.0f))) {
         status = double_integrator_recover(self, status);
     }
     return status;
 }
 
 /* One sample: update, control, predict; assumes that the actuator applies u as it is. */
-static inline lqg_status double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
+static inline lqg_status_t double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
     float u[DOUBLE_INTEGRATOR_NU])
 {
-    lqg_status status = double_integrator_update(self, y);
+    lqg_status_t status = double_integrator_update(self, y);
 
     status |= double_integrator_control(self, u);
     status |= double_integrator_predict(self, u);
@@ -402,25 +404,25 @@ static inline lqg_status double_integrator_step(double_integrator_t *self, const
 /* Monitors sensors and model: the innovations y − C x̂ and their variances C P Cᵀ + V. Call it before
  * double_integrator_update.
  *
- * y   in: the outputs, in their units
- * nu  out: the innovations
- * S   out: their variances: nu²/S is 1 on average if the model is right
+ * y           in: the outputs, in their units
+ * innovation  out: the innovations
+ * S           out: their variances: innovation²/S is 1 on average if the model is right
  */
 static inline void double_integrator_innovation(const double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
-    float nu[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
+    float innovation[DOUBLE_INTEGRATOR_NY], float S[DOUBLE_INTEGRATOR_NY])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
+    const float x_position = self->x[0];
     const float P_00 = self->P[0];
-    const float y_0 = y[0];
+    const float y_position = y[0];
 
     /* output 0, position [m]: innovation = y − C x̂ */
-    const float innovation_position = y_0 - x_0;
-    nu[0] = innovation_position;
+    const float innovation_position = y_position - x_position;
+    innovation[0] = innovation_position;
 
     /* output 0, position [m]: S = C P Cᵀ + V */
-    const float S_position = 1e-06f + P_00;
-    S[0] = S_position;
+    const float variance_position = 1e-06f + P_00;
+    S[0] = variance_position;
 }
 
 /* x̂ ← x, set from outside; its covariance does not change.
@@ -428,22 +430,22 @@ static inline void double_integrator_innovation(const double_integrator_t *self,
  * x  in: the state, in its units
  *
  * Status: LQG_STATE_RESET, if x is not within DOUBLE_INTEGRATOR_X_BOUNDS. */
-static inline lqg_status double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
+static inline lqg_status_t double_integrator_set_state(double_integrator_t *self, const float x[DOUBLE_INTEGRATOR_NX])
 {
     LQG_STRICT_BODY
-    const float x_0 = x[0];
-    const float x_1 = x[1];
+    const float x_position = x[0];
+    const float x_speed = x[1];
 
-    /* Σ x² in units of a bound */
-    const float sum = x_0 * x_0;
-    const float sum_a = sum + (x_1 * x_1);
+    /* x̂ ← x;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float squares_to_x_position = x_position * x_position;
+    const float squares_to_x_speed = squares_to_x_position + (x_speed * x_speed);
 
-    self->x[0] = x_0;
-    self->x[1] = x_1;
+    self->x[0] = x_position;
+    self->x[1] = x_speed;
 
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
-    if (!(sum_a < DOUBLE_INTEGRATOR_TWO_TO_64)) {
+    if (!(squares_to_x_speed < DOUBLE_INTEGRATOR_TWO_TO_64)) {
         status = double_integrator_reset(self, status);
     }
     return status;

@@ -1,8 +1,26 @@
 /* tank: level and temperature of a tank
  *
- * Made by lqgen 0.1.0 from tank.toml with the SHA-256
+ * Made by lqgen 0.2.0 from tank.toml with the SHA-256
  * e0d8ecb82dd6855181e2e6bc087001021697d6f99dbe5047031df976b46b8e16.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
+ *
+ * What is called when:
+ *
+ *   once                   tank_init(&loop)                          at the start
+ *   a new reference        loop.r[i] = …                             at any time between two calls
+ *   each sample            tank_update(&loop, y)                     y has been measured
+ *                          tank_control(&loop, u)                    u for the actuator
+ *                          tank_predict(&loop, u)                    the u that was applied
+ *     or                   tank_step(&loop, y, u)                    all three in one call
+ *   a sensor has failed    y[i] = NAN                                that output is not used
+ *   a sensor is slower     tank_partial_update(&loop, y, used)       instead of update
+ *   to watch the sensors   tank_innovation(&loop, y, innovation, S)  before update
+ *   in manual mode         tank_predict(&loop, u)                    after update, with the manual u; no control
+ *   the state is known     tank_set_state(&loop, x)                  between predict and update
+ *   manual to automatic    tank_set_input(&loop, u)                  the last manual input: bumpless transfer
+ *   after LQG_STATE_RESET  the same calls as before                  x̂ is that of init, r is kept
+ *
+ * A status other than LQG_OK says what happened; each function lists its bits.
  *
  * Plant, sampled every 0.5 s:  x⁺ = A x + B u + G w,  y = C x + D u + v
  *
@@ -25,7 +43,8 @@
  *       [  3.041702    2.3978255  -0.45884758 ]
  *   Nbar = [ 0.0  -1.5403687 ]
  *          [ 0.0  0.95490813 ]
- *   ξ⁺ = ξ + T (r − y) of level; ξ ← ξ + H (u − what the law asked for) with the u that was applied
+ *   ξ⁺ = ξ + T (r − y) of level
+ *   anti-windup: ξ ← ξ + H (u − demand), u: what was applied, demand: what the law asked for
  *   H = [ 0.20487356  0.013735944 ]
  *   poles of A − B K: 0.8916, 0.7117, 0.4779
  *   -0.5 ≤ u[0] ≤ 1.0
@@ -33,8 +52,8 @@
  *   -2.0 ≤ u[1] ≤ 6.0
  *   |change of u[1]| ≤ 4.0 per second
  *
- * Kalman filter, filter form (u[k] is made of the outputs up to y[k]),
- * with its constant gain; of samples:
+ * Kalman filter, filter form (u[k] depends on the outputs up to y[k]),
+ * constant gain; covariances per sample:
  *
  *   G = [ 1.0  0.0 ]
  *       [ 0.0  1.0 ]
@@ -45,8 +64,9 @@
  *   L = [ 0.38432372         0.0 ]
  *       [        0.0  0.20196564 ]
  *   poles of A − L_predictor C: 0.7783, 0.6096
- *   x̂ begins anew when it reaches, in size: 1.1e+12, 1.1e+12
- *   an innovation is not believed from, in size: 2.199e+12, 2.199e+12
+ *   limit of |x̂_i| (reset when exceeded): 1.1e+12, 1.1e+12
+ *   innovation limit: 2.199e+12, 2.199e+12
+ *   limit of |ξ_i| (reset when exceeded): 1.1e+12
  *
  * Closed loop, opened at the plant's input:
  *
@@ -65,22 +85,47 @@
 #define TANK_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "lqg/arithmetic.h"
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 2
-#error "tank.h was made by lqgen 0.1.0, which this TinyLQG does not know: run the lqgen of this TinyLQG on tank.toml again."
+#if LQG_HEADER_FORMAT != 3
+#error "This file needs header format 3, the library has another one: regenerate it with the library's lqgen."
 #endif
 
 #define TANK_NX 2  /* states */
 #define TANK_NU 2  /* inputs */
 #define TANK_NY 2  /* outputs */
 #define TANK_NR 2  /* references */
-#define TANK_X_BOUNDS {1099511627776.0f, 1099511627776.0f}  /* x̂ stays below them in size, or begins anew */
-#define TANK_RECOVERY_SAMPLES 800  /* after a fault has ended its effect is below the noise */
-#define TANK_SAMPLE_TIME 0.5f  /* s between two samples */
+/* Limit of |x̂_i|: the state is reset when it is reached. */
+#define TANK_X_BOUNDS { \
+    1099511627776.0f,  /* 2^40: level [m] */ \
+    1099511627776.0f  /* 2^40: temperature [K] */ \
+}
+#define TANK_RECOVERY_SAMPLES 800  /* samples after a fault until its effect is below the noise */
+#define TANK_SAMPLE_TIME 0.5f  /* s, plant.sample_time */
+
+/* Limits, bounds and thresholds of the code below, each with its unit and origin. */
+#define TANK_U_MIN_INFLOW                    (-0.5f)           /* m/s, limits.u_min = -0.5 */
+#define TANK_U_MAX_INFLOW                    1.0f              /* m/s, limits.u_max = 1.0 */
+#define TANK_U_STEP_INFLOW                   0.25f  /* m/s, limits.u_rate = 0.5 times sample_time, rounded down */
+#define TANK_U_MIN_HEATING                   (-2.0f)           /* kW, limits.u_min = -2.0 */
+#define TANK_U_MAX_HEATING                   6.0f              /* kW, limits.u_max = 6.0 */
+#define TANK_U_STEP_HEATING                  2.0f  /* kW, limits.u_rate = 4.0 times sample_time, rounded down */
+#define TANK_ERROR_LIMIT_LEVEL               2199023255552.0f  /* m, 2^41: |r − y| is below it, or not integrated */
+#define TANK_GATE_SQUARED                    90000.0f          /* 300²: kalman.spike squared */
+#define TANK_INNOVATION_LIMIT                2199023255552.0f  /* 2^41: |innovation| is below it, or rejected */
+#define TANK_GATE_WIDEN                      1.5f              /* factor of w in a sample that rejects the output */
+#define TANK_GATE_NARROW                     0.6064453f        /* factor of w in a sample that uses the output */
+#define TANK_INNOVATION_LIMIT_LEVEL          2199023255552.0f  /* m, 2^41: |innovation| is below it, or rejected */
+#define TANK_INNOVATION_VARIANCE_LEVEL       0.00032484604f    /* m², S = C P Cᵀ + V, steady */
+#define TANK_THRESHOLD_LEVEL                 29.236143f        /* m², min(300² S, 2^82), for innovation² */
+#define TANK_INNOVATION_LIMIT_TEMPERATURE    2199023255552.0f  /* K, 2^41: |innovation| is below it, or rejected */
+#define TANK_INNOVATION_VARIANCE_TEMPERATURE 0.10024631f       /* K², S = C P Cᵀ + V, steady */
+#define TANK_THRESHOLD_TEMPERATURE           9022.168f         /* K², min(300² S, 2^82), for innovation² */
+#define TANK_TWO_TO_80                       1.2089258e+24f    /* 2^80 */
 
 enum {
     TANK_X_LEVEL = 0,  /* [m] */
@@ -102,107 +147,128 @@ enum {
     TANK_R_TEMPERATURE = 1  /* [K] */
 };
 
-/* The whole state of the controller: no pointers inside, may be copied. Begin it with tank_init. */
+/* The whole state of the controller. It has no pointers and may be copied. Initialise it with tank_init. */
 typedef struct {
-    float x[TANK_NX];  /* x̂, the estimate: of this sample after update, of the next after predict */
-    float u_applied[TANK_NU];  /* the input that acts: of the last predict or control */
-    float widening[TANK_NY];  /* how much wider than its σ the gate is, squared: more while an output is left out */
-    float r[TANK_NR];  /* what the outputs should be: write it at any time */
-    float xi[1];  /* ξ, the integral of r − y */
-    float error[1];  /* r − y of this sample, which predict adds to ξ */
-    float demand[TANK_NU];  /* what the law asked for, before its limits */
-    unsigned long resets;  /* how often it began anew, since init; after ULONG_MAX comes 0 */
-    unsigned long gated[TANK_NY];  /* how often the gate left an output out */
+    float x[TANK_NX];  /* estimate x̂: of this sample after update, of the next one after predict */
+    float u_applied[TANK_NU];  /* input that acts: of the last predict or control */
+    float widening[TANK_NY];  /* w ≥ 1, widening of the gate: it grows while the output is rejected */
+    float r[TANK_NR];  /* references: write them at any time between two calls */
+    float xi[1];  /* ξ, integral of r − y */
+    float error[1];  /* r − y of this sample; predict integrates it */
+    float demand[TANK_NU];  /* u of the law, before the limits */
+    unsigned long resets;  /* resets of the state since init; wraps to 0 */
+    unsigned long gated[TANK_NY];  /* how often the gate has rejected an output; wraps to 0 */
 } tank_t;
 
 LQG_STRICT_BEGIN
-#if defined __GNUC__ && !defined __clang__
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")  /* as written: few values wait in registers */
+#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
+#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif
 
-/* x̂ = x0, ξ = 0, r = 0; nothing applied yet. */
+/* Initial state: x̂ = x0, ξ = 0, r = 0, last input = 0, counters = 0. */
 static inline void tank_init(tank_t *self)
 {
     static const tank_t initial = {
-        {0.0f, 0.0f},
-        {0.0f, 0.0f},
-        {32.0f, 1.0f},
-        {0.0f, 0.0f},
-        {0.0f},
-        {0.0f},
-        {0.0f, 0.0f},
-        0,
-        {0}
+        {0.0f, 0.0f},  /* x: the initial state x0 */
+        {0.0f, 0.0f},  /* u_applied */
+        {32.0f, 1.0f},  /* widening: of the variance of the first innovation, from P0, relative to S */
+        {0.0f, 0.0f},  /* r */
+        {0.0f},  /* xi */
+        {0.0f},  /* error */
+        {0.0f, 0.0f},  /* demand */
+        0uL,  /* resets */
+        {0}  /* gated */
     };
 
     *self = initial;
 }
 
-/* Begins anew, but for r and what was counted, and counts it: the state was not within its bounds. */
+/* Called if the state is not within its bounds. Resets the state, keeps the counters and r, increments `resets`. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status tank_reset(tank_t *self, lqg_status status)
+static lqg_status_t tank_reset(tank_t *self, lqg_status_t status)
 {
     float r[TANK_NR];
-    const unsigned long resets = self->resets + 1;
+    const unsigned long resets = self->resets + 1uL;
     unsigned long gated[TANK_NY];
 
-    for (int i = 0; i < TANK_NR; i++)
+    for (int i = 0; i < TANK_NR; i++) {
         r[i] = self->r[i];
-    for (int i = 0; i < TANK_NY; i++)
+    }
+    for (int i = 0; i < TANK_NY; i++) {
         gated[i] = self->gated[i];
+    }
     tank_init(self);
-    for (int i = 0; i < TANK_NR; i++)
+    for (int i = 0; i < TANK_NR; i++) {
         self->r[i] = r[i];
+    }
     self->resets = resets;
-    for (int i = 0; i < TANK_NY; i++)
+    for (int i = 0; i < TANK_NY; i++) {
         self->gated[i] = gated[i];
+    }
     return status | LQG_STATE_RESET;
 }
 
-/* Whether output i is used, whose innovation is not as expected: it is not where that is not believable, or beyond
- * 300 σ √w, σ² = S. w, the widening, is 1 as long as all is well, and what was left out too often is heard again. */
+/* Decides whether an output is used whose innovation is larger than usual.
+ * It is rejected if |innovation| is not below its limit, or innovation² > (300)² S w. The widening w is 1 in normal
+ * operation; it grows while the output is rejected, so that the output is used again if it was right.
+ *
+ * i           in: the output
+ * innovation  in: its innovation
+ * S           in: the variance of the innovation
+ *
+ * Returns whether it is used; adds the reason to status if it is not. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static int tank_weigh(tank_t *self, lqg_status *status, int i, float innovation, float S)
+static bool tank_weigh(tank_t *self, lqg_status_t *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
+    const float variance = S;
 
-    /* w, at least 1 */
-    const float width_or_1 = 1.0f < widening ? widening : 1.0f;
-    const float width = width_or_1 < 1.2089258e+24f ? width_or_1 : 1.2089258e+24f;
+    /* the widening, at least 1 */
+    const float width_or_1 = (1.0f < widening) ? widening : 1.0f;
+    const float width = (width_or_1 < TANK_TWO_TO_80) ? width_or_1 : TANK_TWO_TO_80;
 
-    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
-    const int believable = fabsf(innovation) < 2199023255552.0f;
-    const lqg_status fault = believable ? LQG_OK : LQG_OUTPUT_NOT_FINITE;
-    const int usable = fault == LQG_OK;
-    const int beyond = 90000.0f * S * width < innovation * innovation;
-    const int gated = usable && beyond;
-    const int used = usable && !beyond;
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S widening */
+    const bool believable = fabsf(innovation) < TANK_INNOVATION_LIMIT;
+    lqg_status_t fault = LQG_OK;
+    if (!believable) {
+        fault = (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(i));
+    }
+    const bool usable = fault == LQG_OK;
+    const bool beyond = (TANK_GATE_SQUARED * variance * width) < (innovation * innovation);
+    const bool gated = usable && beyond;
+    const bool used = usable && !beyond;
 
-    /* w widens or narrows */
-    const float next_width = (used ? 0.6064453f : 1.5f) * width;
-    const float next_width_or_1 = 1.0f < next_width ? next_width : 1.0f;
+    /* it widens or narrows */
+    const float next_width = (used ? TANK_GATE_NARROW : TANK_GATE_WIDEN) * width;
+    const float next_width_or_1 = (1.0f < next_width) ? next_width : 1.0f;
 
-    self->widening[i] = next_width_or_1 < 1.2089258e+24f ? next_width_or_1 : 1.2089258e+24f;
+    self->widening[i] = (next_width_or_1 < TANK_TWO_TO_80) ? next_width_or_1 : TANK_TWO_TO_80;
 
-    self->gated[i] += gated ? 1 : 0;
-    *status |= fault | (gated ? LQG_OUTPUT_GATED : LQG_OK);
+    if (gated) {
+        self->gated[i]++;
+    }
+    *status |= fault;
+    if (gated) {
+        *status |= LQG_OUTPUT_GATED;
+    }
     return used;
 }
 
 /* x̂ ← x̂ + L (y − C x̂)
  *
- * y  in: the outputs, in their units. An output that is not finite, absurd or more than 300 σ off is taken as having come as expected.
+ * y  in: the outputs, in their units. An output that is not finite, or further than 300 σ from its expected value
+ *        counts as equal to its expected value: its innovation is 0.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status tank_update(tank_t *self, const float y[TANK_NY])
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+static inline lqg_status_t tank_update(tank_t *self, const float y[TANK_NY])
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     const float x_level = self->x[0];
     const float x_temperature = self->x[1];
     const float widening_level = self->widening[0];
@@ -213,24 +279,29 @@ static inline lqg_status tank_update(tank_t *self, const float y[TANK_NY])
 
     /* output 0, level [m]: innovation = y − C x̂, 0 if it is not used */
     const float raw_innovation_level = y_level - x_level;
-    int usable_level = raw_innovation_level * raw_innovation_level < 29.236143f
-        && !(1.0f < widening_level);
-    if (!usable_level)
-        usable_level = tank_weigh(self, &status, 0, raw_innovation_level, 0.00032484604f);
-    const float innovation_level = usable_level ? raw_innovation_level : 0.0f;
+    int usable_level = (((raw_innovation_level * raw_innovation_level) < TANK_THRESHOLD_LEVEL)
+        && !(1.0f < widening_level)) ? 1 : 0;
+    if (usable_level == 0) {
+        usable_level = tank_weigh(self, &status, 0, raw_innovation_level,
+            TANK_INNOVATION_VARIANCE_LEVEL) ? 1 : 0;
+    }
+    const float innovation_level = (usable_level != 0) ? raw_innovation_level : 0.0f;
 
     /* output 1, temperature [K]: innovation = y − C x̂, 0 if it is not used */
     const float raw_innovation_temperature = y_temperature - x_temperature;
-    int usable_temperature = raw_innovation_temperature * raw_innovation_temperature < 9022.168f
-        && !(1.0f < widening_temperature);
-    if (!usable_temperature)
-        usable_temperature = tank_weigh(self, &status, 1, raw_innovation_temperature, 0.10024631f);
-    const float innovation_temperature = usable_temperature ? raw_innovation_temperature : 0.0f;
+    int usable_temperature = (((raw_innovation_temperature * raw_innovation_temperature)
+        < TANK_THRESHOLD_TEMPERATURE) && !(1.0f < widening_temperature)) ? 1 : 0;
+    if (usable_temperature == 0) {
+        usable_temperature = tank_weigh(self, &status, 1, raw_innovation_temperature,
+            TANK_INNOVATION_VARIANCE_TEMPERATURE) ? 1 : 0;
+    }
+    const float innovation_temperature = (usable_temperature != 0) ? raw_innovation_temperature
+        : 0.0f;
 
     /* output 0, level [m]: r − y, which predict adds to ξ; 0 if the output is not used, or it is not believable */
     const float raw_error_level = r_level - y_level;
-    const float error_level = usable_level && fabsf(raw_error_level) < 2199023255552.0f
-        ? raw_error_level : 0.0f;
+    const float error_level = ((usable_level != 0)
+        && (fabsf(raw_error_level) < TANK_ERROR_LIMIT_LEVEL)) ? raw_error_level : 0.0f;
     self->error[0] = error_level;
 
     /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
@@ -242,17 +313,20 @@ static inline lqg_status tank_update(tank_t *self, const float y[TANK_NY])
     const float squares_to_x_temperature = fmaf(posterior_temperature, posterior_temperature,
         squares_to_x_level);
 
-    if (!(squares_to_x_temperature < 1.2089258e+24f))
-        return tank_reset(self, status);
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TANK_X_BOUNDS */
+    if (!(squares_to_x_temperature < TANK_TWO_TO_80)) {
+        status = tank_reset(self, status);
+    }
     return status;
 }
 
-/* u = −K [x̂; ξ] + Nbar r, within its limits
+/* u = −K [x̂; ξ] + Nbar r, limited
  *
- * u  out: the inputs, in their units: finite and within the limits, whatever came in
+ * u  out: the inputs, in their units: always finite and within the limits
  *
- * Status: LQG_REFERENCE_NOT_FINITE (such an r counts as 0), LQG_INPUT_LIMITED. */
-static inline lqg_status tank_control(tank_t *self, float u[TANK_NU])
+ * Status: LQG_REFERENCE_NOT_FINITE (such an r counts as 0), LQG_INPUT_LIMITED (at a limit, or not finite and set to 0).
+ * */
+static inline lqg_status_t tank_control(tank_t *self, float u[TANK_NU])
 {
     LQG_STRICT_BODY
     const float x_level = self->x[0];
@@ -264,57 +338,78 @@ static inline lqg_status tank_control(tank_t *self, float u[TANK_NU])
     const float xi_level = self->xi[0];
 
     /* the references r, 0 for one that is not finite */
-    const int finite_r_temperature = r_temperature - r_temperature == 0.0f;
+    const bool finite_r_temperature = (r_temperature - r_temperature) == 0.0f;
     const float reference_temperature = finite_r_temperature ? r_temperature : 0.0f;
 
     /* u = −K [x̂; ξ] + Nbar r, within its limits */
     const float law_inflow = fmaf(1.5403687f, -reference_temperature, fmaf(0.48933765f, xi_level,
         fmaf(0.12368507f, x_temperature, -(2.7711725f * x_level))));
-    const int finite_inflow = law_inflow - law_inflow == 0.0f;
+    const bool finite_inflow = (law_inflow - law_inflow) == 0.0f;
     const float demand_inflow = finite_inflow ? law_inflow : 0.0f;
     self->demand[0] = demand_inflow;
-    const float highest_inflow = u_applied_inflow + 0.25f;
-    const float lowest_inflow = u_applied_inflow - 0.25f;
-    const int below_lowest_inflow = demand_inflow < lowest_inflow;
-    const int above_highest_inflow = highest_inflow < demand_inflow;
+    const float highest_inflow = u_applied_inflow + TANK_U_STEP_INFLOW;
+    const float lowest_inflow = u_applied_inflow - TANK_U_STEP_INFLOW;
+    const bool below_lowest_inflow = demand_inflow < lowest_inflow;
+    const bool above_highest_inflow = highest_inflow < demand_inflow;
     const float reached_inflow = below_lowest_inflow ? lowest_inflow
         : above_highest_inflow ? highest_inflow : demand_inflow;
-    const int below_inflow = reached_inflow < -0.5f;
-    const int above_inflow = 1.0f < reached_inflow;
-    const float limited_inflow = below_inflow ? -0.5f : above_inflow ? 1.0f : reached_inflow;
+    const bool below_inflow = reached_inflow < TANK_U_MIN_INFLOW;
+    const bool above_inflow = TANK_U_MAX_INFLOW < reached_inflow;
+    const float limited_inflow = below_inflow ? TANK_U_MIN_INFLOW
+        : above_inflow ? TANK_U_MAX_INFLOW : reached_inflow;
     u[0] = limited_inflow;
     const float law_heating = fmaf(0.95490813f, reference_temperature, fmaf(0.45884758f, xi_level,
         fmaf(2.3978255f, -x_temperature, -(3.041702f * x_level))));
-    const int finite_heating = law_heating - law_heating == 0.0f;
+    const bool finite_heating = (law_heating - law_heating) == 0.0f;
     const float demand_heating = finite_heating ? law_heating : 0.0f;
     self->demand[1] = demand_heating;
-    const float highest_heating = u_applied_heating + 2.0f;
-    const float lowest_heating = u_applied_heating - 2.0f;
-    const int below_lowest_heating = demand_heating < lowest_heating;
-    const int above_highest_heating = highest_heating < demand_heating;
+    const float highest_heating = u_applied_heating + TANK_U_STEP_HEATING;
+    const float lowest_heating = u_applied_heating - TANK_U_STEP_HEATING;
+    const bool below_lowest_heating = demand_heating < lowest_heating;
+    const bool above_highest_heating = highest_heating < demand_heating;
     const float reached_heating = below_lowest_heating ? lowest_heating
         : above_highest_heating ? highest_heating : demand_heating;
-    const int below_heating = reached_heating < -2.0f;
-    const int above_heating = 6.0f < reached_heating;
-    const float limited_heating = below_heating ? -2.0f : above_heating ? 6.0f : reached_heating;
+    const bool below_heating = reached_heating < TANK_U_MIN_HEATING;
+    const bool above_heating = TANK_U_MAX_HEATING < reached_heating;
+    const float limited_heating = below_heating ? TANK_U_MIN_HEATING
+        : above_heating ? TANK_U_MAX_HEATING : reached_heating;
     u[1] = limited_heating;
 
-    return (!(r_level - r_level == 0.0f) ? LQG_REFERENCE_NOT_FINITE : LQG_OK)
-        | (!finite_r_temperature ? LQG_REFERENCE_NOT_FINITE : LQG_OK)
-        | (!finite_inflow ? LQG_INPUT_LIMITED : LQG_OK)
-        | (below_lowest_inflow || above_highest_inflow ? LQG_INPUT_LIMITED : LQG_OK)
-        | (below_inflow || above_inflow ? LQG_INPUT_LIMITED : LQG_OK)
-        | (!finite_heating ? LQG_INPUT_LIMITED : LQG_OK)
-        | (below_lowest_heating || above_highest_heating ? LQG_INPUT_LIMITED : LQG_OK)
-        | (below_heating || above_heating ? LQG_INPUT_LIMITED : LQG_OK);
+    lqg_status_t status = LQG_OK;
+    if (!((r_level - r_level) == 0.0f)) {
+        status |= LQG_REFERENCE_NOT_FINITE;
+    }
+    if (!finite_r_temperature) {
+        status |= LQG_REFERENCE_NOT_FINITE;
+    }
+    if (!finite_inflow) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    if (below_lowest_inflow || above_highest_inflow) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    if (below_inflow || above_inflow) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    if (!finite_heating) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    if (below_lowest_heating || above_highest_heating) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    if (below_heating || above_heating) {
+        status |= LQG_INPUT_LIMITED;
+    }
+    return status;
 }
 
-/* x̂ ← A x̂ + B u,  ξ ← ξ + H (u − what control asked for) + T (r − y): from this sample to the next.
+/* From this sample to the next:  x̂ ← A x̂ + B u,
+ *                              ξ ← ξ + H (u − demand) + T (r − y)
  *
- * u  in: what was applied, in its units; not what was asked for, where the two differ
+ * u  in: the input that was applied, in its units; not the demanded one, if they differ
  *
  * Status: LQG_STATE_RESET. */
-static inline lqg_status tank_predict(tank_t *self, const float u[TANK_NU])
+static inline lqg_status_t tank_predict(tank_t *self, const float u[TANK_NU])
 {
     LQG_STRICT_BODY
     const float x_level = self->x[0];
@@ -337,7 +432,7 @@ static inline lqg_status tank_predict(tank_t *self, const float u[TANK_NU])
         squares_to_x_level);
 
     /* ξ ← ξ + H (u − what the law asked for) + T (r − y) */
-    const float next_xi_level = fmaf(0.5f, error_level, fmaf(0.013735944f, u_heating
+    const float next_xi_level = fmaf(TANK_SAMPLE_TIME, error_level, fmaf(0.013735944f, u_heating
         - demand_heating, fmaf(0.20487356f, u_inflow - demand_inflow, xi_level)));
     self->xi[0] = next_xi_level;
     const float squares_to_xi_level = fmaf(next_xi_level, next_xi_level, squares_to_x_temperature);
@@ -349,102 +444,31 @@ static inline lqg_status tank_predict(tank_t *self, const float u[TANK_NU])
     self->u_applied[1] = u_heating;
     self->demand[1] = u_heating;
 
-    const lqg_status status = LQG_OK;
-    if (!(sum_to_u_heating - sum_to_u_heating < 1.2089258e+24f - squares_to_xi_level))
-        return tank_reset(self, status);
+    lqg_status_t status = LQG_OK;
+    /* Σ (x_i/b_i)² + (ξ_i/c_i)² < 1 in units of a power of two, b = TANK_X_BOUNDS, c: limits of ξ; the rest is finite
+     * */
+    if (!((sum_to_u_heating - sum_to_u_heating) < (TANK_TWO_TO_80 - squares_to_xi_level))) {
+        status = tank_reset(self, status);
+    }
     return status;
 }
 
-/* One sample: update, control and predict, for an actuator that applies u as it is. */
-static inline lqg_status tank_step(tank_t *self, const float y[TANK_NY], float u[TANK_NU])
+/* One sample: update, control, predict; assumes that the actuator applies u as it is. */
+static inline lqg_status_t tank_step(tank_t *self, const float y[TANK_NY], float u[TANK_NU])
 {
-    lqg_status status = tank_update(self, y);
+    lqg_status_t status = tank_update(self, y);
 
     status |= tank_control(self, u);
     status |= tank_predict(self, u);
     return status;
 }
 
-/* The update by level alone, for a sensor with a rate of its own; any number of predictions may lie between two.
- * An approximation: its gain is the best in the company of the other outputs only.
- *
- * y_level  in: the output, in m. One that is not finite, absurd or more than 300 σ off is left out.
- *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status tank_update_level(tank_t *self, const float y_level)
-{
-    LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
-    const float x_level = self->x[0];
-    const float x_temperature = self->x[1];
-    const float widening_level = self->widening[0];
-    const float r_level = self->r[0];
-
-    /* output 0, level [m]: innovation = y − C x̂, 0 if it is not used */
-    const float raw_innovation_level = y_level - x_level;
-    int usable_level = raw_innovation_level * raw_innovation_level < 29.236143f
-        && !(1.0f < widening_level);
-    if (!usable_level)
-        usable_level = tank_weigh(self, &status, 0, raw_innovation_level, 0.00032484604f);
-    const float innovation_level = usable_level ? raw_innovation_level : 0.0f;
-
-    /* output 0, level [m]: r − y, which predict adds to ξ; 0 if the output is not used, or it is not believable */
-    const float raw_error_level = r_level - y_level;
-    const float error_level = usable_level && fabsf(raw_error_level) < 2199023255552.0f
-        ? raw_error_level : 0.0f;
-    self->error[0] = error_level;
-
-    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
-    const float posterior_level = fmaf(0.38432372f, innovation_level, x_level);
-    self->x[0] = posterior_level;
-    const float squares_to_x_level = posterior_level * posterior_level;
-    const float squares_to_x_temperature = fmaf(x_temperature, x_temperature, squares_to_x_level);
-
-    if (!(squares_to_x_temperature < 1.2089258e+24f))
-        return tank_reset(self, status);
-    return status;
-}
-
-/* The update by temperature alone, for a sensor with a rate of its own; any number of predictions may lie between two.
- * An approximation: its gain is the best in the company of the other outputs only.
- *
- * y_temperature  in: the output, in K. One that is not finite, absurd or more than 300 σ off is left out.
- *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status tank_update_temperature(tank_t *self, const float y_temperature)
-{
-    LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
-    const float x_level = self->x[0];
-    const float x_temperature = self->x[1];
-    const float widening_temperature = self->widening[1];
-
-    /* output 1, temperature [K]: innovation = y − C x̂, 0 if it is not used */
-    const float raw_innovation_temperature = y_temperature - x_temperature;
-    int usable_temperature = raw_innovation_temperature * raw_innovation_temperature < 9022.168f
-        && !(1.0f < widening_temperature);
-    if (!usable_temperature)
-        usable_temperature = tank_weigh(self, &status, 1, raw_innovation_temperature, 0.10024631f);
-    const float innovation_temperature = usable_temperature ? raw_innovation_temperature : 0.0f;
-
-    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
-    const float squares_to_x_level = x_level * x_level;
-    const float posterior_temperature = fmaf(0.20196564f, innovation_temperature, x_temperature);
-    self->x[1] = posterior_temperature;
-    const float squares_to_x_temperature = fmaf(posterior_temperature, posterior_temperature,
-        squares_to_x_level);
-
-    if (!(squares_to_x_temperature < 1.2089258e+24f))
-        return tank_reset(self, status);
-    return status;
-}
-
-/* How far the outputs are from what is expected, y − C x̂ and the steady variance of each:
- * to be called before update by those who watch the health of sensors and model.
+/* Monitors sensors and model: the innovations y − C x̂ and their variances in the steady state. Call it before
+ * tank_update.
  *
  * y           in: the outputs, in their units
  * innovation  out: the innovations
- * S           out: the variances; innovation²/S is 1 in the mean as long as the model holds
+ * S           out: their variances: innovation²/S is 1 on average if the model is right
  */
 static inline void tank_innovation(const tank_t *self, const float y[TANK_NY],
     float innovation[TANK_NY], float S[TANK_NY])
@@ -463,41 +487,53 @@ static inline void tank_innovation(const tank_t *self, const float y[TANK_NY],
     const float innovation_temperature = y_temperature - x_temperature;
     innovation[1] = innovation_temperature;
 
-    S[0] = 0.00032484604f;
-    S[1] = 0.10024631f;
+    S[0] = TANK_INNOVATION_VARIANCE_LEVEL;
+    S[1] = TANK_INNOVATION_VARIANCE_TEMPERATURE;
 }
 
-/* The update by some of the outputs, for sensors with rates of their own; any number of predictions may lie between two.
- * An approximation: the gains are the best in the company of all outputs.
+/* The update by some of the outputs, for sensors with their own rates. Any number of predictions may lie between two
+ * updates.
+ * An approximation: the gains are optimal only when all outputs are used together.
  *
- * y     in: the outputs, in their units; those that are not used are not looked at
- * used  in: which of them are there, a bit each: 1ul << TANK_Y_LEVEL
+ * y     in: the outputs, in their units; those that are not used are not read
+ * used  in: one bit for each output that is used: 1uL << TANK_Y_LEVEL
  *
- * Status: LQG_OUTPUT_NOT_FINITE, of those that are used, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status tank_partial_update(tank_t *self, const float y[TANK_NY], unsigned long used)
+ * Status: as tank_update, of the outputs that are used. */
+static inline lqg_status_t tank_partial_update(tank_t *self, const float y[TANK_NY], unsigned long used)
 {
     LQG_STRICT_BODY
-    float there[TANK_NY], innovation[TANK_NY], S[TANK_NY];
-    unsigned long lost = 0;
+    float there[TANK_NY];
+    float innovation[TANK_NY];
+    float S[TANK_NY];
+    unsigned long bit = 1uL;
+    lqg_status_t rejected = LQG_OK;
+    lqg_status_t status;
 
-    for (int i = 0; i < TANK_NY; i++)
-        there[i] = used >> i & 1ul ? y[i] : (float)INFINITY;  /* left out */
+    for (int i = 0; i < TANK_NY; i++) {
+        there[i] = ((used & bit) != 0uL) ? y[i] : (float)INFINITY;  /* left out */
+        bit <<= 1u;
+    }
     tank_innovation(self, there, innovation, S);
     const float innovation_level = innovation[0];
     const float innovation_temperature = innovation[1];
-    lost |= !(fabsf(innovation_level) < 2199023255552.0f) ? 1ul << 0 : 0ul;
-    lost |= !(fabsf(innovation_temperature) < 2199023255552.0f) ? 1ul << 1 : 0ul;
+    if (((used & 1uL) != 0uL) && (!(fabsf(innovation_level) < TANK_INNOVATION_LIMIT_LEVEL))) {
+        rejected |= (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0));
+    }
+    if (((used & 2uL) != 0uL)
+        && (!(fabsf(innovation_temperature) < TANK_INNOVATION_LIMIT_TEMPERATURE))) {
+        rejected |= (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(1));
+    }
 
-    const lqg_status status = tank_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
-    return used & lost ? status | LQG_OUTPUT_NOT_FINITE : status;
+    status = tank_update(self, there);
+    return (status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)) | rejected;
 }
 
-/* x̂ ← x, by hand. tank_set_input may follow.
+/* x̂ ← x, set from outside. Call tank_set_input after it, if the input is known.
  *
  * x  in: the state, in its units
  *
- * Status: LQG_STATE_RESET, when x is not within TANK_X_BOUNDS. */
-static inline lqg_status tank_set_state(tank_t *self, const float x[TANK_NX])
+ * Status: LQG_STATE_RESET, if x is not within TANK_X_BOUNDS. */
+static inline lqg_status_t tank_set_state(tank_t *self, const float x[TANK_NX])
 {
     LQG_STRICT_BODY
     const float x_level = x[0];
@@ -510,19 +546,23 @@ static inline lqg_status tank_set_state(tank_t *self, const float x[TANK_NX])
     self->x[0] = x_level;
     self->x[1] = x_temperature;
 
-    const lqg_status status = LQG_OK;
-    if (!(squares_to_x_temperature < 1.2089258e+24f))
-        return tank_reset(self, status);
+    lqg_status_t status = LQG_OK;
+    /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TANK_X_BOUNDS */
+    if (!(squares_to_x_temperature < TANK_TWO_TO_80)) {
+        status = tank_reset(self, status);
+    }
     return status;
 }
 
-/* The input was u, set by hand.
- * ξ becomes such that control goes on there: to be called before control.
+/* Tells the controller that the actuator applied u while it was not in charge (manual control).
+ * ξ becomes such that the transfer to automatic is bumpless: the law demands u next.
+ * Call it before control.
  *
- * u  in: what was applied, in its units
+ * u  in: the applied input, in its units
  *
- * Status: LQG_REFERENCE_NOT_FINITE, LQG_STATE_RESET, when that is not finite. */
-static inline lqg_status tank_set_input(tank_t *self, const float u[TANK_NU])
+ * Status: LQG_STATE_RESET, if the new state is not within its bounds;
+ *         LQG_REFERENCE_NOT_FINITE. */
+static inline lqg_status_t tank_set_input(tank_t *self, const float u[TANK_NU])
 {
     LQG_STRICT_BODY
     const float x_level = self->x[0];
@@ -534,7 +574,7 @@ static inline lqg_status tank_set_input(tank_t *self, const float u[TANK_NU])
     const float u_heating = u[1];
 
     /* the references r, 0 for one that is not finite */
-    const int finite_r_temperature = r_temperature - r_temperature == 0.0f;
+    const bool finite_r_temperature = (r_temperature - r_temperature) == 0.0f;
     const float reference_temperature = finite_r_temperature ? r_temperature : 0.0f;
 
     /* ξ ← ξ + H_input (u − what the law asks for): it asks for u next */
@@ -553,10 +593,17 @@ static inline lqg_status tank_set_input(tank_t *self, const float u[TANK_NU])
     self->u_applied[1] = u_heating;
     self->demand[1] = u_heating;
 
-    const lqg_status status = (!(r_level - r_level == 0.0f) ? LQG_REFERENCE_NOT_FINITE
-        : LQG_OK) | (!finite_r_temperature ? LQG_REFERENCE_NOT_FINITE : LQG_OK);
-    if (!(sum_to_u_heating - sum_to_u_heating < 1.2089258e+24f - squares_to_xi_level))
-        return tank_reset(self, status);
+    lqg_status_t status = LQG_OK;
+    if (!((r_level - r_level) == 0.0f)) {
+        status |= LQG_REFERENCE_NOT_FINITE;
+    }
+    if (!finite_r_temperature) {
+        status |= LQG_REFERENCE_NOT_FINITE;
+    }
+    /* Σ (ξ_i/c_i)² < 1 in units of a power of two, c: limits of ξ; the rest is finite */
+    if (!((sum_to_u_heating - sum_to_u_heating) < (TANK_TWO_TO_80 - squares_to_xi_level))) {
+        status = tank_reset(self, status);
+    }
     return status;
 }
 

@@ -1,6 +1,6 @@
 /* two_mass: two masses, spring and damper
  *
- * Made by lqgen 0.1.0 from two_mass.toml with the SHA-256
+ * Made by lqgen 0.2.0 from two_mass.toml with the SHA-256
  * 46860654c241d4662f7925e59e28b72728299719d8f3760ea0a0858f9525b9e5.
  * Do not edit: change the design and run lqgen again. This file is yours: use it under any licence.
  *
@@ -85,8 +85,8 @@
 #include "lqg/status.h"
 #include "lqg/version.h"
 
-#if LQG_HEADER_FORMAT != 2
-#error "This file needs header format 2, the library has another one: regenerate it with the library's lqgen."
+#if LQG_HEADER_FORMAT != 3
+#error "This file needs header format 3, the library has another one: regenerate it with the library's lqgen."
 #endif
 
 #define TWO_MASS_NX 4  /* states */
@@ -161,7 +161,7 @@ static inline void two_mass_init(two_mass_t *self)
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
-static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
+static lqg_status_t two_mass_reset(two_mass_t *self, lqg_status_t status)
 {
     const unsigned long resets = self->resets + 1uL;
     unsigned long gated[TWO_MASS_NY];
@@ -181,41 +181,41 @@ static lqg_status two_mass_reset(two_mass_t *self, lqg_status status)
  * It is rejected if |innovation| is not below its limit, or innovation² > (300)² S w. The widening w is 1 in normal
  * operation; it grows while the output is rejected, so that the output is used again if it was right.
  *
- * i   in: the output
- * nu  in: its innovation
- * S   in: the variance of the innovation
+ * i           in: the output
+ * innovation  in: its innovation
+ * S           in: the variance of the innovation
  *
  * Returns whether it is used; adds the reason to status if it is not. */
 #ifdef __GNUC__
 __attribute__((noinline, cold))
 #endif
-static bool two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu, float S)
+static bool two_mass_weigh(two_mass_t *self, lqg_status_t *status, int i, float innovation, float S)
 {
     LQG_STRICT_BODY
     const float widening = self->widening[i];
-    const float innovation = nu;
     const float variance = S;
 
-    /* w, at least 1 */
-    const float wide = (1.0f < widening) ? widening : 1.0f;
-    const float width = (wide < TWO_MASS_TWO_TO_80) ? wide : TWO_MASS_TWO_TO_80;
+    /* the widening, at least 1 */
+    const float width_or_1 = (1.0f < widening) ? widening : 1.0f;
+    const float width = (width_or_1 < TWO_MASS_TWO_TO_80) ? width_or_1 : TWO_MASS_TWO_TO_80;
 
-    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S w */
+    /* 0 < S, |innovation| below its limit, innovation² ≤ gate² S widening */
     const bool believable = fabsf(innovation) < TWO_MASS_INNOVATION_LIMIT;
-    lqg_status fault = LQG_OK;
+    lqg_status_t fault = LQG_OK;
     if (!believable) {
-        fault = LQG_OUTPUT_NOT_FINITE;
+        fault = (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(i));
     }
     const bool usable = fault == LQG_OK;
     const bool beyond = (TWO_MASS_GATE_SQUARED * variance * width) < (innovation * innovation);
     const bool gated = usable && beyond;
     const bool used = usable && !beyond;
 
-    /* w widens or narrows */
+    /* it widens or narrows */
     const float next_width = (used ? TWO_MASS_GATE_NARROW : TWO_MASS_GATE_WIDEN) * width;
-    const float wide_a = (1.0f < next_width) ? next_width : 1.0f;
+    const float next_width_or_1 = (1.0f < next_width) ? next_width : 1.0f;
 
-    self->widening[i] = (wide_a < TWO_MASS_TWO_TO_80) ? wide_a : TWO_MASS_TWO_TO_80;
+    self->widening[i] = (next_width_or_1 < TWO_MASS_TWO_TO_80) ? next_width_or_1
+        : TWO_MASS_TWO_TO_80;
 
     if (gated) {
         self->gated[i]++;
@@ -232,57 +232,60 @@ static bool two_mass_weigh(two_mass_t *self, lqg_status *status, int i, float nu
  * y  in: the outputs, in their units. An output that is not finite, or further than 300 σ from its expected value
  *        counts as equal to its expected value: its innovation is 0.
  *
- * Status: LQG_OUTPUT_NOT_FINITE, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
-static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
+ * Status: LQG_OUTPUT_REJECTED, LQG_OUTPUT_GATED, LQG_STATE_RESET. */
+static inline lqg_status_t two_mass_update(two_mass_t *self, const float y[TWO_MASS_NY])
 {
     LQG_STRICT_BODY
-    lqg_status status = LQG_OK;
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float widening_0 = self->widening[0];
-    const float widening_1 = self->widening[1];
-    const float y_0 = y[0];
-    const float y_1 = y[1];
+    lqg_status_t status = LQG_OK;
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
+    const float widening_dy1 = self->widening[0];
+    const float widening_dy2 = self->widening[1];
+    const float y_dy1 = y[0];
+    const float y_dy2 = y[1];
 
     /* output 0, dy1 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy1 = y_0 - x_0;
-    int usable_dy1 = (((measured_dy1 * measured_dy1) < TWO_MASS_THRESHOLD_DY1)
-        && !(1.0f < widening_0)) ? 1 : 0;
+    const float raw_innovation_dy1 = y_dy1 - x_dy1;
+    int usable_dy1 = (((raw_innovation_dy1 * raw_innovation_dy1) < TWO_MASS_THRESHOLD_DY1)
+        && !(1.0f < widening_dy1)) ? 1 : 0;
     if (usable_dy1 == 0) {
-        usable_dy1 = two_mass_weigh(self, &status, 0, measured_dy1,
+        usable_dy1 = two_mass_weigh(self, &status, 0, raw_innovation_dy1,
             TWO_MASS_INNOVATION_VARIANCE_DY1) ? 1 : 0;
     }
-    const float innovation_dy1 = (usable_dy1 != 0) ? measured_dy1 : 0.0f;
+    const float innovation_dy1 = (usable_dy1 != 0) ? raw_innovation_dy1 : 0.0f;
 
     /* output 1, dy2 [m]: innovation = y − C x̂, 0 if it is not used */
-    const float measured_dy2 = y_1 - x_2;
-    int usable_dy2 = (((measured_dy2 * measured_dy2) < TWO_MASS_THRESHOLD_DY2)
-        && !(1.0f < widening_1)) ? 1 : 0;
+    const float raw_innovation_dy2 = y_dy2 - x_dy2;
+    int usable_dy2 = (((raw_innovation_dy2 * raw_innovation_dy2) < TWO_MASS_THRESHOLD_DY2)
+        && !(1.0f < widening_dy2)) ? 1 : 0;
     if (usable_dy2 == 0) {
-        usable_dy2 = two_mass_weigh(self, &status, 1, measured_dy2,
+        usable_dy2 = two_mass_weigh(self, &status, 1, raw_innovation_dy2,
             TWO_MASS_INNOVATION_VARIANCE_DY2) ? 1 : 0;
     }
-    const float innovation_dy2 = (usable_dy2 != 0) ? measured_dy2 : 0.0f;
+    const float innovation_dy2 = (usable_dy2 != 0) ? raw_innovation_dy2 : 0.0f;
 
-    /* x̂ ← x̂ + L innovation */
-    const float posterior_0 = x_0 + (0.7008788f * innovation_dy1) + (0.03500962f * innovation_dy2);
-    self->x[0] = posterior_0;
-    const float sum = posterior_0 * posterior_0;
-    const float posterior_1 = x_1 + (0.8304034f * innovation_dy1) - (0.105838105f * innovation_dy2);
-    self->x[1] = posterior_1;
-    const float sum_a = sum + (posterior_1 * posterior_1);
-    const float posterior_2 = x_2 + (0.03500962f * innovation_dy1) + (0.26355246f * innovation_dy2);
-    self->x[2] = posterior_2;
-    const float sum_b = sum_a + (posterior_2 * posterior_2);
-    const float posterior_3 = x_3 + (0.17161791f * innovation_dy1)
+    /* x̂ ← x̂ + L innovation;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float posterior_dy1 = x_dy1 + (0.7008788f * innovation_dy1)
+        + (0.03500962f * innovation_dy2);
+    self->x[0] = posterior_dy1;
+    const float squares_to_x_dy1 = posterior_dy1 * posterior_dy1;
+    const float posterior_v1 = x_v1 + (0.8304034f * innovation_dy1)
+        - (0.105838105f * innovation_dy2);
+    self->x[1] = posterior_v1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + (posterior_v1 * posterior_v1);
+    const float posterior_dy2 = x_dy2 + (0.03500962f * innovation_dy1)
+        + (0.26355246f * innovation_dy2);
+    self->x[2] = posterior_dy2;
+    const float squares_to_x_dy2 = squares_to_x_v1 + (posterior_dy2 * posterior_dy2);
+    const float posterior_v2 = x_v2 + (0.17161791f * innovation_dy1)
         + (0.078661025f * innovation_dy2);
-    self->x[3] = posterior_3;
-    const float sum_c = sum_b + (posterior_3 * posterior_3);
+    self->x[3] = posterior_v2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + (posterior_v2 * posterior_v2);
 
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
-    if (!(sum_c < TWO_MASS_TWO_TO_80)) {
+    if (!(squares_to_x_v2 < TWO_MASS_TWO_TO_80)) {
         status = two_mass_reset(self, status);
     }
     return status;
@@ -293,23 +296,23 @@ static inline lqg_status two_mass_update(two_mass_t *self, const float y[TWO_MAS
  * u  out: the inputs, in their units: always finite
  *
  * Status: LQG_INPUT_LIMITED (not finite and set to 0). */
-static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
+static inline lqg_status_t two_mass_control(const two_mass_t *self, float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
 
     /* u = −K x̂ */
-    const float law_0 = -(2.4226158f * x_0) - (2.1417978f * x_1) + (0.33327204f * x_2)
-        - (1.9239638f * x_3);
-    const bool finite_0 = (law_0 - law_0) == 0.0f;
-    const float demand_0 = finite_0 ? law_0 : 0.0f;
-    u[0] = demand_0;
+    const float law_force = -(2.4226158f * x_dy1) - (2.1417978f * x_v1) + (0.33327204f * x_dy2)
+        - (1.9239638f * x_v2);
+    const bool finite_force = (law_force - law_force) == 0.0f;
+    const float demand_force = finite_force ? law_force : 0.0f;
+    u[0] = demand_force;
 
-    lqg_status status = LQG_OK;
-    if (!finite_0) {
+    lqg_status_t status = LQG_OK;
+    if (!finite_force) {
         status |= LQG_INPUT_LIMITED;
     }
     return status;
@@ -320,45 +323,45 @@ static inline lqg_status two_mass_control(const two_mass_t *self, float u[TWO_MA
  * u  in: the input that was applied, in its units; not the demanded one, if they differ
  *
  * Status: LQG_STATE_RESET. */
-static inline lqg_status two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
+static inline lqg_status_t two_mass_predict(two_mass_t *self, const float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_1 = self->x[1];
-    const float x_2 = self->x[2];
-    const float x_3 = self->x[3];
-    const float u_0 = u[0];
+    const float x_dy1 = self->x[0];
+    const float x_v1 = self->x[1];
+    const float x_dy2 = self->x[2];
+    const float x_v2 = self->x[3];
+    const float u_force = u[0];
 
-    /* x̂ ← A x̂ + B u */
-    const float next_0 = (0.9877046f * x_0) + (0.4974466f * x_1) + (0.012295422f * x_2)
-        + (0.002553408f * x_3) + (0.12465904f * u_0);
-    self->x[0] = next_0;
-    const float sum = next_0 * next_0;
-    const float next_1 = -(0.048467956f * x_0) + (0.9857659f * x_1) + (0.048467956f * x_2)
-        + (0.0142341405f * x_3) + (0.4974466f * u_0);
-    self->x[1] = next_1;
-    const float sum_a = sum + (next_1 * next_1);
-    const float next_2 = (0.061477114f * x_0) + (0.01276704f * x_1) + (0.9385229f * x_2)
-        + (0.48723295f * x_3) + (0.0017048119f * u_0);
-    self->x[2] = next_2;
-    const float sum_b = sum_a + (next_2 * next_2);
-    const float next_3 = (0.24233977f * x_0) + (0.0711707f * x_1) - (0.24233977f * x_2)
-        + (0.9288293f * x_3) + (0.01276704f * u_0);
-    self->x[3] = next_3;
-    const float sum_c = sum_b + (next_3 * next_3);
+    /* x̂ ← A x̂ + B u;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float next_dy1 = (0.9877046f * x_dy1) + (0.4974466f * x_v1) + (0.012295422f * x_dy2)
+        + (0.002553408f * x_v2) + (0.12465904f * u_force);
+    self->x[0] = next_dy1;
+    const float squares_to_x_dy1 = next_dy1 * next_dy1;
+    const float next_v1 = -(0.048467956f * x_dy1) + (0.9857659f * x_v1) + (0.048467956f * x_dy2)
+        + (0.0142341405f * x_v2) + (0.4974466f * u_force);
+    self->x[1] = next_v1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + (next_v1 * next_v1);
+    const float next_dy2 = (0.061477114f * x_dy1) + (0.01276704f * x_v1) + (0.9385229f * x_dy2)
+        + (0.48723295f * x_v2) + (0.0017048119f * u_force);
+    self->x[2] = next_dy2;
+    const float squares_to_x_dy2 = squares_to_x_v1 + (next_dy2 * next_dy2);
+    const float next_v2 = (0.24233977f * x_dy1) + (0.0711707f * x_v1) - (0.24233977f * x_dy2)
+        + (0.9288293f * x_v2) + (0.01276704f * u_force);
+    self->x[3] = next_v2;
+    const float squares_to_x_v2 = squares_to_x_dy2 + (next_v2 * next_v2);
 
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
-    if (!(sum_c < TWO_MASS_TWO_TO_80)) {
+    if (!(squares_to_x_v2 < TWO_MASS_TWO_TO_80)) {
         status = two_mass_reset(self, status);
     }
     return status;
 }
 
 /* One sample: update, control, predict; assumes that the actuator applies u as it is. */
-static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
+static inline lqg_status_t two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
 {
-    lqg_status status = two_mass_update(self, y);
+    lqg_status_t status = two_mass_update(self, y);
 
     status |= two_mass_control(self, u);
     status |= two_mass_predict(self, u);
@@ -368,26 +371,26 @@ static inline lqg_status two_mass_step(two_mass_t *self, const float y[TWO_MASS_
 /* Monitors sensors and model: the innovations y − C x̂ and their variances in the steady state. Call it before
  * two_mass_update.
  *
- * y   in: the outputs, in their units
- * nu  out: the innovations
- * S   out: their variances: nu²/S is 1 on average if the model is right
+ * y           in: the outputs, in their units
+ * innovation  out: the innovations
+ * S           out: their variances: innovation²/S is 1 on average if the model is right
  */
 static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO_MASS_NY],
-    float nu[TWO_MASS_NY], float S[TWO_MASS_NY])
+    float innovation[TWO_MASS_NY], float S[TWO_MASS_NY])
 {
     LQG_STRICT_BODY
-    const float x_0 = self->x[0];
-    const float x_2 = self->x[2];
-    const float y_0 = y[0];
-    const float y_1 = y[1];
+    const float x_dy1 = self->x[0];
+    const float x_dy2 = self->x[2];
+    const float y_dy1 = y[0];
+    const float y_dy2 = y[1];
 
     /* output 0, dy1 [m]: innovation = y − C x̂ */
-    const float innovation_dy1 = y_0 - x_0;
-    nu[0] = innovation_dy1;
+    const float innovation_dy1 = y_dy1 - x_dy1;
+    innovation[0] = innovation_dy1;
 
     /* output 1, dy2 [m]: innovation = y − C x̂ */
-    const float innovation_dy2 = y_1 - x_2;
-    nu[1] = innovation_dy2;
+    const float innovation_dy2 = y_dy2 - x_dy2;
+    innovation[1] = innovation_dy2;
 
     S[0] = TWO_MASS_INNOVATION_VARIANCE_DY1;
     S[1] = TWO_MASS_INNOVATION_VARIANCE_DY2;
@@ -401,35 +404,32 @@ static inline void two_mass_innovation(const two_mass_t *self, const float y[TWO
  * used  in: one bit for each output that is used: 1uL << TWO_MASS_Y_DY1
  *
  * Status: as two_mass_update, of the outputs that are used. */
-static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
+static inline lqg_status_t two_mass_partial_update(two_mass_t *self, const float y[TWO_MASS_NY], unsigned long used)
 {
     LQG_STRICT_BODY
     float there[TWO_MASS_NY];
-    float nu[TWO_MASS_NY];
+    float innovation[TWO_MASS_NY];
     float S[TWO_MASS_NY];
-    unsigned long lost = 0uL;
     unsigned long bit = 1uL;
-    lqg_status status;
+    lqg_status_t rejected = LQG_OK;
+    lqg_status_t status;
 
     for (int i = 0; i < TWO_MASS_NY; i++) {
         there[i] = ((used & bit) != 0uL) ? y[i] : (float)INFINITY;  /* left out */
         bit <<= 1u;
     }
-    two_mass_innovation(self, there, nu, S);
-    const float nu_0 = nu[0];
-    const float nu_1 = nu[1];
-    if (!(fabsf(nu_0) < TWO_MASS_INNOVATION_LIMIT_DY1)) {
-        lost |= 1uL << 0u;
+    two_mass_innovation(self, there, innovation, S);
+    const float innovation_dy1 = innovation[0];
+    const float innovation_dy2 = innovation[1];
+    if (((used & 1uL) != 0uL) && (!(fabsf(innovation_dy1) < TWO_MASS_INNOVATION_LIMIT_DY1))) {
+        rejected |= (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(0));
     }
-    if (!(fabsf(nu_1) < TWO_MASS_INNOVATION_LIMIT_DY2)) {
-        lost |= 1uL << 1u;
+    if (((used & 2uL) != 0uL) && (!(fabsf(innovation_dy2) < TWO_MASS_INNOVATION_LIMIT_DY2))) {
+        rejected |= (LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(1));
     }
 
-    status = two_mass_update(self, there) & ~LQG_OUTPUT_NOT_FINITE;
-    if ((used & lost) != 0uL) {
-        status |= LQG_OUTPUT_NOT_FINITE;
-    }
-    return status;
+    status = two_mass_update(self, there);
+    return (status & ~(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BITS)) | rejected;
 }
 
 /* x̂ ← x, set from outside.
@@ -437,28 +437,28 @@ static inline lqg_status two_mass_partial_update(two_mass_t *self, const float y
  * x  in: the state, in its units
  *
  * Status: LQG_STATE_RESET, if x is not within TWO_MASS_X_BOUNDS. */
-static inline lqg_status two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
+static inline lqg_status_t two_mass_set_state(two_mass_t *self, const float x[TWO_MASS_NX])
 {
     LQG_STRICT_BODY
-    const float x_0 = x[0];
-    const float x_1 = x[1];
-    const float x_2 = x[2];
-    const float x_3 = x[3];
+    const float x_dy1 = x[0];
+    const float x_v1 = x[1];
+    const float x_dy2 = x[2];
+    const float x_v2 = x[3];
 
-    /* Σ x² in units of a bound */
-    const float sum = x_0 * x_0;
-    const float sum_a = sum + (x_1 * x_1);
-    const float sum_b = sum_a + (x_2 * x_2);
-    const float sum_c = sum_b + (x_3 * x_3);
+    /* x̂ ← x;  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b */
+    const float squares_to_x_dy1 = x_dy1 * x_dy1;
+    const float squares_to_x_v1 = squares_to_x_dy1 + (x_v1 * x_v1);
+    const float squares_to_x_dy2 = squares_to_x_v1 + (x_dy2 * x_dy2);
+    const float squares_to_x_v2 = squares_to_x_dy2 + (x_v2 * x_v2);
 
-    self->x[0] = x_0;
-    self->x[1] = x_1;
-    self->x[2] = x_2;
-    self->x[3] = x_3;
+    self->x[0] = x_dy1;
+    self->x[1] = x_v1;
+    self->x[2] = x_dy2;
+    self->x[3] = x_v2;
 
-    lqg_status status = LQG_OK;
+    lqg_status_t status = LQG_OK;
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
-    if (!(sum_c < TWO_MASS_TWO_TO_80)) {
+    if (!(squares_to_x_v2 < TWO_MASS_TWO_TO_80)) {
         status = two_mass_reset(self, status);
     }
     return status;

@@ -95,7 +95,7 @@ void test_a_hint_names_what_is_shared_and_gives_no_statement_to_what_is_not() {
   const int limited =
       graph.make(Op::select, low, graph.constant(-8), graph.make(Op::select, high, graph.constant(8), x));
   const std::string text = Printer(graph, {limited, low}).statements({{"u[0]", limited}});
-  TEST_ASSERT_TRUE_MESSAGE(text.find("int below = x < -8.0f;") != std::string::npos, text.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(text.find("bool below = x < (-8.0f);") != std::string::npos, text.c_str());
   TEST_ASSERT_TRUE_MESSAGE(text.find("above") == std::string::npos, text.c_str());
 }
 

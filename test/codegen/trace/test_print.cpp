@@ -193,7 +193,7 @@ void test_a_negative_number_is_subtracted() {
   Graph graph({});
   const int x = graph.input("x[0]", "x");
   const int sum = graph.make(Op::add, graph.make(Op::multiply, x, x), graph.constant(-0.5));
-  TEST_ASSERT_EQUAL_STRING("x * x - 0.5f", Printer(graph, {sum}).expression(sum).c_str());
+  TEST_ASSERT_EQUAL_STRING("(x * x) - 0.5f", Printer(graph, {sum}).expression(sum).c_str());
 }
 
 void test_wrap_keeps_every_line_within_the_width_where_it_may_break() {
