@@ -115,7 +115,7 @@ lqg_status_t lqg_ekf_partial_update(const lqg_ekf_t *ekf, lqg_ekf_state_t *state
     subtract(ekf, innovation, y, expected);
 
     for (unsigned i = 0; i < ny; i++) {
-        if (used & 1ul)
+        if (used & 1uL)
             status |= update_output(ekf, state, i, delta, innovation[i], C + i * nx, &keeper, f);
         else
             skip(&keeper, i, 0);

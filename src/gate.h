@@ -51,7 +51,7 @@ static inline lqg_status_t rejected(unsigned i)
 /* `used` for the output after the one whose bit was the lowest; outputs from the 33rd on are used. */
 static inline unsigned long after_lowest(unsigned long used)
 {
-    return (used >> 1) | 0x80000000ul;
+    return (used >> 1) | 0x80000000uL;
 }
 
 LQG_STRICT_BEGIN

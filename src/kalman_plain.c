@@ -128,7 +128,7 @@ lqg_status_t lqg_kalman_plain_partial_update(const lqg_kalman_plain_t *kalman, l
     lqg_status_t status = LQG_OK;
 
     for (unsigned i = 0; i < plant->ny; i++) {
-        const int is_used = (used & 1ul) != 0;
+        const int is_used = (used & 1uL) != 0;
         outputs[i] = lqg_plant_decorrelate(plant, kalman->E, i, y, outputs);
         const lqg_status_t left_out = is_used ? update_output(kalman, state, i, outputs[i], &keeper) : LQG_OK;
         const int heard = is_used && !left_out;

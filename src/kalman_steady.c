@@ -77,7 +77,7 @@ lqg_status_t lqg_kalman_steady_partial_update(const lqg_kalman_steady_t *kalman,
 
     for (unsigned i = 0; i < plant->ny; i++) {
         innovation[i] = 0;
-        if (used & 1ul)
+        if (used & 1uL)
             innovation[i] = innovate(kalman, state, i, y[i], &keeper, &status);
         else
             skip(&keeper, i, 1);

@@ -101,7 +101,7 @@ lqg_status_t lqg_ekf_update(const lqg_ekf_t *ekf, lqg_ekf_state_t *state, const 
 /* The same with some of the outputs: as if the others did not exist in this sample.
  *
  * y      in: outputs that are not used count for nothing, but `subtract` reads them
- * used   in: a bit for each output, 1ul << i; or LQG_ALL_OUTPUTS
+ * used   in: a bit for each output, 1uL << i; or LQG_ALL_OUTPUTS
  * watch  what is told; MAY be NULL */
 lqg_status_t lqg_ekf_partial_update(const lqg_ekf_t *ekf, lqg_ekf_state_t *state, const lqg_real y[/* ny */],
                                     const lqg_real u[], unsigned long used, const lqg_watch_t *watch);

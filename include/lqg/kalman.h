@@ -95,9 +95,9 @@ typedef struct {
     unsigned char *heard;   /* ny, out: 1 where the output was used, else 0 */
 } lqg_watch_t;
 
-/* Which outputs are used: an unsigned long, 1ul << i for output i. Outputs from the 33rd on have no bit and are always
+/* Which outputs are used: an unsigned long, 1uL << i for output i. Outputs from the 33rd on have no bit and are always
  * used. */
-#define LQG_ALL_OUTPUTS (~0ul)
+#define LQG_ALL_OUTPUTS (~0uL)
 
 /* ------------------------------------------------------------------------------------------ constant gain */
 
@@ -154,7 +154,7 @@ lqg_status_t lqg_kalman_steady_update(const lqg_kalman_steady_t *kalman, lqg_kal
 /* The same with some of the outputs; the others count as innovations of 0.
  *
  * y      in: outputs that are not used are not read
- * used   in: a bit for each output, 1ul << i; or LQG_ALL_OUTPUTS
+ * used   in: a bit for each output, 1uL << i; or LQG_ALL_OUTPUTS
  * watch  what is told; MAY be NULL */
 lqg_status_t lqg_kalman_steady_partial_update(const lqg_kalman_steady_t *kalman, lqg_kalman_steady_state_t *state,
                                               const lqg_real y[/* ny */], unsigned long used,
@@ -245,7 +245,7 @@ lqg_status_t lqg_kalman_plain_update(const lqg_kalman_plain_t *kalman, lqg_kalma
  * and its variance are those given the outputs before it.
  *
  * y      in: outputs that are not used are not read
- * used   in: a bit for each output, 1ul << i; or LQG_ALL_OUTPUTS
+ * used   in: a bit for each output, 1uL << i; or LQG_ALL_OUTPUTS
  * watch  what is told; MAY be NULL
  *
  * Status: LQG_OUTPUT_REJECTED also when E needs an output that is not used. */
@@ -338,7 +338,7 @@ lqg_status_t lqg_kalman_ud_update(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_s
  * and its variance are those given the outputs before it.
  *
  * y      in: outputs that are not used are not read
- * used   in: a bit for each output, 1ul << i; or LQG_ALL_OUTPUTS
+ * used   in: a bit for each output, 1uL << i; or LQG_ALL_OUTPUTS
  * watch  what is told; MAY be NULL
  *
  * Status: LQG_OUTPUT_REJECTED also when E needs an output that is not used. */

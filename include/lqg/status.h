@@ -22,7 +22,7 @@ typedef unsigned lqg_status_t;
 
 /* With LQG_OUTPUT_REJECTED: bits 8 … 15 say which outputs. Output i has bit 8 + i; from the eighth on all share the
  * last. */
-#define LQG_OUTPUT_REJECTED_BIT(i) ((lqg_status_t)(0x100u << ((unsigned)(i) < 7u ? (unsigned)(i) : 7u)))
+#define LQG_OUTPUT_REJECTED_BIT(i) ((lqg_status_t)(0x100u << (((unsigned)(i) < 7u) ? (unsigned)(i) : 7u)))
 #define LQG_OUTPUT_REJECTED_BITS   ((lqg_status_t)0xff00u) /* all of them */
 
 /* The gravest of the bits as a sentence in English, without full stop or line end; a constant string. */
