@@ -76,7 +76,7 @@ void Watch::show(const std::string& work) {
     std::cerr << clear_line << work << " …" << std::flush;
     has_line_ = true;
   } else if (shows_ && !is_terminal_ && elapsed >= patience_ && stage != stage_) {
-    std::cerr << file_ << ": note: at work: " << work << std::endl;
+    std::cerr << file_ << ": note: at work: " << work << "\n" << std::flush;
     stage_ = stage;
   }
   if (limit_) prepare_last_line(work);

@@ -11,7 +11,7 @@ namespace {
 struct Word {
   std::string_view name;  // in lower case
   std::string_view path;
-  std::string_view only_in = "";  // this table, "" for all
+  std::string_view only_in = {};  // this table, "" for all
 };
 
 constexpr Word known_words[] = {

@@ -71,7 +71,7 @@ def main() -> int:
     file_of_header = Path(design["name"] + ".h")
     header = file_of_header.read_text()
     if given.deaf:
-        file_of_header.write_text(re.sub(r"return \w+_recover\(self, status\);", "return status;", header))
+        file_of_header.write_text(re.sub(r"(status|outcome) = \w+_recover\(self, status\);", "", header))
     limits = tomllib.loads(file.read_text()).get("limits", {})
     build_program(design, plant_text(design, limits, header) + flips_text(design, limits, header), "flips")
     done = run("./flips", given.sample, int(given.list))

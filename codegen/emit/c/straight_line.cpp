@@ -52,15 +52,21 @@ std::string equation_of_bounds(const Controller& controller, const std::string& 
          (test.find(" - ") != std::string::npos ? "; the rest is finite" : "");
 }
 
-// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides; then `answer` becomes the status.
+// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides; then `answer` is returned in place of the status.
+// A status whose address is known to others has a copy: the compiler then ends the function by a jump, and the stack of
+// the recovery is not on top of its own.
 std::string unless_sound(const Controller& controller, const Printed& printed, const std::string& answer) {
   const TracedFunction& function = printed.function;
   const std::string test = printed.printer.test(function.finite, function.stores);
   const std::string faults = function.faults.empty() ? "" : " || ((status & " + function.faults + ") != 0u)";
   const std::string line = "    if (!(" + test + ")" + faults + ") {";
   const bool has_x = printed.writes("self->x["), has_xi = printed.writes("self->xi[");
-  return "    /* " + equation_of_bounds(controller, test, has_x, has_xi) + " */\n" +
-         (controller.target.is_prover ? line : trace::wrap(line, 8)) + "\n        status = " + answer + ";\n    }\n";
+  const bool has_copy = !function.asked.empty();
+  const std::string outcome = has_copy ? "outcome" : "status";
+  return (has_copy ? "    lqg_status_t outcome = status;\n" : "") +
+         ("    /* " + equation_of_bounds(controller, test, has_x, has_xi)) + " */\n" +
+         (controller.target.is_prover ? line : trace::wrap(line, 8)) + "\n        " + outcome + " = " + answer +
+         ";\n    }\n    return " + outcome + ";\n";
 }
 
 // The call that answers where the state is not sound.
@@ -76,24 +82,13 @@ std::string raised_statuses(const Printed& printed) {
   return out;
 }
 
-// A line for each bit where one is not enough.
-std::string return_of(std::string bits) {
-  constexpr std::size_t longest = 100;
-  const std::string line_end = "\n        ";
-  const bool is_long = bits.size() > longest;
-  for (std::size_t at = 0; is_long && (at = bits.find(" | ", at)) != bits.npos; at += line_end.size() + 1)
-    bits.replace(at, 1, line_end);
-  return "    return " + bits + ";";
-}
-
 std::string status(const Controller& controller, const Printed& printed) {
   const TracedFunction& function = printed.function;
   const bool is_checked = function.finite >= 0;
   if (!is_checked && function.is_void) return "";
   if (!is_checked && function.asked.empty() && function.statuses.empty()) return "    return LQG_OK;\n";
   return (function.asked.empty() ? raised_statuses(printed) : "") +
-         (is_checked ? unless_sound(controller, printed, recovery_of(controller, function)) : "") +
-         "    return status;\n";
+         (is_checked ? unless_sound(controller, printed, recovery_of(controller, function)) : "    return status;\n");
 }
 
 // The rows of the tables that a body reads.

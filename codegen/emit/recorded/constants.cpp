@@ -47,6 +47,14 @@ const design::Signal& signal_of(const Controller& controller, Quantity quantity,
   return plant.outputs[quantity == Quantity::error_limit ? static_cast<std::size_t>(controller.integrated[at]) : at];
 }
 
+// What the variance of innovation i may be in the step: with a P of its own that of v alone, where row i of C is 0.
+std::vector<trace::Expr> possible_variances(const Controller& controller, const SymbolicModel& model,
+                                            trace::Graph& graph, int i) {
+  if (controller.filter == step::Filter::steady) return {model.variance(i)};
+  if (controller.filter == step::Filter::ud) return {model.V(i)};
+  return {trace::Expr::of(graph.input("S", "S")), model.V(i)};
+}
+
 // The names and values of all that is no power of two, as the code has them.
 std::map<std::string, double> values_of(const Controller& controller) {
   if (controller.linear) return {};
@@ -58,12 +66,9 @@ std::map<std::string, double> values_of(const Controller& controller) {
     SymbolicState state;
     load_memory(controller, model, state);
     const trace::Expr innovation = trace::Expr::of(function.graph->input("innovation", "innovation"));
-    const trace::Expr variance = controller.filter == step::Filter::steady ? trace::Expr(model.variance(i))
-                                 : controller.filter == step::Filter::plain
-                                     ? trace::Expr::of(function.graph->input("S", "S"))
-                                     : trace::Expr(model.V(i));
     (void)named(controller, model.nu_limit(0), Quantity::innovation_limit);  // that all outputs have
-    step::weigh(model, state, innovation, variance, [&] { return variance; }, i, listener);
+    for (const trace::Expr& variance : possible_variances(controller, model, *function.graph, i))
+      step::weigh(model, state, innovation, variance, [&] { return variance; }, i, listener);
   }
   std::map<std::string, double> values;
   for (const auto& [name, node] : function.graph->named_constants())
