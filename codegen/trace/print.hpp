@@ -13,9 +13,6 @@ namespace lqg::trace {
 // finite in the target's numbers: it throws std::range_error.
 std::string literal(double value, bool is_double);
 
-// Breaks a line of C over `width` columns; what follows is indented by `indent` columns.
-std::string wrap(const std::string& line, int indent, int width = 100);
-
 // An assignment of a result, "self->x[0] = …".
 struct Store {
   std::string target;

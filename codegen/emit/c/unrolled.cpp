@@ -5,6 +5,7 @@
 #include "emit/c/straight_line.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 

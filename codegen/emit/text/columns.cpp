@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 

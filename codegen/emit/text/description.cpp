@@ -6,6 +6,7 @@
 #include "emit/text/continuous_pole.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 

@@ -7,6 +7,7 @@
 #include "emit/text/html.hpp"
 #include "lqg/version.h"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 

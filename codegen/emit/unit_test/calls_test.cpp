@@ -8,6 +8,7 @@
 #include "emit/recorded/trace_listener.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 

@@ -9,6 +9,7 @@
 #include "emit/unit_test/linear_unit_test.hpp"
 #include "emit/vectors/vectors.hpp"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 

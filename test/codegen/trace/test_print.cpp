@@ -13,6 +13,7 @@
 
 #include "program.hpp"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 using namespace lqg::trace;
 using namespace lqg_test;
