@@ -307,12 +307,13 @@ static inline lqg_status_t double_integrator_update(double_integrator_t *self, c
     const float squares_to_x_position = x_position_position * x_position_position;
     const float squares_to_x_speed = squares_to_x_position + (x_speed_position * x_speed_position);
 
+    lqg_status_t outcome = status;
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = DOUBLE_INTEGRATOR_X_BOUNDS */
     if (!(squares_to_x_speed < DOUBLE_INTEGRATOR_TWO_TO_64)
         || ((status & LQG_INNOVATION_NOT_POSITIVE) != 0u)) {
-        status = double_integrator_recover(self, status);
+        outcome = double_integrator_recover(self, status);
     }
-    return status;
+    return outcome;
 }
 
 /* u = −K x̂, limited

@@ -313,11 +313,12 @@ static inline lqg_status_t tank_update(tank_t *self, const float y[TANK_NY])
     const float squares_to_x_temperature = fmaf(posterior_temperature, posterior_temperature,
         squares_to_x_level);
 
+    lqg_status_t outcome = status;
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TANK_X_BOUNDS */
     if (!(squares_to_x_temperature < TANK_TWO_TO_80)) {
-        status = tank_reset(self, status);
+        outcome = tank_reset(self, status);
     }
-    return status;
+    return outcome;
 }
 
 /* u = −K [x̂; ξ] + Nbar r, limited

@@ -284,11 +284,12 @@ static inline lqg_status_t two_mass_update(two_mass_t *self, const float y[TWO_M
     self->x[3] = posterior_v2;
     const float squares_to_x_v2 = squares_to_x_dy2 + (posterior_v2 * posterior_v2);
 
+    lqg_status_t outcome = status;
     /* Σ (x_i/b_i)² < 1 in units of a power of two, b = TWO_MASS_X_BOUNDS */
     if (!(squares_to_x_v2 < TWO_MASS_TWO_TO_80)) {
-        status = two_mass_reset(self, status);
+        outcome = two_mass_reset(self, status);
     }
-    return status;
+    return outcome;
 }
 
 /* u = −K x̂

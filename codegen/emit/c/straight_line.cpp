@@ -53,9 +53,9 @@ std::string equation_of_bounds(const Controller& controller, const std::string& 
          (test.find(" - ") != std::string::npos ? "; the rest is finite" : "");
 }
 
-// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides; then `answer` is returned in place of the status.
-// A status whose address is known to others has a copy: the compiler then ends the function by a jump, and the stack of
-// the recovery is not on top of its own.
+// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides; then `answer` is returned in place of the
+// status. A status whose address is known to others has a copy: the compiler then ends the function by a jump, and the
+// stack of the recovery is not on top of its own.
 std::string unless_sound(const Controller& controller, const Printed& printed, const std::string& answer) {
   const TracedFunction& function = printed.function;
   const std::string test = printed.printer.test(function.finite, function.stores);
