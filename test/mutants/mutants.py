@@ -107,7 +107,7 @@ class Library:
         for file, text in self.texts.items():
             file.write_text(text)
         helpers = [file for file in sorted(tests.glob("*.c")) if file.stem in ("model", "textbook", "loop", "bits")]
-        self.helpers = [compiled(file, self.options, "test_") for file in [unity(build) / "unity.c", *helpers]]
+        self.helpers = [compiled(file, self.options, "helper_") for file in [unity(build) / "unity.c", *helpers]]
         names_of_tests = [file for file in sorted(tests.glob("test_*.c")) if file.stem != SLOW]
         self.tests = [compiled(file, self.options) for file in names_of_tests]
         # What lies behind an array of a test is watched only if the test is compiled so, too.
