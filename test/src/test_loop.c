@@ -231,6 +231,25 @@ static void test_a_copied_state_goes_on_like_the_first(void)
     }
 }
 
+/* What stands in memory before is no input: actuators get 0 until the first sample. */
+static void test_init_clears_the_input(void)
+{
+    static loop_t loop;
+    lqg_real u[3][1] = {{5}, {5}, {5}};
+    state_t *s = &loop.state;
+    make_loop(&loop, &double_integrator, STEADY, LQG_FILTER_FORM);
+    lqg_loop_steady_state_t steady = {{s->x, NULL, NULL, {NULL, NULL}, s->work}, u[0]};
+    lqg_loop_plain_state_t plain = {{s->x, s->P, NULL, NULL, {NULL, NULL}, s->work}, u[1]};
+    lqg_loop_ud_state_t ud = {{s->x, s->U, s->d, NULL, NULL, {NULL, NULL}, s->work}, u[2]};
+    lqg_loop_steady_init(&loop.steady, &steady);
+    make_loop(&loop, &double_integrator, PLAIN, LQG_FILTER_FORM);
+    lqg_loop_plain_init(&loop.plain, &plain);
+    make_loop(&loop, &double_integrator, UD, LQG_FILTER_FORM);
+    lqg_loop_ud_init(&loop.ud, &ud);
+    for (unsigned filter = 0; filter < FILTERS; filter++)
+        TEST_ASSERT_TRUE(u[filter][0] == 0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -240,5 +259,6 @@ int main(void)
     RUN_TEST(test_nothing_is_written_beyond_the_sizes_of_the_macros);
     RUN_TEST(test_optional_state_may_be_left_out);
     RUN_TEST(test_a_copied_state_goes_on_like_the_first);
+    RUN_TEST(test_init_clears_the_input);
     return UNITY_END();
 }
