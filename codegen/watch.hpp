@@ -8,9 +8,9 @@
 
 namespace lqg {
 
-// On a terminal standard error has one line of what goes on, which is gone in the end. Elsewhere each stage that is at work
-// after `patience` gets a line, once. `limit` is in seconds: when they have passed, the program ends with a line that says
-// where it was, and exit status 1.
+// On a terminal standard error has one line of what goes on, which is gone in the end. Elsewhere each stage that is at
+// work after `patience` gets a line, once. `limit` is in seconds: when they have passed, the program ends with a line
+// that says where it was, and exit status 1.
 class Watch {
  public:
   Watch(const std::string& design_file, bool quiet, std::optional<unsigned> limit,

@@ -22,7 +22,8 @@ extern const uint32_t counter_mask;
 /* Hz of the processor, 0 where it is emulated. */
 extern const uint32_t counter_frequency;
 
-/* Ends the program, the status being that of the emulator; of the start-up code. On a board without debugger it stops. */
+/* Ends the program, the status being that of the emulator; of the start-up code. On a board without debugger it
+ * stops. */
 void board_leave(int status);
 
 #endif

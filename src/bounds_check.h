@@ -36,8 +36,8 @@ static inline void add_variance(bounds_check_t *check, lqg_real variance, const 
         check->others += variance;
 }
 
-/* No P_ii is negative; bounded < 1 and others finite, in one comparison: others − others is 0, or NaN, which is not less than anything. No
- * term of bounded is negative and rounding is monotone, so |x_i| < b_i and P_ii < b_i². */
+/* No P_ii is negative; bounded < 1 and others finite, in one comparison: others − others is 0, or NaN, which is not
+ * less than anything. No term of bounded is negative and rounding is monotone, so |x_i| < b_i and P_ii < b_i². */
 static inline int is_within_bounds(const bounds_check_t *check)
 {
     LQG_STRICT_BODY

@@ -29,8 +29,8 @@ void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real
 
 LQG_STRICT_BEGIN
 
-/* Adds d_i with the bound 1/scale_i², like P_ii, and U, which has no bounds, from the last column to the first; U may be
- * NULL when nx is 1. */
+/* Adds d_i with the bound 1/scale_i², like P_ii, and U, which has no bounds, from the last column to the first; U may
+ * be NULL when nx is 1. */
 static inline void add_factors(bounds_check_t *check, const lqg_real U[], const lqg_real d[], const lqg_real scale[],
                                unsigned nx)
 {

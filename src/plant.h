@@ -21,8 +21,8 @@ void lqg_plant_begin(const lqg_plant_t *plant, const lqg_real x0[], lqg_real x[]
 lqg_real lqg_plant_innovation(const lqg_plant_t *plant, unsigned i, const lqg_real x[], const lqg_real u_applied[],
                               lqg_real y_i);
 
-/* y'_i = y_i + Σ_j<i E_ij y_j, y_i itself when E is NULL. before[i] has the y'_j of the outputs before it, NaN for one that was
- * left out: what needs that one is NaN. Zeros of E keep the NaN of one output out of the others. */
+/* y'_i = y_i + Σ_j<i E_ij y_j, y_i itself when E is NULL. before[i] has the y'_j of the outputs before it, NaN for one
+ * that was left out: what needs that one is NaN. Zeros of E keep the NaN of one output out of the others. */
 lqg_real lqg_plant_decorrelate(const lqg_plant_t *plant, const lqg_real E[], unsigned i, const lqg_real y[],
                                const lqg_real before[]);
 

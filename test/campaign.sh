@@ -1,29 +1,32 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Long campaigns: for as long as it takes to meet what is rare. The tests run a sample of each, test/README.md says which.
+# Long campaigns: for as long as it takes to meet what is rare. The tests run a sample of each, test/README.md says
+# which.
 #
 #   test/campaign.sh                             lists them, and how long they take
 #   test/campaign.sh <build> soak [samples]      every controller of test/soak: default 100000000 samples
-#   test/campaign.sh <build> bits [core]…        test/bits/targets.sh: every core, compiler, level and mode; WAYS=1: one of
-#                                                the twenty ways of each core
+#   test/campaign.sh <build> bits [core]…        test/bits/targets.sh: every core, compiler, level and mode; WAYS=1: one
+#                                                of the twenty ways of each core
 #   test/campaign.sh <build> random [designs]    random designs, emitted, compiled and compared: default 1000
 #   test/campaign.sh <build> fuzz [seconds]      the library's and the design files' fuzzer: default 3600 each
-#   test/campaign.sh <build> options [compiler]  test/options/options.sh: options of gcc and clang-19 that may change arithmetic,
-#                                                alone and two by two, at four levels
-#   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design, and honest samples of its compiled
-#                                                header, test/flips/honest.c: default 100000000
-#   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change, or so
-#                                                many of each part; test/mutants
+#   test/campaign.sh <build> options [compiler]  test/options/options.sh: options of gcc and clang-19 that may change
+#                                                arithmetic, alone and two by two, at four levels
+#   test/campaign.sh <build> spikes [samples]    test/simulate/spikes.cpp of every shipped design, and honest samples of
+#                                                its compiled header, test/flips/honest.c: default 100000000
+#   test/campaign.sh <build> mutants [mutants]   emitted headers and src/, changed in one place: default every change,
+#                                                or so many of each part; test/mutants
 #   test/campaign.sh <build> proofs              test/proof/prove.sh of every design of this project, in both styles
-#   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 72 random
-#                                                designs, flipped once in closed loop: default all, or so many of each; test/flips
+#   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 72
+#                                                random designs, flipped once in closed loop: default all, or so many of
+#                                                each; test/flips
 #
-# <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19 test/run.sh.
-# A campaign has parts, of which as many run side by side as there are processors. It ends at the first part that fails.
-# Everything is written below <build>/campaign/NAME, or below FOLDER: summary.txt, and a folder for each part with its log.txt
-# and what else it writes. A fuzzer keeps its corpus there, and begins with it the next time.
+# <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19
+# test/run.sh. A campaign has parts, of which as many run side by side as there are processors. It ends at the first
+# part that fails. Everything is written below <build>/campaign/NAME, or below FOLDER: summary.txt, and a folder for
+# each part with its log.txt and what else it writes. A fuzzer keeps its corpus there, and begins with it the next time.
 #
-# Exit status 0: all parts have passed; 1: one has failed; 2: the command line is wrong, or something is not there. Bash 5.1.
+# Exit status 0: all parts have passed; 1: one has failed; 2: the command line is wrong, or something is not there. Bash
+# 5.1.
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=../codegen/cmake/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../codegen/cmake/setup.sh"
@@ -111,8 +114,8 @@ end_all() {
 
 # ---- the campaigns -----------------------------------------------------------------------------------------------
 
-# parts_of <design file>…: parts gets each design in each style, but for straight-line code of several plants and the compact style
-# of other numbers than x̂, which there are not.
+# parts_of <design file>…: parts gets each design in each style, but for straight-line code of several plants and the
+# compact style of other numbers than x̂, which there are not.
 parts_of() {
   local name style
   for name in "$@"; do
@@ -197,8 +200,8 @@ random() {
   done
 }
 
-# fuzz_one <part> <program> <folder or file to begin with> <option>…: a minute or less, a sample, has a seed of its own; a
-# campaign another one each time.
+# fuzz_one <part> <program> <folder or file to begin with> <option>…: a minute or less, a sample, has a seed of its own;
+# a campaign another one each time.
 fuzz_one() {
   local part=$1 program=$2 seeds=$3 seed=()
   shift 3

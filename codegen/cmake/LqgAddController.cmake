@@ -10,7 +10,8 @@
 #   STYLE, REAL   instead of the design's own `style` and `real`
 #   OUTPUT_DIR    where NAME.h goes; default: lqg/<target> in the current binary folder
 #
-# <target> is only built if its compiler, with its options, computes as lqg/arithmetic.h says (LqgCheckArithmetic.cmake).
+# <target> is only built if its compiler, with its options, computes as lqg/arithmetic.h says
+# (LqgCheckArithmetic.cmake).
 #
 # lqgen runs on the machine that builds; which one it is says LqgFindLqgen.cmake.
 include_guard(GLOBAL)
@@ -96,8 +97,8 @@ function(lqg_read_design_key variable design key default values)
   endif()
 endfunction()
 
-# Sets `variable` to the style of the header: unrolled or compact. What `auto` comes to says lqgen, if it is there already; else,
-# and where it refuses the design (the build will say so), it stays `auto`.
+# Sets `variable` to the style of the header: unrolled or compact. What `auto` comes to says lqgen, if it is there
+# already; else, and where it refuses the design (the build will say so), it stays `auto`.
 function(lqg_find_style variable design style lqgen folder)
   if(NOT style)
     lqg_read_design_key(style "${design}" style auto "unrolled|compact|auto")

@@ -2,10 +2,10 @@
 # lqg_check_arithmetic(<target>): <target> is only built if its compiler, with its options, computes as lqg/arithmetic.h
 # says. lqg_add_controller calls it for its target.
 #
-# With the options that <target> has at the end of this folder's CMakeLists.txt, in each of its languages, a small program
-# is built of lqg/check.h and run. For another machine it is only compiled; clang's options, which lqg/arithmetic.h cannot
-# all see or overrule, are then judged by what it makes of them: the same code as with strict options after them.
-# Options of single sources are not looked at, nor those of targets that link to <target>.
+# With the options that <target> has at the end of this folder's CMakeLists.txt, in each of its languages, a small
+# program is built of lqg/check.h and run. For another machine it is only compiled; clang's options, which
+# lqg/arithmetic.h cannot all see or overrule, are then judged by what it makes of them: the same code as with strict
+# options after them. Options of single sources are not looked at, nor those of targets that link to <target>.
 include_guard(GLOBAL)
 
 function(lqg_check_arithmetic target)
@@ -96,8 +96,8 @@ int main(void)
   set_target_properties(${check} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/lqg)
 endfunction()
 
-# Adds the target `check`, which fails where the options of `target` give other code than strict ones after them. NaNs that
-# are forgotten are an error of the compiler's from -O1 on.
+# Adds the target `check`, which fails where the options of `target` give other code than strict ones after them. NaNs
+# that are forgotten are an error of the compiler's from -O1 on.
 function(lqg_compare_code check language target)
   set(as_text -g0 -fno-lto -S)
   lqg_add_check(${check}_optimized ${language} ${target} OBJECT -O1)

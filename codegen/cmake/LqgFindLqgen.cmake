@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-# lqg_find_lqgen(<variable>): sets the variable to the lqgen to run: a path, or the generator expression of one that this build
-# makes. It is the first of
+# lqg_find_lqgen(<variable>): sets the variable to the lqgen to run: a path, or the generator expression of one that
+# this build makes. It is the first of
 #
 #   LQG_LQGEN_EXECUTABLE   a variable of CMake: the path of an lqgen for the machine that builds
 #   tinylqg::lqgen         the target, where this build makes it
 #   LQGEN                  a variable of CMake or of the environment, a path as well
 #   tinylqg::lqgen         the target of an installed TinyLQG
 #   lqgen                  on the PATH, of the same version
-#   TinyLQG's source tree  of which lqgen is built now, for the machine that builds, without this build's toolchain; once for a
-#                          build folder, in lqgen_for_this_machine
+#   TinyLQG's source tree  of which lqgen is built now, for the machine that builds, without this build's toolchain;
+#                          once for a build folder, in lqgen_for_this_machine
 include_guard(GLOBAL)
 
 function(lqg_find_lqgen variable)
@@ -83,8 +83,8 @@ function(lqg_source_tree variable)
   set(${variable} "${root}" PARENT_SCOPE)
 endfunction()
 
-# Sets `variable` to an lqgen that is up to date with the sources, by the compiler that CMake finds for the machine that builds.
-# A build system around this one, and its target, are kept from it.
+# Sets `variable` to an lqgen that is up to date with the sources, by the compiler that CMake finds for the machine that
+# builds. A build system around this one, and its target, are kept from it.
 function(lqg_build_lqgen variable)
   lqg_source_tree(root)
   if(NOT root)

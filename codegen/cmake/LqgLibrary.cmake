@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# lqg_add_libraries(<folder of sources> <folder of headers>): the C99 library, one list of sources, four variants by the two
-# options of lqg/arithmetic.h: tinylqg::tinylqg, double, fused and double_fused; two where the compiler's double has less
-# than 64 bits, as avr-gcc's. `lqg_libraries` has the targets. Unless LQG_INSTALL is set,
-# they are compiled only if something links them.
+# lqg_add_libraries(<folder of sources> <folder of headers>): the C99 library, one list of sources, four variants by the
+# two options of lqg/arithmetic.h: tinylqg::tinylqg, double, fused and double_fused; two where the compiler's double has
+# less than 64 bits, as avr-gcc's. `lqg_libraries` has the targets. Unless LQG_INSTALL is set, they are compiled only if
+# something links them.
 include_guard(GLOBAL)
 include(CheckTypeSize)
 include(GNUInstallDirs)

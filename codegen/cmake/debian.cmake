@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What a Debian package has beyond an installation; cpack runs it on the files, staged in CPACK_TEMPORARY_INSTALL_DIRECTORY,
-# before it packs them.
+# What a Debian package has beyond an installation; cpack runs it on the files, staged in
+# CPACK_TEMPORARY_INSTALL_DIRECTORY, before it packs them.
 set(share ${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX}/share)
 set(documents ${share}/doc/${CPACK_PACKAGE_NAME})
 
@@ -49,7 +49,8 @@ License: BSD-3-clause
 include(${CMAKE_CURRENT_LIST_DIR}/licenses.cmake)
 lqg_copy_copyrights(${documents}/libraries)
 
-# A changelog in Debian's form, which has to have a date (SOURCE_DATE_EPOCH can set it); what has changed is TinyLQG's own text.
+# A changelog in Debian's form, which has to have a date (SOURCE_DATE_EPOCH can set it); what has changed is TinyLQG's
+# own text.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE ${documents}/changelog "${CPACK_PACKAGE_NAME} (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 

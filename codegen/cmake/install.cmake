@@ -20,8 +20,9 @@ install(EXPORT tinylqg_library NAMESPACE tinylqg:: FILE tinylqgLibraryTargets.cm
 set(sources_dir ${CMAKE_INSTALL_DATADIR}/tinylqg/src)
 install(DIRECTORY src/ DESTINATION ${sources_dir} FILES_MATCHING PATTERN "*.[ch]")
 
-# The design engine, what is emitted as data, and the simulation, in a set of their own: they need packages that firmware does
-# not. Of the engine the headers of the door only, as <design/….hpp>, and with it <controller/….hpp> and <simulate/….hpp>.
+# The design engine, what is emitted as data, and the simulation, in a set of their own: they need packages that
+# firmware does not. Of the engine the headers of the door only, as <design/….hpp>, and with it <controller/….hpp> and
+# <simulate/….hpp>.
 if(LQG_BUILD_CODEGEN)
   set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/tinylqg)
   file(GLOB door codegen/design/*.hpp)

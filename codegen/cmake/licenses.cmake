@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The licences of what lqgen has inside, as Debian keeps them. The variable LQG_LICENSES names a folder that has them on other systems:
-# NAME.copyright for each library, and LGPL-3, GPL-3, MPL-2.0, Apache-2.0. One that is missing is an error: no package leaves
-# without it.
+# The licences of what lqgen has inside, as Debian keeps them. The variable LQG_LICENSES names a folder that has them on
+# other systems: NAME.copyright for each library, and LGPL-3, GPL-3, MPL-2.0, Apache-2.0. One that is missing is an
+# error: no package leaves without it.
 #
 #   lqg_copy_copyrights(<folder>)      NAME.copyright of all libraries
 #   lqg_copy_license_texts(<folder>)   the texts that those name
@@ -30,7 +30,8 @@ function(lqg_copy_license_texts folder)
   endforeach()
 endfunction()
 
-# Debian says of each of Boost's 40,000 files under which licence it is; of those that are in lqgen it is the one of Boost.
+# Debian says of each of Boost's 40,000 files under which licence it is; of those that are in lqgen it is the one of
+# Boost.
 function(lqg_shorten_boost file)
   file(READ ${file} text)
   string(FIND "${text}" "\nLicense: BSL-1.0\n Boost Software License" begin)

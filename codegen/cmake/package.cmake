@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# `cpack -G DEB` in a configured build folder makes a Debian package of what `cmake --install` brings. A project around this
-# one packs itself.
+# `cpack -G DEB` in a configured build folder makes a Debian package of what `cmake --install` brings. A project around
+# this one packs itself.
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()

@@ -4,7 +4,8 @@
 #
 #   lqg_install_packages              what lqgen needs: installed on Debian and Ubuntu, named elsewhere
 #   lqg_install <Debian package>…     the same for more
-#   lqg_find_lqgen                    LQGEN is the lqgen to run: the one that it names already, else that of `lqg_build`, made now
+#   lqg_find_lqgen                    LQGEN is the lqgen to run: the one that it names already, else that of
+#                                     `lqg_build`, made now
 #   lqg_build                         the build folder that all scripts share, and test/run.sh: build/, or build-<CC>/
 #   lqg_build_lqgen <target>…         lqgen and more in lqg_build, with what it needs; shows how far it is
 #   lqg_print_help <script>           the comment at its top

@@ -61,8 +61,8 @@ struct Memory {
   bool gain_row = false;    // which of the filter's gains is in force
 };
 
-// The gains of one sample: of a law {K, Nbar, H, H_input}, of a filter with given gains {L, M, variances of the innovations if a
-// gate needs them}.
+// The gains of one sample: of a law {K, Nbar, H, H_input}, of a filter with given gains {L, M, variances of the
+// innovations if a gate needs them}.
 using Gains = std::vector<design::RealMatrix>;
 
 // What the emitted code costs. Multiply-adds and RAM are exact; flash and stack are estimates for a Cortex-M4F at -O2.

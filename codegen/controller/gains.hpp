@@ -6,7 +6,8 @@
 
 namespace lqg::controller {
 
-// {K, Nbar, H, H_input} and {L, M} as Controller keeps them: rows that the target cannot tell from the one that is held are cut off.
+// {K, Nbar, H, H_input} and {L, M} as Controller keeps them: rows that the target cannot tell from the one that is held
+// are cut off.
 std::vector<Gains> law_gains(const Controller& controller);
 std::vector<Gains> filter_gains(const Controller& controller);
 

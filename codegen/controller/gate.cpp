@@ -17,14 +17,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Wide, because no model is right: a push, a step of a reference or a wrong mass are tens of σ. A spike of this size moves x̂
-// by so many σ of its own error, which the loop takes as it takes its start.
+// Wide, because no model is right: a push, a step of a reference or a wrong mass are tens of σ. A spike of this size
+// moves x̂ by so many σ of its own error, which the loop takes as it takes its start.
 constexpr double default_spike = 300, infinity = std::numeric_limits<double>::infinity();
-// From P0 on, and after gaps, so many σ of the variance that is worked off are let in, too: more than any noise, and no more of a
-// start than a wide gate has to open for.
+// From P0 on, and after gaps, so many σ of the variance that is worked off are let in, too: more than any noise, and no
+// more of a start than a wide gate has to open for.
 constexpr double let_in_while_unsettled = 30;
-// An output that is left out 137 times in a row is heard whatever it says: 1.5¹³⁷ is the widest gate, 2⁸⁰. A false alarm
-// widens it by 22 % in σ for a few samples.
+// An output that is left out 137 times in a row is heard whatever it says: 1.5¹³⁷ is the widest gate, 2⁸⁰. A false
+// alarm widens it by 22 % in σ for a few samples.
 constexpr double least_widening = 1.5, most_widening = 0x1p20;
 constexpr double narrowing_of_online = 0.75;
 constexpr double slowest_narrowing = 1 - 0x1p-10, fastest_narrowing = 0.25;
@@ -53,8 +53,8 @@ class PriorError {
   double slowest_mode() const { return F_.eigenvalues().cwiseAbs().maxCoeff(); }
   MatrixXd without_outputs(const MatrixXd& P) const { return A_ * P * A_.transpose() + unheard_; }
 
-  // From P on, all heard: the least w with w narrow^k ≥ S(k)/S of the steady state, or the share of it that is let in, in each
-  // sample k where that matters.
+  // From P on, all heard: the least w with w narrow^k ≥ S(k)/S of the steady state, or the share of it that is let in,
+  // in each sample k where that matters.
   VectorXd widening_from(MatrixXd P, double narrow) const {
     VectorXd widening = VectorXd::Ones(steady_.size());
     double narrowed = 1;

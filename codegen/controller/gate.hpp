@@ -11,8 +11,8 @@ namespace lqg::controller {
 struct Controller;
 
 // An innovation beyond `sigma` of its standard deviations leaves its output out: kalman.gate or, where there is none,
-// kalman.spike, by which a single absurd value of any size costs nothing. The rest is output by output, of the square of the
-// threshold: in units of sigma² S, never below 1.
+// kalman.spike, by which a single absurd value of any size costs nothing. The rest is output by output, of the square
+// of the threshold: in units of sigma² S, never below 1.
 struct Gate {
   double sigma = 0;        // 0: all that is believable is let in
   Eigen::VectorXd start;   // at the first sample
@@ -20,9 +20,9 @@ struct Gate {
   Eigen::VectorXd narrow;  // the factor of a sample in which it was heard
 };
 
-// With a constant gain S is that of the steady state: the start covers what P0 adds to it, and `widen` what is added while
-// nothing is heard, until the filter has worked it off; `narrow` is as fast as its slowest mode. With P carried S is that
-// of the sample.
+// With a constant gain S is that of the steady state: the start covers what P0 adds to it, and `widen` what is added
+// while nothing is heard, until the filter has worked it off; `narrow` is as fast as its slowest mode. With P carried S
+// is that of the sample.
 Gate gate_of(const Controller& controller);
 
 // The sigma of a file: the smaller one of kalman.gate and kalman.spike; 0 where both are off.

@@ -155,8 +155,8 @@ Loop loop_of(const Controller& controller) {
   return {design::to_doubles(loop.A), controller.size.nx + kept};
 }
 
-// From what `far` has of each state on, in plant and estimate, until both are `within`. ξ begins at its bound, and is not
-// asked; neither is an input that is kept.
+// From what `far` has of each state on, in plant and estimate, until both are `within`. ξ begins at its bound, and is
+// not asked; neither is an input that is kept.
 std::optional<long> samples_of_loop(const Controller& controller, const VectorXd& far, const Recovery& recovery) {
   Loop loop = loop_of(controller);
   const Index nx = controller.size.nx, all = loop.M.rows(), estimates = controller.solution.estimator ? nx : 0;

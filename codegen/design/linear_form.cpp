@@ -56,8 +56,8 @@ LinearForm in_physical_states(const Problem& problem, const Solution& solution) 
   return form;
 }
 
-// Columns of T within a block, times R = [p q; −q p] (or [p]), which the block does not notice: the largest row of its C
-// becomes [1 0]. A block that u does not see stays as it is.
+// Columns of T within a block, times R = [p q; −q p] (or [p]), which the block does not notice: the largest row of its
+// C becomes [1 0]. A block that u does not see stays as it is.
 void take_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C) {
   const RealMatrix columns = basis.T.middleCols(start, size), own = multiply(C, columns);
   const RealMatrix squares = own.cwiseProduct(own).rowwise().sum();
@@ -155,7 +155,8 @@ double largest_condition(Scalar scalar) {
 
 std::string name_of(Scalar scalar) { return scalar == Scalar::float32 ? "float" : "double"; }
 
-// Made twice: of the solution, and of the same with half of its digits, which stands in for a coarser run of the design.
+// Made twice: of the solution, and of the same with half of its digits, which stands in for a coarser run of the
+// design.
 template <class Make>
 LinearFormResult settled_form(const Problem& problem, const Solution& solution, Make make) {
   const unsigned digits = std::max(solution.numerics.digits, least_digits);

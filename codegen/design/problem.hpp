@@ -112,7 +112,8 @@ struct Limits {
   Eigen::VectorXd u_rate;        // largest |u[k] − u[k−1]| / sample_time, or empty
 };
 
-// From step `from` on these are the plant, the weights and the noises; an empty one stays as it was in the stage before.
+// From step `from` on these are the plant, the weights and the noises; an empty one stays as it was in the stage
+// before.
 struct Stage {
   int from = 0;
   Eigen::MatrixXd A, B, C, D, G, Q, R, N, W, V;

@@ -10,8 +10,8 @@ namespace lqg::design {
 // Takes a line like "Riccati equation in 200 digits, step 7", or "…, step 7 of 1000".
 using Progress = std::function<void(const std::string&)>;
 
-// During its life report_progress calls `progress`, in this thread, when a second has gone by since the last line. `progress`
-// has to live as long.
+// During its life report_progress calls `progress`, in this thread, when a second has gone by since the last line.
+// `progress` has to live as long.
 class ProgressScope {
  public:
   explicit ProgressScope(const Progress& progress);

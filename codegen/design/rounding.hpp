@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From many digits to the numbers of a machine: correctly rounded, to nearest even, subnormals included. Whatever digits are
-// in force elsewhere: a number brings its own.
+// From many digits to the numbers of a machine: correctly rounded, to nearest even, subnormals included. Whatever
+// digits are in force elsewhere: a number brings its own.
 #pragma once
 
 #include "design/real.hpp"

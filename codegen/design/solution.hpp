@@ -79,7 +79,8 @@ struct EstimatorSolution {
 };
 
 // The same filter prepared for scalar updates with P carried on line: V = E⁻¹ diag(V) E⁻ᵀ is made diagonal by
-// y' = E y, and w is freed of its part that y' tells: x⁺ = A x + B u + M(y' − C x − D u) + w', x and C x after the update.
+// y' = E y, and w is freed of its part that y' tells: x⁺ = A x + B u + M(y' − C x − D u) + w', x and C x after the
+// update.
 struct OnlineSolution {
   RealMatrix E;       // ny × ny, unit lower triangular
   RealMatrix C, D;    // E C, E D

@@ -134,8 +134,8 @@ Nearest nearest_to_circle(const std::vector<ComplexReal>& poles) {
   return nearest;
 }
 
-// Do the poles keep away from the circle as they did with fewer digits? A pole that nears it has settled as a double on it
-// long before it does as a number.
+// Do the poles keep away from the circle as they did with fewer digits? A pole that nears it has settled as a double on
+// it long before it does as a number.
 bool keeps_distance(const std::vector<ComplexReal>& coarse, const std::vector<ComplexReal>& fine) {
   return nearest_to_circle(fine).distance > nearest_to_circle(coarse).distance / 2;
 }

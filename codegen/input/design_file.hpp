@@ -23,7 +23,8 @@ struct DesignFile {
   std::string text;                           // the bytes of the file, for its hash
 };
 
-// Reads the file at `path`, or standard input where that is "-". Never throws for what stands in the file, whatever its bytes.
+// Reads the file at `path`, or standard input where that is "-". Never throws for what stands in the file, whatever its
+// bytes.
 DesignFile read_design_file(const std::string& path);
 
 // The same for a text already in memory.

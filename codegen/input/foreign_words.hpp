@@ -6,7 +6,8 @@
 
 namespace lqg::input {
 
-// What the writer of the key `name` in the table `table` may have meant: the path of a key, or, where lqgen has none, a sentence.
+// What the writer of the key `name` in the table `table` may have meant: the path of a key, or, where lqgen has none, a
+// sentence.
 struct ForeignWord {
   std::string path;
   std::string sentence;

@@ -13,9 +13,8 @@
 
 namespace lqg::input {
 
-// Different whole numbers from 0 to below the size of the rule's rows, each of them or the name that stands there in `names` (of
-// outputs; empty: not known); nothing, and what is wrong reported,
-// when they cannot be had.
+// Different whole numbers from 0 to below the size of the rule's rows, each of them or the name that stands there in
+// `names` (of outputs; empty: not known); nothing, and what is wrong reported, when they cannot be had.
 std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
                                              const std::vector<std::string>& names, Report& report);
 

@@ -7,7 +7,8 @@
 
 namespace lqg::input {
 
-// A sentence for MATLAB's matrices, arithmetic, and units in a line that the parser has refused; "" for what is none of these.
+// A sentence for MATLAB's matrices, arithmetic, and units in a line that the parser has refused; "" for what is none of
+// these.
 std::string toml_hint(std::string_view line);
 
 }  // namespace lqg::input

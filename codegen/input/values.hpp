@@ -16,8 +16,8 @@
 
 namespace lqg::input {
 
-// Each map holds what could be read, by its key: "lqr.Q", "stage[0].Q". Vectors are n × 1, weights given as a diagonal are full
-// matrices.
+// Each map holds what could be read, by its key: "lqr.Q", "stage[0].Q". Vectors are n × 1, weights given as a diagonal
+// are full matrices.
 struct Values {
   std::map<std::string, Eigen::MatrixXd> matrices;
   std::map<std::string, std::string> texts;

@@ -13,8 +13,9 @@ namespace lqg::simulate {
 const std::vector<int>& tried_drop_outs();
 
 // Runs the covariance of a filter with a plain P, in the target's numbers, from the start, and through drop-outs of all
-// outputs: an error where it loses its definiteness while all outputs are there, a note where it does when they come back
-// after a drop-out. P needs no y: what is found holds for any. Nothing to say of other filters, whose P cannot be lost.
+// outputs: an error where it loses its definiteness while all outputs are there, a note where it does when they come
+// back after a drop-out. P needs no y: what is found holds for any. Nothing to say of other filters, whose P cannot be
+// lost.
 void check_drop_outs(const controller::Controller& controller, design::Findings& findings);
 
 }  // namespace lqg::simulate

@@ -28,8 +28,8 @@ struct CountingListener : step::Listener {
   std::vector<unsigned long>& gated;
 };
 
-// A controller that keeps x̂. Each call is the one of that name in the header, limits, gate, faults and resets included, and
-// returns the events that its status would tell. `constants` turns a number of the design into an S.
+// A controller that keeps x̂. Each call is the one of that name in the header, limits, gate, faults and resets
+// included, and returns the events that its status would tell. `constants` turns a number of the design into an S.
 template <class S>
 class EmittedController {
  public:

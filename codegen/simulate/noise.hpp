@@ -6,8 +6,8 @@
 
 namespace lqg::simulate {
 
-// Normal numbers as sums of twelve uniform ones, so that none is beyond ±6. The uniform ones are splitmix64's (G. L. Steele,
-// D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+// Normal numbers as sums of twelve uniform ones, so that none is beyond ±6. The uniform ones are splitmix64's (G. L.
+// Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : state_(seed) {}

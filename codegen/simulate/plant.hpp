@@ -17,13 +17,14 @@ enum class PlantNoise {
   assumed,   // the same; beside an observer, whose design says nothing of noise, a variance of 1e-4 everywhere
 };
 
-// x⁺ = A x + B u + G w,  y = C x + D u + v,  stage after stage. Every sum is in ascending order: the same bits on every host.
+// x⁺ = A x + B u + G w, y = C x + D u + v, stage after stage. Every sum is in ascending order: the same bits on every
+// host.
 class Plant {
  public:
   Plant(const Controller& controller, const Eigen::VectorXd& x, PlantNoise noise, std::uint64_t seed);
 
-  // y with the u that acts while the outputs are sampled; draws the noises of this sample, the same numbers whether they
-  // are wanted or not.
+  // y with the u that acts while the outputs are sampled; draws the noises of this sample, the same numbers whether
+  // they are wanted or not.
   Eigen::VectorXd measure(const Eigen::VectorXd& u);
   // x ← A x + B u + G w
   void advance(const Eigen::VectorXd& u);

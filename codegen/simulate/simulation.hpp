@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A controller at work around its plant, sample by sample: the controller that is emitted, in the target's numbers, with its
-// limits, gate, faults and resets. There is no other simulation.
+// A controller at work around its plant, sample by sample: the controller that is emitted, in the target's numbers,
+// with its limits, gate, faults and resets. There is no other simulation.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ struct Trajectory {
 };
 
 // Runs `controller` around the design's own sampled plant. The plant is in double, every sum in ascending order; the
-// controller has the bits of the compiled header: the same bits on every host. As on the target, in filter form y is sampled
-// while the last u acts, in predictor form while the new one does.
+// controller has the bits of the compiled header: the same bits on every host. As on the target, in filter form y is
+// sampled while the last u acts, in predictor form while the new one does.
 Trajectory simulate(const controller::Controller& controller, const SimulationOptions& options);
 
 }  // namespace lqg::simulate
@@ -50,9 +50,9 @@ namespace lqg::design {
 using simulate::SimulationOptions;
 using simulate::Trajectory;
 
-// The same of the controller that `solution` of `problem` (with its defaults) makes, in the form that code.realisation asks
-// for: of "cheapest", which counts the operations of emitted code, the physical one. Throws std::invalid_argument with the
-// reason where the target cannot have the design.
+// The same of the controller that `solution` of `problem` (with its defaults) makes, in the form that code.realisation
+// asks for: of "cheapest", which counts the operations of emitted code, the physical one. Throws std::invalid_argument
+// with the reason where the target cannot have the design.
 Trajectory simulate(const Problem& problem, const Solution& solution, const SimulationOptions& options);
 
 }  // namespace lqg::design

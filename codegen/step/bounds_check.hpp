@@ -14,14 +14,14 @@ inline const char* and_check(const std::vector<int>& bounds) {
                         : ";  squares_to_x_k = b_k² Σ (x̂_i/b_i)², i ≤ k, with the bounds b";
 }
 
-// Σ (x_i/b_i)² + Σ P_ii/b_i² < 1 with bounds b that are powers of two, no P_ii negative, and all that has no bound finite.
-// No term is negative and rounding is monotone, so each |x_i| is below b_i and each P_ii below b_i²; a NaN is not below
-// anything.
+// Σ (x_i/b_i)² + Σ P_ii/b_i² < 1 with bounds b that are powers of two, no P_ii negative, and all that has no bound
+// finite. No term is negative and rounding is monotone, so each |x_i| is below b_i and each P_ii below b_i²; a NaN is
+// not below anything.
 //
-// The sum is kept in units of the last b²: scaling by a power of two is exact, and states of one bound are not scaled at
-// all. What has no bound is added up by itself: the sum is finite if and only if each term is, short of an overflow that
-// no honest state comes near. Each part is added as it is found, and each sum has a name, so that none has to wait for
-// the last. A variance that is negative is none: its sign is looked at by itself.
+// The sum is kept in units of the last b²: scaling by a power of two is exact, and states of one bound are not scaled
+// at all. What has no bound is added up by itself: the sum is finite if and only if each term is, short of an overflow
+// that no honest state comes near. Each part is added as it is found, and each sum has a name, so that none has to wait
+// for the last. A variance that is negative is none: its sign is looked at by itself.
 template <class S>
 class BoundsCheck {
  public:

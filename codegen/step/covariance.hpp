@@ -6,8 +6,8 @@
 
 namespace lqg::step {
 
-// P of the state: lower triangle, row by row; U diag(D) Uᵀ is multiplied out, every product and sum rounded. Empty where
-// no covariance is carried.
+// P of the state: lower triangle, row by row; U diag(D) Uᵀ is multiplied out, every product and sum rounded. Empty
+// where no covariance is carried.
 template <class S, class Listener>
 std::vector<S> covariance(const Model<S>& model, const State<S>& state, Listener& listener) {
   if (model.filter != Filter::ud) return state.P;

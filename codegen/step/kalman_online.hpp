@@ -54,8 +54,8 @@ auto update_online_alone(const Model<S>& model, State<S>& state, const S& y, int
   return has_sound_state(model, state, listener);
 }
 
-// P ← P0, x̂ stays: after an update or a prediction whose condition does not hold. The condition says that what stays is
-// within its bounds; if it is not, all begins anew.
+// P ← P0, x̂ stays: after an update or a prediction whose condition does not hold. The condition says that what stays
+// is within its bounds; if it is not, all begins anew.
 template <class S, class Listener>
 auto begin_covariance_anew(const Model<S>& model, State<S>& state, Listener& listener) {
   state.P = model.P0;

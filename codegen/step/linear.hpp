@@ -79,8 +79,8 @@ Vector<S> control(const LinearModel<S>& model, LinearState<S>& state, const Vect
   return act_on(model, state, state.y, listener);
 }
 
-// The same where everything is finite, which the condition tells: no selects, and one comparison for all. An output that
-// no u shows is asked for by itself.
+// The same where everything is finite, which the condition tells: no selects, and one comparison for all. An output
+// that no u shows is asked for by itself.
 template <class S, class Listener>
 auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Vector<S>& u,
                       Listener& listener) {

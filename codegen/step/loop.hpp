@@ -33,8 +33,8 @@ auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listene
   }
 }
 
-// After an update or a prediction whose condition does not hold: P begins anew, and x̂ stays where it is within its bounds;
-// else all begins anew, and the condition is false. Numbers only.
+// After an update or a prediction whose condition does not hold: P begins anew, and x̂ stays where it is within its
+// bounds; else all begins anew, and the condition is false. Numbers only.
 template <class S>
 bool recover(const Model<S>& model, State<S>& state, Listener& listener) {
   const bool keeps_estimate = carries_covariance(model) && begin_covariance_anew(model, state, listener);
@@ -43,8 +43,8 @@ bool recover(const Model<S>& model, State<S>& state, Listener& listener) {
   return keeps_estimate;
 }
 
-// The three calls of a sample in the order of the form, as `NAME_step` makes them; numbers only. With a regulator `u` is
-// the result, without one it is what was applied. Returns the events.
+// The three calls of a sample in the order of the form, as `NAME_step` makes them; numbers only. With a regulator `u`
+// is the result, without one it is what was applied. Returns the events.
 template <class S>
 unsigned run_sample(const Model<S>& model, State<S>& state, const Vector<S>& y, Vector<S>& u) {
   Listener listener;

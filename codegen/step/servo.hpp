@@ -7,8 +7,8 @@
 
 namespace lqg::step {
 
-// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where the output was not used or r − y is
-// not believable.
+// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where the output was not used or r
+// − y is not believable.
 template <class S, class Condition, class Listener>
 void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Condition& used, int output,
                    Listener& listener) {

@@ -39,9 +39,9 @@ S kept_width(const S& width, const char* lower_end, Listener& listener) {
   return select(is_less(least, widest), least, widest);
 }
 
-// Whether ν of the variance s is believable, and ν² ≤ gate² s widening. Then that narrows. It widens where the gate left the output
-// out: then x̂ is wrong, not the sensor, if that goes on. With a constant gain it widens, too, while nothing usable comes: P,
-// which is not carried, would grow.
+// Whether ν of the variance s is believable, and ν² ≤ gate² s widening. Then that narrows. It widens where the gate
+// left the output out: then x̂ is wrong, not the sensor, if that goes on. With a constant gain it widens, too, while
+// nothing usable comes: P, which is not carried, would grow.
 template <class S, class Listener>
 auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, const S& s, int i, Listener& listener) {
   listener.section("the widening, at least 1");
@@ -67,9 +67,9 @@ auto weigh_unexpected(const Weighing<S>& weighing, S& widening, const S& nu, con
   return used;
 }
 
-// Whether output i is used, of its innovation ν. `variance` makes s, the variance of ν, which is `least` or more. Most are as
-// expected: ν² < gate² least while the widening is 1, and believable. Nothing changes then, and one comparison tells, as |ν| < limit is
-// ν² < limit² for a power of two. It tells that s is positive, too.
+// Whether output i is used, of its innovation ν. `variance` makes s, the variance of ν, which is `least` or more. Most
+// are as expected: ν² < gate² least while the widening is 1, and believable. Nothing changes then, and one comparison
+// tells, as |ν| < limit is ν² < limit² for a power of two. It tells that s is positive, too.
 template <class S, class Variance, class Listener>
 auto weigh(const Model<S>& model, State<S>& state, const S& nu, const S& least, Variance variance, int i,
            Listener& listener) {

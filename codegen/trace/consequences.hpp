@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What follows from a test that passed for each value by itself: what a prover that computes with intervals cannot find.
+// What follows from a test that passed for each value by itself: what a prover that computes with intervals cannot
+// find.
 #pragma once
 
 #include <limits>

@@ -9,8 +9,8 @@
 
 namespace lqg::trace {
 
-// The shortest decimal that reads back as the same number: "0.01f", "1e-06f", "0.5", "-3.0f". C has no literal of what is not
-// finite in the target's numbers: it throws std::range_error.
+// The shortest decimal that reads back as the same number: "0.01f", "1e-06f", "0.5", "-3.0f". C has no literal of what
+// is not finite in the target's numbers: it throws std::range_error.
 std::string literal(double value, bool is_double);
 
 // An assignment of a result, "self->x[0] = …".
@@ -30,8 +30,9 @@ class Printer {
  public:
   Printer(const Graph& graph, const std::vector<int>& results);
 
-  // One statement a line, indented by four columns: the inputs first, then block after block. A result is stored as soon
-  // as it is there, since a register that waits is one that something else lacks; all inputs have been read by then.
+  // One statement a line, indented by four columns: the inputs first, then block after block. A result is stored as
+  // soon as it is there, since a register that waits is one that something else lacks; all inputs have been read by
+  // then.
   std::string statements(const std::vector<Store>& stores) const;
   // A result as an expression: a name or a literal where it has one.
   std::string expression(int node) const { return print(node, 0); }

@@ -38,8 +38,8 @@ typedef double lqg_real;
 typedef float lqg_real;
 #endif
 
-/* What GCC and clang do to arithmetic unless told otherwise (contraction: a*b + c becomes one fused multiply-add behind our
- * back), and what the options around allow them (to forget NaNs and signs of zero, to reorder sums, to divide by
+/* What GCC and clang do to arithmetic unless told otherwise (contraction: a*b + c becomes one fused multiply-add behind
+ * our back), and what the options around allow them (to forget NaNs and signs of zero, to reorder sums, to divide by
  * multiplying), is switched off from the inside; the code around keeps its own options.
  *
  *     LQG_STRICT_BEGIN                     before the first function
@@ -51,8 +51,8 @@ typedef float lqg_real;
  *     LQG_STRICT_END                       after the last function
  *
  * Of clang, three things stay open, and lqg/check.h finds them. An explicit -ffp-contract=fast cannot be overruled: use
- * fast-honor-pragmas in its place. ?: and the unary minus keep the options around. And where a target has no float_control,
- * as 32-bit Arm, all operations keep -fno-honor-nans and its like.
+ * fast-honor-pragmas in its place. ?: and the unary minus keep the options around. And where a target has no
+ * float_control, as 32-bit Arm, all operations keep -fno-honor-nans and its like.
  *
  * GCC's vectorizer is switched off with it: GCC 12 makes vfmaddsub and vfmsubadd of separate products and sums in
  * spite of fp-contract=off. Such functions must not be always_inline: they would take over the options of their caller.

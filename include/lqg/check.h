@@ -19,8 +19,8 @@
  *         return wrong != NULL;
  *     }
  *
- * Where it is only compiled, it is refused from -O1 on if the optimizer forgets NaNs. The rest is to be seen in what clang
- * makes of it: the same two files, or the options are not for TinyLQG.
+ * Where it is only compiled, it is refused from -O1 on if the optimizer forgets NaNs. The rest is to be seen in what
+ * clang makes of it: the same two files, or the options are not for TinyLQG.
  *
  *     clang <options> -g0 -S check.c -o given.s
  *     clang <options> -g0 -S -ffp-contract=off -fno-fast-math check.c -o strict.s */
@@ -64,8 +64,8 @@ __attribute__((error(LQG_CHECK_NAN))) void lqg_check_forgets_nans(void);
 #endif
 
 /* Of each row: its name; an expression; the values of a, b and c, which the compiler does not know (chosen is
- * c > b ? a : b); what comes out, to the bit, when all is rounded once, to nearest, as it is written; and what to say if
- * it does not. Of the parameters: 1 − e² is rounded to 1; epsilon is the distance from 1 to the next number. */
+ * c > b ? a : b); what comes out, to the bit, when all is rounded once, to nearest, as it is written; and what to say
+ * if it does not. Of the parameters: 1 − e² is rounded to 1; epsilon is the distance from 1 to the next number. */
 #define LQG_CHECK_ROWS(ROW, real, e, epsilon, max, min) \
     ROW(real, nan_is_not_finite, a - a == 0 ? 1 : 2, nan, 0, 0, 2, LQG_CHECK_NAN) \
     ROW(real, infinity_is_not_finite, a - a == 0 ? 1 : 2, infinity, 0, 0, 2, LQG_CHECK_NAN) \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How long one sample of a controller takes on an AVR: prints the cycles of update, control and predict, the mean and the
- * most of 100 samples of small random outputs. Timer 1 counts them, eight at a time.
+/* How long one sample of a controller takes on an AVR: prints the cycles of update, control and predict, the mean and
+ * the most of 100 samples of small random outputs. Timer 1 counts them, eight at a time.
  *
  * The build defines HEADER "dc_motor.h", NAME dc_motor, NU and NY as DC_MOTOR_NU, DC_MOTOR_NY. */
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* SysTick, with the processor's clock: 24 bits, counting down. The cycle counter of the debug unit would have 32 bits, but not
- * every core has one, and QEMU's does not move. LQG_FREQUENCY is the processor's in Hz, where it is real. */
+/* SysTick, with the processor's clock: 24 bits, counting down. The cycle counter of the debug unit would have 32 bits,
+ * but not every core has one, and QEMU's does not move. LQG_FREQUENCY is the processor's in Hz, where it is real. */
 #include "board.h"
 
 #define SYSTICK_CONTROL (*(volatile uint32_t *)0xE000E010u)

@@ -3,7 +3,8 @@
 #     lqg_cpu      the compiler's options for core and FPU
 #     lqg_machine  the machine of QEMU that has this core
 #     lqg_port     its folder, where memory.ld is
-#     lqg_uart     the address of its UART, of Arm's design kit; another UART: lqg_board, the files that serve it and a counter
+#     lqg_uart     the address of its UART, of Arm's design kit; another UART: lqg_board, the files that serve it and a
+#                  counter
 #     lqg_hertz    of the real processor that the same program is for, if there is one
 # and includes this one:
 #     cmake --toolchain ports/<port>/toolchain.cmake …

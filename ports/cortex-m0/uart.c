@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* UART0 of the nRF51822, as on the micro:bit V1: Nordic, "nRF51 Series Reference Manual", chapter 29. The micro:bit's interface
- * chip is on P0.24 (out) and P0.25 (in), and is a serial port of the PC. */
+/* UART0 of the nRF51822, as on the micro:bit V1: Nordic, "nRF51 Series Reference Manual", chapter 29. The micro:bit's
+ * interface chip is on P0.24 (out) and P0.25 (in), and is a serial port of the PC. */
 #include "board.h"
 
 #define UART 0x40002000u

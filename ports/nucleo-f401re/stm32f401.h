@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The registers of the STM32F401 that the examples use: ST, RM0368, "STM32F401xB/C and STM32F401xD/E reference manual"; the
- * chapters are named. Other parts of the family F4 have them at the same places. */
+/* The registers of the STM32F401 that the examples use: ST, RM0368, "STM32F401xB/C and STM32F401xD/E reference manual";
+ * the chapters are named. Other parts of the family F4 have them at the same places. */
 #ifndef STM32F401_H
 #define STM32F401_H
 

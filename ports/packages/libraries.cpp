@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prints what lqgen has inside: one library a line, its name in the SBOM and its version. MPFR and GMP say it themselves.
+// Prints what lqgen has inside: one library a line, its name in the SBOM and its version. MPFR and GMP say it
+// themselves.
 #include <gmp.h>
 #include <mbedtls/version.h>
 #include <mpfr.h>

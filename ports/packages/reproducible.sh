@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# For bash scripts that make packages, to be sourced: the same bytes come out whatever the umask, the time zone, the language and the
-# modes of the checked-out files.
+# For bash scripts that make packages, to be sourced: the same bytes come out whatever the umask, the time zone, the
+# language and the modes of the checked-out files.
 #
 #   settle <folder>    modes and times of all that is in it
 umask 022

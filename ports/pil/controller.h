@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The controller that target and host both run. The build says which (design.cmake): CONTROLLER_HEADER, CONTROLLER and
- * CONTROLLER_IN_CAPITALS are "two_mass.h", two_mass and TWO_MASS. Its `real` is float, and it has a filter and a regulator. */
+ * CONTROLLER_IN_CAPITALS are "two_mass.h", two_mass and TWO_MASS. Its `real` is float, and it has a filter and a
+ * regulator. */
 #ifndef PIL_CONTROLLER_H
 #define PIL_CONTROLLER_H
 

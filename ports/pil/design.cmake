@@ -5,8 +5,8 @@ set(lqg_pil_design ${LQG_PIL_DESIGN})
 set(lqg_pil_folder ${CMAKE_CURRENT_LIST_DIR})
 include(${CMAKE_CURRENT_LIST_DIR}/../../codegen/cmake/LqgAddController.cmake)
 
-# lqg_add_pil_design(<target>): controller.h, protocol.h, the design's name and SHA-256 for a program of target or host; its header
-# it gets elsewhere.
+# lqg_add_pil_design(<target>): controller.h, protocol.h, the design's name and SHA-256 for a program of target or host;
+# its header it gets elsewhere.
 function(lqg_add_pil_design target)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${lqg_pil_design})
   lqg_read_design_key(name ${lqg_pil_design} name "" "[a-z][a-z0-9_]*")

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What the host that simulates the plant and the target that runs the controller say to each other, over any serial line.
- * One text for both: C99, freestanding, no heap.
+/* What the host that simulates the plant and the target that runs the controller say to each other, over any serial
+ * line. One text for both: C99, freestanding, no heap.
  *
  * A frame, numbers in little endian:
  *
  *     0xA5 | type | length | sequence (2) | payload (length) | CRC (2)
  *
- * The CRC is CRC-16/CCITT-FALSE (polynomial 0x1021, from 0xFFFF) of all between 0xA5 and itself. Floats travel as their bits. */
+ * The CRC is CRC-16/CCITT-FALSE (polynomial 0x1021, from 0xFFFF) of all between 0xA5 and itself. Floats travel as their
+ * bits. */
 #ifndef PIL_PROTOCOL_H
 #define PIL_PROTOCOL_H
 
@@ -78,7 +79,8 @@ uint16_t pil_crc_of_floats(const float *values, unsigned count);
 /* Writes a frame of at most PIL_FRAME_MAX bytes; returns their number. */
 unsigned pil_encode(const pil_frame_t *frame, uint8_t bytes[PIL_FRAME_MAX]);
 
-/* Finds frames in what comes in, byte by byte; begins as {0}. After damage it looks for the next frame in what it has already. */
+/* Finds frames in what comes in, byte by byte; begins as {0}. After damage it looks for the next frame in what it has
+ * already. */
 typedef struct {
     uint8_t bytes[PIL_FRAME_MAX];
     unsigned count;

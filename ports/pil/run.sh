@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Processor in the loop: designs the balancing robot's controller, compiles it for a target, and lets it hold the robot that this
-# machine simulates; prints what every sample took.
+# Processor in the loop: designs the balancing robot's controller, compiles it for a target, and lets it hold the robot
+# that this machine simulates; prints what every sample took.
 #
 #   ports/pil/run.sh [port] [DESIGN.toml] [option]…                  a port that QEMU emulates; default: cortex-m4f
-#   ports/pil/run.sh <port> [DESIGN.toml] --build                    only compiles: what to flash is build/pil/<port>/pil_target.bin
-#   ports/pil/run.sh <port> [DESIGN.toml] --port DEVICE [option]…    a board that runs pil_target.bin, at a serial port such as /dev/ttyACM0
+#   ports/pil/run.sh <port> [DESIGN.toml] --build                    only compiles: what to flash is
+#                                                                    build/pil/<port>/pil_target.bin
+#   ports/pil/run.sh <port> [DESIGN.toml] --port DEVICE [option]…    a board that runs pil_target.bin, at a serial port
+#                                                                    such as /dev/ttyACM0
 #
-# With a design file the target hears what the sensors say in the first 200 samples of the design's test, r being 0, and has to
-# find the bits of this machine. The design has a filter and a regulator, and its real is float.
+# With a design file the target hears what the sensors say in the first 200 samples of the design's test, r being 0, and
+# has to find the bits of this machine. The design has a filter and a regulator, and its real is float.
 #
-# FOLDER is where all work is done, default build/pil. The options are those at the top of host/main.c: --seconds S, --csv FILE, --svg FILE, --baud N, …
-# LQGEN names an lqgen that is there already; otherwise one is built in build/, which the other scripts share. Debian's packages, for Arm:
-# gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm; for RISC-V: gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf
-# qemu-system-misc.
+# FOLDER is where all work is done, default build/pil. The options are those at the top of host/main.c: --seconds S,
+# --csv FILE, --svg FILE, --baud N, … LQGEN names an lqgen that is there already; otherwise one is built in build/,
+# which the other scripts share. Debian's packages, for Arm: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm;
+# for RISC-V: gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* mcycle, whose lower 32 bits are enough. QEMU's counts the nanoseconds of its virtual time: with -icount shift=0 that is one
- * for each instruction. LQG_FREQUENCY is the processor's in Hz, where it is real. */
+/* mcycle, whose lower 32 bits are enough. QEMU's counts the nanoseconds of its virtual time: with -icount shift=0 that
+ * is one for each instruction. LQG_FREQUENCY is the processor's in Hz, where it is real. */
 #include "board.h"
 
 const uint32_t counter_mask = 0xFFFFFFFF;

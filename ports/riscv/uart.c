@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A UART of the family NS16550, as QEMU's machine virt has: National Semiconductor, "PC16550D Universal Asynchronous
- * Receiver/Transmitter with FIFOs", section 8. Its registers are a byte apart here, on many boards four. LQG_UART is its
- * address, from the toolchain file. */
+ * Receiver/Transmitter with FIFOs", section 8. Its registers are a byte apart here, on many boards four. LQG_UART is
+ * its address, from the toolchain file. */
 #include "board.h"
 
 typedef struct {

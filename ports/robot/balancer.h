@@ -5,8 +5,8 @@
  *        ▲                                                │                                │
  *        └───────────── laid down, or blind ──────────────┴── fallen, lifted, blind, late ─┘
  *
- * Motors are off but in BALANCING. While a hand holds the body the wheels cannot do what the controller expects, and within a few
- * samples it would believe to fall: so it does not drive before it is let go. */
+ * Motors are off but in BALANCING. While a hand holds the body the wheels cannot do what the controller expects, and
+ * within a few samples it would believe to fall: so it does not drive before it is let go. */
 #ifndef BALANCER_H
 #define BALANCER_H
 
@@ -42,8 +42,8 @@ typedef struct {
 /* Waits; the motors are off. */
 void balancer_init(balancer_t *self);
 
-/* One sample, BALANCING_ROBOT_SAMPLE_TIME after the last: sensors, update, control, motors; then, off the critical path, the
- * prediction. */
+/* One sample, BALANCING_ROBOT_SAMPLE_TIME after the last: sensors, update, control, motors; then, off the critical
+ * path, the prediction. */
 void balancer_run_sample(balancer_t *self);
 
 /* The last sample ended when the next one was due already. */

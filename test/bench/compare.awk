@@ -1,5 +1,5 @@
-# awk -f compare.awk -v cores="rv32 rv64" record.md measured.md: what differs between two outputs of run.sh for these cores.
-# Fails where a figure has grown by more than 2 %, or where one of them has a row that the other has not.
+# awk -f compare.awk -v cores="rv32 rv64" record.md measured.md: what differs between two outputs of run.sh for these
+# cores. Fails where a figure has grown by more than 2 %, or where one of them has a row that the other has not.
 BEGIN {
     FS = " *[|] *"
     split(cores, list, " ")

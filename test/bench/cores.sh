@@ -2,8 +2,8 @@
 # For bash scripts, to be sourced: how programs are built and run for a core, from its port's own files.
 #
 #   every_core             the cores that there are
-#   select_core <core>     sets core, family, port, startup, fused_reals, cpu, compiler, archiver, size, linked, machine,
-#                          megahertz; `options` go to the compiler
+#   select_core <core>     sets core, family, port, startup, fused_reals, cpu, compiler, archiver, size, linked,
+#                          machine, megahertz; `options` go to the compiler
 #   missing_tools          prints what the selected core needs and this machine has not
 
 every_core=(cortex-m0 cortex-m3 cortex-m4f cortex-m7 cortex-m33 cortex-m55 rv32 rv32f rv64)

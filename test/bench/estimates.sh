@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The flash and stack that lqgen states, against what the compiler makes that they are stated for: arm-none-eabi-gcc 12.2, -O2, Cortex-M4F.
+# The flash and stack that lqgen states, against what the compiler makes that they are stated for: arm-none-eabi-gcc
+# 12.2, -O2, Cortex-M4F.
 #
 #   test/bench/estimates.sh [--random COUNT] [--from SEED] [DESIGN.toml]…
 #
-# Without design files: the shipped ones, each in both styles and both reals; COUNT random designs beside them (default 0), of seed 1 … or
-# SEED …, whose dimensions, filters, styles and arithmetic random_design.awk draws. Prints a line for each: stated, compiled, by how many per
-# cent more was stated. Fails where less is stated than was compiled, or more than 15 % and 24 bytes more: a frame grows by 8 bytes at once,
-# and small ones are of 24.
+# Without design files: the shipped ones, each in both styles and both reals; COUNT random designs beside them (default
+# 0), of seed 1 … or SEED …, whose dimensions, filters, styles and arithmetic random_design.awk draws. Prints a line for
+# each: stated, compiled, by how many per cent more was stated. Fails where less is stated than was compiled, or more
+# than 15 % and 24 bytes more: a frame grows by 8 bytes at once, and small ones are of 24.
 #
-# Flash is what the linker brings for init, update, control and predict, as in run.sh. Stack is the deepest reach of the three below their
-# caller along all calls that there are, taken or not: a reset is among them.
+# Flash is what the linker brings for init, update, control and predict, as in run.sh. Stack is the deepest reach of the
+# three below their caller along all calls that there are, taken or not: a reset is among them.
 #
-# LQGEN names an lqgen that is there already; FOLDER is where all work is done, default build/estimates. Without the compiler it says so and
-# ends with status 0. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi.
+# LQGEN names an lqgen that is there already; FOLDER is where all work is done, default build/estimates. Without the
+# compiler it says so and ends with status 0. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 bench=$lqg_root/test/bench folder=${FOLDER:-$lqg_root/build/estimates}

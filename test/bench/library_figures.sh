@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Of the library's loops, what codegen/emit/plan/library_cost.cpp has as numbers: bytes of flash, without the C library, of each filter's and
-# law's functions together with all that they call, and the deepest reach of the stack of each; of float, fused float, double, fused
-# double. To be run, and its numbers taken over, when src/ has changed. FOLDER is where all work is done, default build/figures.
+# Of the library's loops, what codegen/emit/plan/library_cost.cpp has as numbers: bytes of flash, without the C library,
+# of each filter's and law's functions together with all that they call, and the deepest reach of the stack of each; of
+# float, fused float, double, fused double. To be run, and its numbers taken over, when src/ has changed. FOLDER is
+# where all work is done, default build/figures.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 bench=$lqg_root/test/bench folder=${FOLDER:-$lqg_root/build/figures}

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What the controller in HEADER costs: instructions executed by each of its functions, and the stack that they use,
  * for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES says that it has
- * no input. A controller that keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to the
- * first of them, or to the second with PREDICTS. */
+ * no input. A controller that keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to
+ * the first of them, or to the second with PREDICTS. */
 #include <math.h>
 #include <stdint.h>
 

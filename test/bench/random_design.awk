@@ -1,5 +1,6 @@
-# A design file with a random plant: awk -f random_design.awk -v seed=7. Stable, dense or chained (each state drives the next), up to 24
-# states; with a constant gain or a covariance, carried as it is or as factors; float or double, both styles; the same bytes everywhere.
+# A design file with a random plant: awk -f random_design.awk -v seed=7. Stable, dense or chained (each state drives the
+# next), up to 24 states; with a constant gain or a covariance, carried as it is or as factors; float or double, both
+# styles; the same bytes everywhere.
 
 # 0 … 1. Products stay below 2^53.
 function random() {

@@ -2,21 +2,22 @@
 # SPDX-License-Identifier: MIT
 # What the emitted controllers cost on the cores of ports/: prints a table for each core.
 #
-#   test/bench/run.sh [--all] [core]… [DESIGN.toml]… [option of the compiler]…     after -O2 -std=c99, such as -Os or -std=gnu99
+#   test/bench/run.sh [--all] [core]… [DESIGN.toml]… [option of the compiler]…     after -O2 -std=c99, such as -Os or
+#                                                                                  -std=gnu99
 #   test/bench/run.sh --update       writes the record, test/bench/record.md
-#   test/bench/run.sh --check        shows what differs from the record, and keeps it in FOLDER/changes.txt; fails where a
-#                                    figure has grown by more than 2 %
+#   test/bench/run.sh --check        shows what differs from the record, and keeps it in FOLDER/changes.txt; fails where
+#                                    a figure has grown by more than 2 %
 #
 # A core is the name of its folder in ports/; without any it is all nine. The record has every design in both styles, in
 # float, and where the FPU computes in double, too, those that are meant for it; --all has every design in both reals.
 # With them comes two_mass with the covariance carried as it is, which is the filter that others are compared by, and
 # three designs without their limits in each form of a constant gain; advance is called predict there.
-# Fused arithmetic is left out where the hardware has none. Design files that are named come in place of all these: each in both
-# styles and its own real. They have a filter and a regulator, or a filter and no input.
+# Fused arithmetic is left out where the hardware has none. Design files that are named come in place of all these: each
+# in both styles and its own real. They have a filter and a regulator, or a filter and no input.
 #
-# LQGEN names an lqgen that is there already; otherwise one is built in build/, which the other scripts share. FOLDER is where all
-# work is done, default build/bench. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
-# picolibc-riscv64-unknown-elf qemu-system-misc.
+# LQGEN names an lqgen that is there already; otherwise one is built in build/, which the other scripts share. FOLDER is
+# where all work is done, default build/bench. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi
+# qemu-system-arm gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc.
 #
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
 # library functions included. "most" is over the reference samples of the design's test and over the same with
@@ -238,8 +239,8 @@ measure() {
 
 record=$bench/record.md
 
-# Finds the `comparable` cores, those of which this machine has the tools, and the compiler that the record was made with:
-# another makes other code. Says which have been left out.
+# Finds the `comparable` cores, those of which this machine has the tools, and the compiler that the record was made
+# with: another makes other code. Says which have been left out.
 find_comparable_cores() {
   local missing recorded
   comparable=()

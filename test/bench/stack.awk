@@ -1,6 +1,6 @@
-# The deepest reach of the stack below the callers of the functions in `roots`, from the listing of a linked Cortex-M program
-# (objdump -d --no-show-raw-insn): what each function pushes and sets aside, and what it calls. A tail call comes after the pop.
-# The functions do not call each other in circles.
+# The deepest reach of the stack below the callers of the functions in `roots`, from the listing of a linked Cortex-M
+# program (objdump -d --no-show-raw-insn): what each function pushes and sets aside, and what it calls. A tail call
+# comes after the pop. The functions do not call each other in circles.
 
 function hexadecimal(text,    i, value) {
   for (i = 1; i <= length(text); i++) value = 16 * value + index("0123456789abcdef", substr(text, i, 1)) - 1

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Builds the controllers in CONTROLLERS and the library of ROOT with COMPILER and OPTIONS in WORK, adds LINK_OPTIONS to link
-# them, by LINKER if that is another, and compares their bits with HASHES: EMULATOR, KINDS and CONTRACTS are those of
-# compare.cmake.
+# Builds the controllers in CONTROLLERS and the library of ROOT with COMPILER and OPTIONS in WORK, adds LINK_OPTIONS to
+# link them, by LINKER if that is another, and compares their bits with HASHES: EMULATOR, KINDS and CONTRACTS are those
+# of compare.cmake.
 if(NOT KINDS)
   set(KINDS "plain_float|plain_double|fused_float|fused_double")
 endif()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Runs PROGRAM, the main.c of a build BUILD, behind EMULATOR if there is one, and compares what it prints with HASHES.
 # KINDS are the controllers that it has, <arithmetic>_<real>, with | between them.
-# With CONTRACTS the build has to be one that contracts a*b + c, or nothing is tested. With UPDATE what it prints becomes
-# HASHES.
+# With CONTRACTS the build has to be one that contracts a*b + c, or nothing is tested. With UPDATE what it prints
+# becomes HASHES.
 string(REPLACE "|" ";" emulator "${EMULATOR}")
 execute_process(COMMAND ${emulator} ${PROGRAM} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
 if(NOT output MATCHES "^(.*\n)?(not )?contracted\n$")

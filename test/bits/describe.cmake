@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Makes OUTPUT, what a controller.h (of this test or of another that runs every controller) wants to hear of the controller
-# in HEADER, which lqgen has made of the design NAME in REAL.
+# Makes OUTPUT, what a controller.h (of this test or of another that runs every controller) wants to hear of the
+# controller in HEADER, which lqgen has made of the design NAME in REAL.
 file(READ ${HEADER} header)
 string(TOUPPER ${NAME} upper_name)
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Prints a line for each controller of controllers.h, "<design> <arithmetic> <style> <real> <bits> <values>" by hashes.h,
- * and whether the compiler contracts a*b + c where nobody tells it not to. */
+/* Prints a line for each controller of controllers.h, "<design> <arithmetic> <style> <real> <bits> <values>" by
+ * hashes.h, and whether the compiler contracts a*b + c where nobody tells it not to. */
 #include <stdio.h>
 
 #include "contracted.h"

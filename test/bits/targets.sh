@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Compares every bit of every controller on the emulated cores as bits.build.… does on the PC: by gcc and clang, at all
-# levels, in ISO and GNU mode, with LTO, as C++. The tests build for a target in one way only; this takes some ten minutes.
+# levels, in ISO and GNU mode, with LTO, as C++. The tests build for a target in one way only; this takes some ten
+# minutes.
 #
 #   test/bits/targets.sh <a build with tests> [core]…       after test/run.sh: test/bits/targets.sh build
 #

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Every bit of a controller's state, flipped once, in closed loop: after RECOVERY_SAMPLES the loop with the flip is where
- * its twin is that had none and hears the same noise. closed_loop.h has the loop.
+/* Every bit of a controller's state, flipped once, in closed loop: after RECOVERY_SAMPLES the loop with the flip is
+ * where its twin is that had none and hears the same noise. closed_loop.h has the loop.
  *
  *     flips [sample [list]]      sample: so many flips, evenly; 0: all
  *
@@ -36,7 +36,8 @@ enum {
 static struct drawn drawn[SAMPLES];
 static struct loop twin[SAMPLES + 1]; /* before each sample */
 
-/* ---- noise: normal numbers as sums of twelve uniform ones ------------------------------------------------------------ */
+/* ---- noise: normal numbers as sums of twelve uniform ones
+ * ------------------------------------------------------------ */
 
 static double uniform(unsigned long long *seed)
 {
@@ -95,7 +96,8 @@ static void run(struct loop *loop, const struct flip *flip, int sample)
     run_sample(loop, &drawn[sample], visitor);
 }
 
-/* ---- what is asked --------------------------------------------------------------------------------------------------- */
+/* ---- what is asked
+ * --------------------------------------------------------------------------------------------------- */
 
 static real number_of(const struct loop *loop, const struct member *of, size_t i)
 {
@@ -206,7 +208,8 @@ static void run_twin(void)
     }
 }
 
-/* Without a flip the plant runs away, unstable and alone or beyond its limits: x̂ is rounded to more than is known of it. */
+/* Without a flip the plant runs away, unstable and alone or beyond its limits: x̂ is rounded to more than is known of
+ * it. */
 static int runs_away(void)
 {
     const double most = sizeof(real) == sizeof(float) ? 0x1p20 : 0x1p49;

@@ -33,8 +33,8 @@ function(check folder)
   set(checked ${checked} ${folder} PARENT_SCOPE)
 endfunction()
 
-# check_floors(<room> <words> <floors> <regex of what all may include>…): of a room's folders each knows itself and those before
-# it. <words>: regex of the room's own headers that each floor may know.
+# check_floors(<room> <words> <floors> <regex of what all may include>…): of a room's folders each knows itself and
+# those before it. <words>: regex of the room's own headers that each floor may know.
 function(check_floors room words floors)
   set(below)
   foreach(floor IN LISTS floors)
@@ -53,7 +53,8 @@ check(src "${standard_c}" "^lqg/[a-z_]+\\.h$" ${private})
 set(any_room "${standard_cpp}" "${posix}" "^Eigen/" "^lqg/version\\.h$")
 set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
 
-# The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who solves.
+# The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who
+# solves.
 set(room_folder codegen/design)
 set(design_words "^design/(problem|solution|solution_matrices|finding|real|rounding|progress)\\.hpp$")
 check_floors(design "${design_words}" "numeric;equations;sampled;checks;loop;gains;run" ${any_room} ${digits})

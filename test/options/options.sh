@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # No combination of a compiler's options is accepted and wrong: either it is refused when lqg/check.h or a controller is
-# compiled, or lqg_arithmetic_check() finds it, or controllers and library compute every bit as expected, with outputs that
-# are NaN left out.
+# compiled, or lqg_arithmetic_check() finds it, or controllers and library compute every bit as expected, with outputs
+# that are NaN left out.
 #
 #   options.sh <build> sample <compiler>              those of sample.txt: each has to end as it says there
-#   options.sh <build> pairs <compiler> <options>     these options with each of options.txt that the compiler knows, and with
-#                                                     each two of them
+#   options.sh <build> pairs <compiler> <options>     these options with each of options.txt that the compiler knows,
+#                                                     and with each two of them
 #
-# <build> is a build with tests. Prints how each combination ends; status 1 if one is wrong, or ends otherwise than expected.
+# <build> is a build with tests. Prints how each combination ends; status 1 if one is wrong, or ends otherwise than
+# expected.
 set -euo pipefail
 folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$folder/../.." && pwd)

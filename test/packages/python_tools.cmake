@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPYTHON=… -DFOLDER=… -DREQUIREMENTS=… -P python_tools.cmake: installs the requirements into a virtual environment;
-# once is enough.
+# cmake -DPYTHON=… -DFOLDER=… -DREQUIREMENTS=… -P python_tools.cmake: installs the requirements into a virtual
+# environment; once is enough.
 if(NOT PYTHON)
   message("Not found: python3")
   return()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the packages again from a copy of the tree that another person checked out, elsewhere, at another time, with another
-# umask, time zone and language: names, modes, times and bytes are those of the first ones.
+# Makes the packages again from a copy of the tree that another person checked out, elsewhere, at another time, with
+# another umask, time zone and language: names, modes, times and bytes are those of the first ones.
 #
 #   reproducible.sh <root of the source tree> <packages that were made> <folder> <lqgen>
 set -euo pipefail

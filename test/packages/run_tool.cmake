@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DTOOL=<program> -DARGUMENTS=<list> -DHOME=<folder> -P run_tool.cmake: runs it with this home, or says that it is not found.
+# cmake -DTOOL=<program> -DARGUMENTS=<list> -DHOME=<folder> -P run_tool.cmake: runs it with this home, or says that it
+# is not found.
 if(NOT EXISTS ${TOOL})
   message("Not found: ${TOOL}")
   return()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -DSTATUS=<exit status> -DTEXT=<regular expression> -DFAULT=<of pc_board.c> -P expect.cmake -- <command>…
-# passes if the command ends with that status and has said that. With -DPROGRAM=<file> it says "Not found" where that is not there.
+# passes if the command ends with that status and has said that. With -DPROGRAM=<file> it says "Not found" where that is
+# not there.
 set(command)
 set(is_command FALSE)
 foreach(i RANGE 1 ${CMAKE_ARGC})

@@ -9,8 +9,8 @@ enum { NX = SIZE(NX) };
 static const lqg_real bound[NX] = SIZE(X_BOUNDS);
 #endif
 
-/* More than what init leaves: any estimate within its bounds, any number of resets. So the prover need not find out step
- * by step how far they get. */
+/* More than what init leaves: any estimate within its bounds, any number of resets. So the prover need not find out
+ * step by step how far they get. */
 static void begin_anywhere(LOOP)
 {
 #ifdef PROOF_BOUNDS

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Proves of the controller of a design file, yours or ours, what README.md says, by Frama-C's Eva; says what it could not
-# prove or does not understand.
+# Proves of the controller of a design file, yours or ours, what README.md says, by Frama-C's Eva; says what it could
+# not prove or does not understand.
 #
 #   test/proof/prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER] [--try]
 #
-# --try: the trial before the proof alone, which takes seconds. FOLDER keeps what was proved and the prover's log. LQGEN: the lqgen to take, if not that of build/ or on the PATH.
-# BREAK: a sed script that breaks the controller first. Exit status: 0 proved, 1 not proved, 2 not understood, 3 something is
-# missing, 4 lqgen refuses the design.
+# --try: the trial before the proof alone, which takes seconds. FOLDER keeps what was proved and the prover's log.
+# LQGEN: the lqgen to take, if not that of build/ or on the PATH. BREAK: a sed script that breaks the controller first.
+# Exit status: 0 proved, 1 not proved, 2 not understood, 3 something is missing, 4 lqgen refuses the design.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd) root=$(cd "$here/../.." && pwd)
 source "$here/restate_library.sh"
@@ -86,9 +86,9 @@ control=${control:+${control}_$variant}
 if is GIVES_INPUT; then
   grep -q "${name}_control_fault(" "$header" && control=${name}_control_fault || control=${control:-${name}_control}
 fi
-# Loops have fixed lengths: all are unrolled. The paths through the limits of several inputs are kept apart, those through the
-# function that weighs an output are not: each would double those of all that follows. The library's callers look at bits of what
-# it returns.
+# Loops have fixed lengths: all are unrolled. The paths through the limits of several inputs are kept apart, those
+# through the function that weighs an output are not: each would double those of all that follows. The library's callers
+# look at bits of what it returns.
 paths=(-eva-slevel 4)
 ! is KEEPS_gated || paths+=(-eva-slevel-function "${name}_weigh:0")
 [ "$style" = unrolled ] || paths=(-eva-split-return full -eva-slevel-function "lqg_gate_weigh_$variant:0")

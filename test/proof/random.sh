@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Proves random designs in both styles; prints the first one that is not proved, and what was said of it. --try: without the
-# prover, as prove.sh does.
+# Proves random designs in both styles; prints the first one that is not proved, and what was said of it. --try: without
+# the prover, as prove.sh does.
 #
 #   test/proof/random.sh <random_design> <folder> <first seed> <last seed> [--try]
 #

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Calls a controller with anything, from any state, to see that what is said to follow from its tests does. Compiled with
- * tried.h in place of unknown.h. */
+/* Calls a controller with anything, from any state, to see that what is said to follow from its tests does. Compiled
+ * with tried.h in place of unknown.h. */
 #include "anything.h"
 
 #define LOOK_AT_COVARIANCE(loop) (void)(loop)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* In place of unknown.h: the driver's calls as a program, which draws what the prover takes for anything, and ends where
- * what is said to follow from a test does not. */
+/* In place of unknown.h: the driver's calls as a program, which draws what the prover takes for anything, and ends
+ * where what is said to follow from a test does not. */
 #ifndef PROOF_UNKNOWN_H
 #define PROOF_UNKNOWN_H
 

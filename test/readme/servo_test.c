@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The motor that the README's second program turns: its own equations in steps of 1 µs, with a load that the design does not know. */
+/* The motor that the README's second program turns: its own equations in steps of 1 µs, with a load that the design
+ * does not know. */
 #include <math.h>
 
 #include "unity.h"

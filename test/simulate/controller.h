@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads what record_runs wrote of a controller and runs its compiled header beside it. Included once for each controller,
- * which ../bits/describe.cmake describes by macros. */
+/* Reads what record_runs wrote of a controller and runs its compiled header beside it. Included once for each
+ * controller, which ../bits/describe.cmake describes by macros. */
 #include "replay.h"
 
 #define PASTE(a, b) a##_##b

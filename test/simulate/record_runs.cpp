@@ -3,8 +3,9 @@
 //
 //     record_runs DESIGN.toml STYLE REAL FILE
 //
-// FILE holds doubles, which hold the target's numbers exactly: how many runs there are; of each run its samples and, sample
-// by sample: r, y (of a regulator alone x), u, x̂ that u was made of, the status, how often the controller has begun anew.
+// FILE holds doubles, which hold the target's numbers exactly: how many runs there are; of each run its samples and,
+// sample by sample: r, y (of a regulator alone x), u, x̂ that u was made of, the status, how often the controller has
+// begun anew.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -5,10 +5,10 @@
 //
 // The runs are the host's simulation, which has the bits of the compiled header. Exit status 1: a promise is not kept.
 //
-// Honest: starts drawn from P0, in runs of 5000 samples, with a silence of 10 s in each; of a plant that is unstable, one in
-// which its errors grow tenfold. No output may be left out.
-// Spikes: each output says, in one sample, what is off by from 10³ to 10³⁰ of its own standard deviations. It must be told,
-// nothing may be reset, and the plant must stay within 8 of its standard deviations of what it does without the spike.
+// Honest: starts drawn from P0, in runs of 5000 samples, with a silence of 10 s in each; of a plant that is unstable,
+// one in which its errors grow tenfold. No output may be left out. Spikes: each output says, in one sample, what is off
+// by from 10³ to 10³⁰ of its own standard deviations. It must be told, nothing may be reset, and the plant must stay
+// within 8 of its standard deviations of what it does without the spike.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

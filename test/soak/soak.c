@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A controller for a long time: noise for outputs and inputs, one output in 16 missing; a gate may leave out more. Its estimate stays a
- * thousand times below its bounds, it never begins anew, and the covariance that it carries is positive definite after every update
- * and prediction. States that are known from the beginning, the inputs on their way, are left out of that:
- * their variance is and stays 0.
+/* A controller for a long time: noise for outputs and inputs, one output in 16 missing; a gate may leave out more. Its
+ * estimate stays a thousand times below its bounds, it never begins anew, and the covariance that it carries is
+ * positive definite after every update and prediction. States that are known from the beginning, the inputs on their
+ * way, are left out of that: their variance is and stays 0.
  *
  *     soak [samples]
  *

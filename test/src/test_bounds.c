@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The bounds of a state and of what is believed: hit exactly, just missed, and left far behind, in each entry. The plant
- * is x⁺ = x + u, y = x, so that a prediction from x = 0 leaves x = u. */
+/* The bounds of a state and of what is believed: hit exactly, just missed, and left far behind, in each entry. The
+ * plant is x⁺ = x + u, y = x, so that a prediction from x = 0 leaves x = u. */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>

@@ -21,8 +21,8 @@ namespace {
 using Eigen::MatrixXd;
 using Complex = std::complex<double>;
 
-// 500 units in the last place. Plants that were sampled or turned in double are within 15 of what they were meant to be,
-// those that were meant to be reached not within 1e7.
+// 500 units in the last place. Plants that were sampled or turned in double are within 15 of what they were meant to
+// be, those that were meant to be reached not within 1e7.
 constexpr double artefact = 500 * 2.220446049250313e-16;
 
 // Poles no farther apart, beside the largest, may be one that rounding has split: up to (1e-16)^(1/4).

@@ -33,8 +33,8 @@ bool check_observable(const Problem& problem, const SampledPlant& sampled, const
 void check_weights_on_limit(const Problem& problem, const RiccatiEquation& equation, Findings& findings);
 void check_noise_on_limit(const Problem& problem, const Samples& samples, Findings& findings);
 
-// An unstable mode that no process noise drives is uncertain for ever only when it is so at the start: with P0 = 0 of it the
-// gains tend to others than the steady ones.
+// An unstable mode that no process noise drives is uncertain for ever only when it is so at the start: with P0 = 0 of
+// it the gains tend to others than the steady ones.
 void check_start(const Problem& problem, const Samples& samples, Findings& findings);
 
 }  // namespace lqg::design

@@ -27,10 +27,11 @@ struct StructuredGain {
 };
 
 // A local minimum: from the `full` gain, its other entries fading away while the kept ones follow, or, when that loses
-// stability, from minima for A/γ, B/γ with γ falling to 1. Descent by damped Newton steps in few digits, then chord steps in the digits in force. The gradient
-// is 2 ((R + BᵀXB)K − BᵀXA − Nᵀ)P with P = (A − BK)P(A − BK)ᵀ + W: W. S. Levine, M. Athans, "On the determination of
-// the optimal constant output feedback gains for linear multivariable systems", IEEE Transactions on Automatic
-// Control 15 (1970), 44–48. `start`, when not empty, is the result in fewer digits.
+// stability, from minima for A/γ, B/γ with γ falling to 1. Descent by damped Newton steps in few digits, then chord
+// steps in the digits in force. The gradient is 2 ((R + BᵀXB)K − BᵀXA − Nᵀ)P with P = (A − BK)P(A − BK)ᵀ + W: W. S.
+// Levine, M. Athans, "On the determination of the optimal constant output feedback gains for linear multivariable
+// systems", IEEE Transactions on Automatic Control 15 (1970), 44–48. `start`, when not empty, is the result in fewer
+// digits.
 StructuredGain structured_gain(const StructureProblem& problem, const RealMatrix& full, const RealMatrix& start);
 
 // Eigenvalues on or outside of the unit circle that A − BK has for every K of that structure (S. H. Wang, E. J.

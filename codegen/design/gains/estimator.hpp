@@ -12,8 +12,8 @@ namespace lqg::design {
 // is L_predictorᵀ; `closed` is that of the plant's own states. `start` is P_prior in fewer digits, or empty.
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start);
 
-// The continuous equation of a continuous plant with continuous noise, A P + P Aᵀ + GWGᵀ = (P Cᵀ + G Swv) V⁻¹ (…)ᵀ: X is P, K is Lᵀ
-// (R. E. Kalman and R. S. Bucy, Journal of Basic Engineering 83 (1961), 95–108).
+// The continuous equation of a continuous plant with continuous noise, A P + P Aᵀ + GWGᵀ = (P Cᵀ + G Swv) V⁻¹ (…)ᵀ: X
+// is P, K is Lᵀ (R. E. Kalman and R. S. Bucy, Journal of Basic Engineering 83 (1961), 95–108).
 RiccatiResult solve_continuous_estimator(const Problem& problem, const RealMatrix& start);
 
 // All of the filter that follows from P_prior; the poles stay empty.

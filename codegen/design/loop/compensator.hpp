@@ -31,8 +31,8 @@ Compensator compensator(const Problem& problem, const Solution& solution);
 // The plant of the last stage, which the steady loop is made of.
 const SampledPlant& final_plant(const Solution& solution);
 
-// Are the loop's poles those of regulator and filter? Not with integrals of outputs that D of the last input is in, in filter
-// form: ξ⁺ = ξ − T (C x + D u[k−1]), where the regulator was designed with D u[k].
+// Are the loop's poles those of regulator and filter? Not with integrals of outputs that D of the last input is in, in
+// filter form: ξ⁺ = ξ − T (C x + D u[k−1]), where the regulator was designed with D u[k].
 bool is_separated(const Problem& problem, const SampledPlant& plant);
 
 MeasuredPlant measured_plant(const Problem& problem, const SampledPlant& plant);

@@ -16,7 +16,8 @@ struct SteadyCost {
 std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples, const Compensator& controller);
 
 // The same of the controller of `solution`, whose filter is the optimal one: its innovations are white, and half of the
-// states are enough. Where the regulator's X is what this loop costs from any state on, X says what each innovation costs.
+// states are enough. Where the regulator's X is what this loop costs from any state on, X says what each innovation
+// costs.
 std::optional<SteadyCost> steady_cost(const Problem& problem, const Samples& samples, const Compensator& controller,
                                       const Solution& solution);
 

@@ -42,7 +42,8 @@ struct DiskAt {
 };
 
 // The cells around the local minima of the rough disk on the grid, each with the grid's value. Where it is flat to the
-// rounding of double, as without any feedback, there is nothing to refine: of these places the least one, an empty cell.
+// rounding of double, as without any feedback, there is nothing to refine: of these places the least one, an empty
+// cell.
 std::vector<DiskAt> disk_places(const Search& search) {
   std::vector<DiskAt> places;
   std::optional<DiskAt> flat;

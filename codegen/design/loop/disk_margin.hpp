@@ -11,8 +11,8 @@ struct DiskMargin {
   bool as_expected = true;  // of one channel: where the search saw a minimum the refined evaluation has one
 };
 
-// Of one channel refined by `evaluate` in all digits of `fineness`, of several in double: with more than 8 the time is that of
-// some hundred decompositions, and the margin may be 1 % less than it is.
+// Of one channel refined by `evaluate` in all digits of `fineness`, of several in double: with more than 8 the time is
+// that of some hundred decompositions, and the margin may be 1 % less than it is.
 DiskMargin disk_margin(const Search& search, const Evaluate& evaluate, const Fineness& fineness);
 
 }  // namespace lqg::design

@@ -8,8 +8,8 @@
 
 namespace lqg::design {
 
-// Of s⁺ = A s + B w: state i is state `source`[i] as it was `ago`[i] samples before. A state that is more than a delay is
-// its own source.
+// Of s⁺ = A s + B w: state i is state `source`[i] as it was `ago`[i] samples before. A state that is more than a delay
+// is its own source.
 struct Chains {
   std::vector<Index> source, ago;
 
@@ -20,8 +20,8 @@ struct Chains {
 // A row of A with nothing but one 1, and of B with nothing, is a delay.
 Chains chains_of(const RealMatrix& A, const RealMatrix& B);
 
-// States of s⁺ = A s + B w that are equal, exactly, some samples after any start, as one: those with equal rows of [A B],
-// where equal states count as one. s = spread s', and s' moves by the new A and B.
+// States of s⁺ = A s + B w that are equal, exactly, some samples after any start, as one: those with equal rows of [A
+// B], where equal states count as one. s = spread s', and s' moves by the new A and B.
 struct Merged {
   RealMatrix A, B, spread;
 };

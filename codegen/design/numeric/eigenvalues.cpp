@@ -73,9 +73,9 @@ void sweep(RealMatrix& h, Index low, Index high, const Real& sum, const Real& pr
   }
 }
 
-// Scales the rows of a block by powers of two, and its columns by their inverses, until both have about the same size (B. N.
-// Parlett, C. Reinsch, Numerische Mathematik 13 (1969), 293–304): sweeps make several poles at one place a block of rounding
-// with entries of all sizes, which they cannot take apart then.
+// Scales the rows of a block by powers of two, and its columns by their inverses, until both have about the same size
+// (B. N. Parlett, C. Reinsch, Numerische Mathematik 13 (1969), 293–304): sweeps make several poles at one place a block
+// of rounding with entries of all sizes, which they cannot take apart then.
 void balance(RealMatrix& h, Index low, Index high) {
   const int most_rounds = 20;
   bool changed = true;

@@ -17,7 +17,8 @@ struct Eliminated {
 Eliminated eliminated(const RealMatrix& A);
 Eliminated eliminated(const RealMatrix& A, const RealMatrix& b);
 
-// A solution whose entries are 0 where they are nothing beside the largest one: what elimination leaves of a zero is one.
+// A solution whose entries are 0 where they are nothing beside the largest one: what elimination leaves of a zero is
+// one.
 RealMatrix without_rounding(RealMatrix solution);
 
 }  // namespace lqg::design

@@ -12,8 +12,8 @@ struct ModalBasis {
   std::vector<Index> starts;  // of the blocks, and the end
 };
 
-// Parts of `A` that know nothing of each other are taken apart first, so that they may have the same eigenvalues. Within one
-// part a repeated eigenvalue makes T singular, exactly (empty) or up to the digits.
+// Parts of `A` that know nothing of each other are taken apart first, so that they may have the same eigenvalues.
+// Within one part a repeated eigenvalue makes T singular, exactly (empty) or up to the digits.
 std::optional<ModalBasis> modal_basis(const RealMatrix& A);
 
 }  // namespace lqg::design

@@ -12,8 +12,8 @@ namespace lqg::design {
 // some 0.1 %.
 double structured_norm(const Eigen::MatrixXcd& H);
 
-// The same of many channels: 63 decompositions into singular values, where the time of the above goes like the number of
-// channels times that. Up to 1 % more.
+// The same of many channels: 63 decompositions into singular values, where the time of the above goes like the number
+// of channels times that. Up to 1 % more.
 double structured_norm_of_many(const Eigen::MatrixXcd& H);
 
 // σmax(D H D⁻¹) with the D that balances rows and columns (E. E. Osborne, "On pre-conditioning of matrices", Journal

@@ -168,7 +168,8 @@ void note_noise_at_limits(const Problem& problem, const DesignRun& run, Findings
   }
 }
 
-// What of the inputs a reference of 1 asks for: held for ever, with as many inputs as outputs that have one, and at once.
+// What of the inputs a reference of 1 asks for: held for ever, with as many inputs as outputs that have one, and at
+// once.
 struct Asked {
   RealMatrix held, at_once;
 };

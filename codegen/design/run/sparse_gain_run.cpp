@@ -38,8 +38,8 @@ void explain(const StructureProblem& problem, const StructuredGain& gain, const 
                   " is moved by no gain of this structure: it cannot be stabilised");
 }
 
-// The filter's two forms as one dual problem: K = Lᵀ and X the posterior covariance, or K = L_predictorᵀ and X the prior
-// one. Filter form, with w freed of what v tells of it, w', and M0 = G Swv V⁻¹:
+// The filter's two forms as one dual problem: K = Lᵀ and X the posterior covariance, or K = L_predictorᵀ and X the
+// prior one. Filter form, with w freed of what v tells of it, w', and M0 = G Swv V⁻¹:
 //   e⁺ = (I − LC)((A − M0 C) e + G w') − L v.
 struct DualFilter {
   RiccatiEquation equation;

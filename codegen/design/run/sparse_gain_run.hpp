@@ -17,8 +17,8 @@ void check_structure(const Problem& problem, Findings& findings);
 void keep_regulator_structure(const Problem& problem, const Samples& samples, const DesignRun* coarser,
                               DesignRun& result);
 
-// Filter form: the entries of L, best for the posterior covariance; predictor form: those of L_predictor (then L = 0 and
-// M = L_predictor), best for the prior one. In both the sum of the variances, each in units of the full filter's.
+// Filter form: the entries of L, best for the posterior covariance; predictor form: those of L_predictor (then L = 0
+// and M = L_predictor), best for the prior one. In both the sum of the variances, each in units of the full filter's.
 void keep_estimator_structure(const Problem& problem, const Samples& samples, const DesignRun* coarser,
                               DesignRun& result);
 

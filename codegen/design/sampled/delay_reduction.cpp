@@ -21,8 +21,8 @@ RealMatrix after_inputs(const RegulatedPlant& plant, RealMatrix z, const RealMat
   return z;
 }
 
-// Does the delay postpone all of the cost? Not N of the samples, which weighs u when it is decided; and with a decay, that
-// makes what comes later dearer, neither R of the samples nor the weight of Δu.
+// Does the delay postpone all of the cost? Not N of the samples, which weighs u when it is decided; and with a decay,
+// that makes what comes later dearer, neither R of the samples nor the weight of Δu.
 bool is_postponed(const Problem& problem) {
   const Regulator& lqr = *problem.regulator;
   const bool is_discrete = lqr.cost == Cost::discrete;

@@ -20,8 +20,8 @@ struct Prediction {
 // Empty when the delay has no whole period before a part of one.
 std::optional<Prediction> without_whole_periods(const Problem& problem, const Samples& samples);
 
-// X of the delayed plant's equation `e` from that of the plant with less delay, of an exact prediction. The weights of the
-// steps until then are on inputs that are on their way: with E = the rows that carry weight, α of the pincer,
+// X of the delayed plant's equation `e` from that of the plant with less delay, of an exact prediction. The weights of
+// the steps until then are on inputs that are on their way: with E = the rows that carry weight, α of the pincer,
 //   X = Σ_{k < steps} (E Aᵏ)ᵀ Q_E (E Aᵏ) + α^(2 steps) predictᵀ X_sooner predict.
 RealMatrix cost_after_prediction(const Problem& problem, const RiccatiEquation& e, const Prediction& prediction,
                                  const RealMatrix& X_sooner);

@@ -18,8 +18,9 @@ struct SetPoint {
 // Empty, with a finding under "lqr.track", when there is none.
 std::optional<SetPoint> set_point(const Problem& problem, const SampledPlant& plant, Findings& findings);
 
-// u = −K [x̂ − Nx r; ξ + Γ Nx r; u[k−1] − Nu r] + Nu r:  Nbar = Nu + (K_x − Kξ Γ) Nx; of Δu:  (K' − Kξ Γ) [Nx; Nu], K' = [K_x K_u].
-// Γ of state_share_of_integrals, or empty: at the set point of r ξ rests at −Γ Nx r, where it comes by itself on the way there.
+// u = −K [x̂ − Nx r; ξ + Γ Nx r; u[k−1] − Nu r] + Nu r: Nbar = Nu + (K_x − Kξ Γ) Nx; of Δu: (K' − Kξ Γ) [Nx; Nu], K' =
+// [K_x K_u]. Γ of state_share_of_integrals, or empty: at the set point of r ξ rests at −Γ Nx r, where it comes by
+// itself on the way there.
 RealMatrix feed_forward(const Problem& problem, const RealMatrix& K, const RealMatrix& Gamma,
                         const SetPoint& set_point);
 

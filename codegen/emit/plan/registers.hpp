@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a compiler fits the values of straight-line code into the registers of the target: what it loads, keeps and spills.
+// How a compiler fits the values of straight-line code into the registers of the target: what it loads, keeps and
+// spills.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,8 @@ Chart pole_chart(const Controller& controller);
 // several inputs, or that change with time.
 std::vector<Chart> nyquist_charts(const Controller& controller);
 
-// The sampled plant in double with the controller's gains, from the state that one sample of a small input leaves; no noise.
+// The sampled plant in double with the controller's gains, from the state that one sample of a small input leaves; no
+// noise.
 struct Kick {
   std::string words;  // "u = 0.1 N for one sample"
   std::vector<Chart> charts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The design in words and numbers, for the header's first comment and for the terminal: lines, each part behind an empty one
-// and its heading; empty where the design has no such part.
+// The design in words and numbers, for the header's first comment and for the terminal: lines, each part behind an
+// empty one and its heading; empty where the design has no such part.
 #pragma once
 
 #include <string>

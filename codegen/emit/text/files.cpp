@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 std::string because(const fs::path& path, int error) { return path.string() + ": " + std::strerror(error); }
 
-// What a temporary file is: the new first file, another new one, an old one that comes back if the new ones do not come.
-// As long as there is a first one, the old set is the one that counts.
+// What a temporary file is: the new first file, another new one, an old one that comes back if the new ones do not
+// come. As long as there is a first one, the old set is the one that counts.
 const std::string first = "first", fresh = "new", old = "old", mark = ".lqgen-";
 
 // ".two_mass.h.lqgen-new-4711"
@@ -92,8 +92,8 @@ void clean_up(const Folder& folder) {
   for (const auto& [process, leftovers] : processes) leftovers.settle(folder);
 }
 
-// The files of one call, on their way to their places. The new first file is there before all others, and takes its place
-// when the last old file has gone and before the first new one comes.
+// The files of one call, on their way to their places. The new first file is there before all others, and takes its
+// place when the last old file has gone and before the first new one comes.
 class Transaction {
  public:
   Transaction(const Folder& folder, const std::vector<File>& files) : folder_(folder), files_(files) {

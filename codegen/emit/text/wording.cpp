@@ -56,8 +56,8 @@ std::string filter_name(step::Filter filter) {
 
 namespace {
 
-// A counter as the index of a table with so many rows: it may have been damaged, or never begun, and is not taken as it is.
-// Empty without a table. `last` is the name of the last row in C.
+// A counter as the index of a table with so many rows: it may have been damaged, or never begun, and is not taken as it
+// is. Empty without a table. `last` is the name of the last row in C.
 std::string row(const std::string& counter, std::size_t rows, const std::string& last) {
   if (rows < 2) return "";
   return "((" + counter + " < " + last + ") ? " + counter + " : " + last + ")";

@@ -28,7 +28,8 @@ std::string equation_of_law(const Controller& controller);
 // The library's state of the filter: "steady", "plain", "ud".
 std::string filter_name(step::Filter filter);
 
-// The number as the target has it, without the suffix of a literal; as a double where the target has none, such as a cost.
+// The number as the target has it, without the suffix of a literal; as a double where the target has none, such as a
+// cost.
 std::string number(const design::Real& value, bool is_double);
 
 // Rows under each other, columns aligned, further in by two: "  A = [ 1.0  0.5 ]\n      [ 0.0  1.0 ]\n".

@@ -102,7 +102,8 @@ std::string covariance_check(const Controller& controller) {
          "        }\n";
 }
 
-// In predictor form with a D update needs the input that acted on the recorded outputs, not the one that control has made.
+// In predictor form with a D update needs the input that acted on the recorded outputs, not the one that control has
+// made.
 bool is_told_what_acts(const Controller& controller) {
   return controller.is_predictor && controller.has.feedthrough && controller.has.regulator;
 }
@@ -166,8 +167,8 @@ std::string bits_test(const Controller& controller) {
          (counts_limited ? "    TEST_ASSERT_EQUAL_INT({samples_at_limits}, limited);\n" : "") + "}\n";
 }
 
-// What one sample with a hostile number calls and looks at. The outputs are recorded, and so is the input that acts: with its
-// own the estimate would run away from them wherever a controller is unstable without its plant.
+// What one sample with a hostile number calls and looks at. The outputs are recorded, and so is the input that acts:
+// with its own the estimate would run away from them wherever a controller is unstable without its plant.
 std::string hostile_sample(const Controller& controller) {
   if (controller.linear) return linear_hostile_sample(controller);
   const std::string act = controller.has.regulator ? R"(                (void){name}_control(&self, u);

@@ -34,8 +34,8 @@ class Script {
   // A row of the samples that was not used for a while.
   std::size_t next_row() { return row_ = (row_ + 1) % samples_.size(); }
 
-  // Adds the turns with turns[varied].number on both sides of each place where they answer otherwise: from small numbers of
-  // the sign to the largest. Whatever a bound, a gate or a limit is, it is found here.
+  // Adds the turns with turns[varied].number on both sides of each place where they answer otherwise: from small
+  // numbers of the sign to the largest. Whatever a bound, a gate or a limit is, it is found here.
   void search(std::vector<Turn> turns, std::size_t varied, double sign = 1) {
     constexpr int first = -24, step = 4, most = 3;
     const int last = controller_.target.is_double ? 1020 : 124;
@@ -54,8 +54,8 @@ class Script {
       ++found;
       for (const bool beyond : {false, true}) {
         auto [near, far] = edge(with, low, high);
-        // The bounds of x̂ and ξ are one sum in straight-line code and two in the library: where a quarter of it is below its
-        // bound and four times it is not, both say the same.
+        // The bounds of x̂ and ξ are one sum in straight-line code and two in the library: where a quarter of it is
+        // below its bound and four times it is not, both say the same.
         if (controller_.size.nxi && was_reset(signature_of(with(far)))) near /= 2, far *= 2;
         for (const Turn& turn : with(beyond ? far : near)) add(turn);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the emitted test calls beside the samples of the loop: every function of the header, with outputs that are missing or
-// absurd, at the edge of every bound and limit, with states and inputs set by hand.
+// What the emitted test calls beside the samples of the loop: every function of the header, with outputs that are
+// missing or absurd, at the edge of every bound and limit, with states and inputs set by hand.
 #pragma once
 
 #include <array>
@@ -36,8 +36,8 @@ enum class Call {
   write_z
 };
 
-// A call with a row of the samples: times `number`, or with `number` in place of one entry. An update by one output takes the
-// number alone; a partial update is by that entry alone, or by all others.
+// A call with a row of the samples: times `number`, or with `number` in place of one entry. An update by one output
+// takes the number alone; a partial update is by that entry alone, or by all others.
 struct Turn {
   static constexpr int every_entry = -1;
   Call call = Call::init;

@@ -25,7 +25,8 @@ struct Run {
   std::vector<Vector<S>> u;
 };
 
-// One sample of the physical form that applies its u as it is. `measure` gives y once u is made (predictor form) or before.
+// One sample of the physical form that applies its u as it is. `measure` gives y once u is made (predictor form) or
+// before.
 template <class S, class Measure>
 Vector<S> physical_sample(EmittedController<S>& emitted, Sample& sample, Measure measure) {
   Vector<S> u;

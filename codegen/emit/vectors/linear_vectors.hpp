@@ -6,8 +6,8 @@
 
 namespace lqg::emit {
 
-// For controller.linear: y of a noisy closed loop, u and x̂ as the physical form in many digits has them, and how far the
-// target may be from that with z.
+// For controller.linear: y of a noisy closed loop, u and x̂ as the physical form in many digits has them, and how far
+// the target may be from that with z.
 Vectors linear_vectors(const Controller& controller);
 
 // rms of the error of u, in the target's numbers and for the y of that run, divided by the rms of u: of z where the

@@ -38,7 +38,8 @@ unsigned act(EmittedController<S>& emitted, Vector<S>& u) {
   return emitted.model().K.rows() ? emitted.control(u) : 0;
 }
 
-// Feeds recorded outputs and inputs to the emitted controller; what it answers goes to `hear`, with the events of control.
+// Feeds recorded outputs and inputs to the emitted controller; what it answers goes to `hear`, with the events of
+// control.
 template <class S, class Hear>
 void replay(EmittedController<S>& emitted, const std::vector<Sample>& inputs, Hear hear) {
   for (const Sample& input : inputs) {

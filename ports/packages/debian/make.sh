@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The Debian package: lqgen, the C library, the design engine, the CMake package. What is in it says codegen/cmake/package.cmake.
+# The Debian package: lqgen, the C library, the design engine, the CMake package. What is in it says
+# codegen/cmake/package.cmake.
 #
 #   make.sh <root of the source tree> <output folder>
 #
-# Writes tinylqg_<version>_<architecture>.deb. LQG_BUILD names a finished build folder of TinyLQG; without it everything is
-# built in <output folder>/build.
+# Writes tinylqg_<version>_<architecture>.deb. LQG_BUILD names a finished build folder of TinyLQG; without it everything
+# is built in <output folder>/build.
 set -euo pipefail
 root=$(cd "$1" && pwd)
 mkdir -p "$2"

@@ -5,9 +5,9 @@
 #   make.sh <root of the source tree> <output folder>
 #
 # Writes tinylqg-<version>-py3-none-<platform>.whl. The lqgen in it is lqgen_portable, made
-# of the objects of a build folder's lqgen: of LQG_BUILD; else of that whose codegen/lqgen LQGEN names; else of the one that all
-# scripts share. LQG_LICENSES names the folder of codegen/cmake/licenses.cmake. The tools come from PyPI, those and only those whose hashes are in
-# tools.txt.
+# of the objects of a build folder's lqgen: of LQG_BUILD; else of that whose codegen/lqgen LQGEN names; else of the one
+# that all scripts share. LQG_LICENSES names the folder of codegen/cmake/licenses.cmake. The tools come from PyPI, those
+# and only those whose hashes are in tools.txt.
 set -euo pipefail
 root=$(cd "$1" && pwd)
 mkdir -p "$2"

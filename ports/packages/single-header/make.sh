@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The whole library in one file, tinylqg.h, and beside it lqg/*.h of one line each, which lead the emitted headers there.
+# The whole library in one file, tinylqg.h, and beside it lqg/*.h of one line each, which lead the emitted headers
+# there.
 #
 #   make.sh <root of the source tree> <output folder>
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -24,8 +25,8 @@ check_names "$root/src" "${private[@]}"
 # A file without its licence, which stands at the end, and its includes of other files of the library.
 body_of() { sed "/SPDX-License-Identifier/d; /^#include \"/d" "$1"; }
 
-# The static functions of a file become lqg_static_FILE_NAME: in one file they are beside those of other files and of the
-# user. A name is what stands before a parenthesis, but not after . or ->, which is a member.
+# The static functions of a file become lqg_static_FILE_NAME: in one file they are beside those of other files and of
+# the user. A name is what stands before a parenthesis, but not after . or ->, which is a member.
 static_names() { sed -n 's/^static .*[ *]\([a-z_A-Z0-9]*\)(.*/\1/p' "$1" | sort -u; }
 renaming() {
   local name

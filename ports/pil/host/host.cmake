@@ -2,8 +2,8 @@
 include(${CMAKE_CURRENT_LIST_DIR}/../design.cmake)
 set(lqg_pil_host ${CMAKE_CURRENT_LIST_DIR})
 
-# lqg_add_pil_host(<target>): the program with the plant; lqg_add_controller is the caller's. LQG_PIL_SAMPLES, if it is set, is the
-# folder of a samples.h: what the sensors said in the design's own test takes the place of the robot.
+# lqg_add_pil_host(<target>): the program with the plant; lqg_add_controller is the caller's. LQG_PIL_SAMPLES, if it is
+# set, is the folder of a samples.h: what the sensors said in the design's own test takes the place of the robot.
 function(lqg_add_pil_host target)
   set(pc ${lqg_pil_host}/../../pc)
   if(LQG_PIL_SAMPLES)

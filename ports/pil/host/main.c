@@ -9,9 +9,10 @@
  *     --csv FILE     what every sample took
  *     --svg FILE     the robot's pitch, the first input and what every sample took, as curves
  *
- * Every u, every status and a CRC of the controller's state after every sample are compared with those of the same controller
- * that runs here. Exit status 0: all bits were the same, and the robot stood at the end; 1: they were not, or it did not; 2: the
- * command line is wrong; 3: no connection, damage on the line, or another controller; 4: a file could not be written. */
+ * Every u, every status and a CRC of the controller's state after every sample are compared with those of the same
+ * controller that runs here. Exit status 0: all bits were the same, and the robot stood at the end; 1: they were not,
+ * or it did not; 2: the command line is wrong; 3: no connection, damage on the line, or another controller; 4: a file
+ * could not be written. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

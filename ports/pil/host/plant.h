@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What stands for the plant: the robot of ports/pc, simulated (plant_robot.c); for any other design the samples of its own test,
- * NAME_test.c, which hear nothing of u (plant_samples.c). */
+/* What stands for the plant: the robot of ports/pc, simulated (plant_robot.c); for any other design the samples of its
+ * own test, NAME_test.c, which hear nothing of u (plant_samples.c). */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 

@@ -10,7 +10,8 @@ static const char *const titles[TIMING_ROWS] = {"update", "control", "predict", 
 
 enum { CYCLES_MAX = 8 }; /* that a real processor takes to do nothing; a counter that is faster is an emulator's */
 
-/* On a board a tick is a cycle. An emulator's counter that stands still for a thousand instructions says nothing of one. */
+/* On a board a tick is a cycle. An emulator's counter that stands still for a thousand instructions says nothing of
+ * one. */
 static void choose_unit(timing_t *timing, const pil_hello_t *hello, int emulated)
 {
     timing->frequency = emulated || hello->ticks_of_thousand > 1000 * CYCLES_MAX ? 0.0 : hello->frequency;

@@ -16,8 +16,8 @@ typedef struct {
     double frequency;     /* Hz of the processor; 0: emulated */
 } timing_t;
 
-/* Emulated: the counter's ticks are turned into instructions by what the target measured of a thousand of them. Returns 0, or −1:
- * no memory. */
+/* Emulated: the counter's ticks are turned into instructions by what the target measured of a thousand of them. Returns
+ * 0, or −1: no memory. */
 int timing_start(timing_t *timing, unsigned count, const pil_hello_t *hello, int emulated);
 void timing_end(timing_t *timing);
 

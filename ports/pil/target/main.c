@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The controller on its processor: y comes in over the serial line, u goes out as soon as it is there, and after the prediction
- * what each of the three steps has taken. */
+/* The controller on its processor: y comes in over the serial line, u goes out as soon as it is there, and after the
+ * prediction what each of the three steps has taken. */
 #include "board.h"
 #include "controller.h"
 #include "protocol.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The balancing robot without an operating system: SysTick, once a sample, runs the loop; what is left of the time goes to the
- * report. ROBOT_CLOCK is the processor's in Hz. */
+/* The balancing robot without an operating system: SysTick, once a sample, runs the loop; what is left of the time goes
+ * to the report. ROBOT_CLOCK is the processor's in Hz. */
 #include "../balancer.h"
 #include "../hardware.h"
 #include "../report.h"

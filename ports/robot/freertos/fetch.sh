@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Gets FreeRTOS' kernel, V11.2.0, and prints its folder. It comes with the crate freertos-next from crates.io, by cargo, which
-# compares it with the registry's checksum; the crate itself has to be the one that is named here.
+# Gets FreeRTOS' kernel, V11.2.0, and prints its folder. It comes with the crate freertos-next from crates.io, by cargo,
+# which compares it with the registry's checksum; the crate itself has to be the one that is named here.
 #
 #   ports/robot/freertos/fetch.sh FOLDER
 #

@@ -12,8 +12,8 @@ enum { REPORT_TICKS = configTICK_RATE_HZ / 5 };
 
 static const TickType_t sample_ticks = (TickType_t)(BALANCING_ROBOT_SAMPLE_TIME * configTICK_RATE_HZ + 0.5f);
 
-/* Words. Of the loop's 1024 bytes the simulated robot, whose sines are the deepest of it, uses 708 on a Cortex-M4F: "free stack" in
- * the report is what has never been used. */
+/* Words. Of the loop's 1024 bytes the simulated robot, whose sines are the deepest of it, uses 708 on a Cortex-M4F:
+ * "free stack" in the report is what has never been used. */
 enum { LOOP_STACK = 256, REPORT_STACK = 192 };
 
 static balancer_t balancer;

@@ -10,8 +10,8 @@
 
 static int sees; /* the sensor has answered last time */
 
-/* A program that hangs is reset after 20 ms, and while the processor is in reset the motors have no current. It runs at 32 kHz / 4.
- * It cannot be stopped any more: while a debugger holds the program, too. */
+/* A program that hangs is reset after 20 ms, and while the processor is in reset the motors have no current. It runs at
+ * 32 kHz / 4. It cannot be stopped any more: while a debugger holds the program, too. */
 static void start_watchdog(void)
 {
     IWDG->kr = IWDG_START;

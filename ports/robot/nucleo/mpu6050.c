@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* InvenSense, "MPU-6000 and MPU-6050 Register Map and Descriptions", revision 4.2; the bus as in RM0368, section 18.3.3, "I2C master
- * mode". Everything waits, but never for more than a thousand looks at a flag: at 16 MHz less than a millisecond. */
+/* InvenSense, "MPU-6000 and MPU-6050 Register Map and Descriptions", revision 4.2; the bus as in RM0368, section
+ * 18.3.3, "I2C master mode". Everything waits, but never for more than a thousand looks at a flag: at 16 MHz less than
+ * a millisecond. */
 #include "mpu6050.h"
 
 #include "stm32f401.h"

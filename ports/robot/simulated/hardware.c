@@ -7,7 +7,8 @@
  *     7.0 s   another that it cannot survive: it falls, and has to switch its motors off
  *     9.0 s   the hand again, until 10.5 s
  *    12.0 s   one sample takes longer than the sample time
- *    14.0 s   the end: the program leaves with status 0 if all of this went as it should, else with a bit for what did not */
+ *    14.0 s   the end: the program leaves with status 0 if all of this went as it should, else with a bit for what did
+ *             not */
 #include "../hardware.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Makes the numbers of test_solve.cpp and test_augmentation.cpp: python3 reference.py, with mpmath (https://mpmath.org). Nothing here is
-# shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the stable
-# eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits; for the plant with a delay quadrature
-# of the trajectory's cost, and the Riccati recursion until it stands still.
+# Makes the numbers of test_solve.cpp and test_augmentation.cpp: python3 reference.py, with mpmath (https://mpmath.org).
+# Nothing here is shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the
+# stable eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits; for the plant with a delay
+# quadrature of the trajectory's cost, and the Riccati recursion until it stands still.
 from mpmath import matrix, mp, mpf, eye, expm, quad, zeros
 
 mp.dps = 120

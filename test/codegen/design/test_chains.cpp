@@ -165,7 +165,8 @@ void test_cost_of_a_delayed_loop_is_that_of_its_full_equations_to_the_last_bit()
   }
 }
 
-// With a decay X is no cost of the loop, nor with a continuous cost that of its samples: the equation of the states says it.
+// With a decay X is no cost of the loop, nor with a continuous cost that of its samples: the equation of the states
+// says it.
 void test_cost_without_a_closed_form_is_that_of_any_controller() {
   Problem decaying = delayed(4);
   decaying.regulator->decay = 1.05;

@@ -171,8 +171,8 @@ void test_singular_initial_covariance_has_exact_zeros_in_D0() {
   TEST_ASSERT_TRUE(found.D0(1) == 9);
 }
 
-// A double integrator pushed by white noise of density q, its position seen in white noise of density r: L = (√2 (q/r)^¼, (q/r)^½).
-// (B. D. O. Anderson and J. B. Moore, Optimal Filtering, 1979, have its P.)
+// A double integrator pushed by white noise of density q, its position seen in white noise of density r: L = (√2
+// (q/r)^¼, (q/r)^½). (B. D. O. Anderson and J. B. Moore, Optimal Filtering, 1979, have its P.)
 void test_continuous_gain_of_a_double_integrator() {
   Problem problem = double_integrator(0.1);
   problem.plant.G = Eigen::Vector2d(0, 1);

@@ -123,8 +123,8 @@ void test_eigenvalues_of_a_jordan_block_have_a_part_of_the_digits() {
     expect_small(abs(hypot(value.re - 0.5, value.im) - 1e-12), 1e-20, "the distance from 0.5, less 1e-12");
 }
 
-// Three Jordan chains at 0, in other coordinates: of each eigenvalue a third, a fourth … of the digits is there, and a sweep
-// brings no more than a bit of it.
+// Three Jordan chains at 0, in other coordinates: of each eigenvalue a third, a fourth … of the digits is there, and a
+// sweep brings no more than a bit of it.
 void test_eigenvalues_of_several_jordan_chains_are_found() {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (Index length = 2; length <= 5; ++length) {

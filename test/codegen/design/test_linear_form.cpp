@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The controller as one linear system: equal to update, control and predict for any outputs, and refused where it is not
-// or where the target cannot bear it.
+// The controller as one linear system: equal to update, control and predict for any outputs, and refused where it is
+// not or where the target cannot bear it.
 #include <Eigen/LU>
 #include <cmath>
 #include <string>
@@ -254,9 +254,9 @@ void test_what_has_no_linear_form_says_why() {
   expect_obstacle(problem, "an estimator");
 }
 
-// (s − 5)/(s² − 100): a pole between two zeros outside of the stable region, 5 and infinity. No stable controller can have
-// it. (D. C. Youla, J. J. Bongiorno, C. N. Lu, "Single-loop feedback-stabilization of linear multivariable dynamical
-// plants", Automatica 10 (1974), 159–173.)
+// (s − 5)/(s² − 100): a pole between two zeros outside of the stable region, 5 and infinity. No stable controller can
+// have it. (D. C. Youla, J. J. Bongiorno, C. N. Lu, "Single-loop feedback-stabilization of linear multivariable
+// dynamical plants", Automatica 10 (1974), 159–173.)
 void test_controller_that_is_unstable_by_itself_is_refused() {
   Problem problem = problem_of(Domain::continuous, 0.05, (Eigen::MatrixXd(2, 2) << 0, 1, 100, 0).finished(),
                                Eigen::MatrixXd(Eigen::Vector2d(0, 1)), Eigen::MatrixXd(Eigen::RowVector2d(-5, 1)));

@@ -325,8 +325,8 @@ void test_loop_without_crossings_has_no_gain_and_phase_margin() {
   TEST_ASSERT_TRUE(*found.loop.at_input.disk == 2);
 }
 
-// Without noise the filter of a stable plant answers no output: every disk is 2, and no place is better than another. To
-// look into each of them took half a minute; a second is plenty.
+// Without noise the filter of a stable plant answers no output: every disk is 2, and no place is better than another.
+// To look into each of them took half a minute; a second is plenty.
 void test_loop_of_several_channels_without_feedback_takes_no_search() {
   Problem problem = problem_of(Domain::discrete, 0.1, MatrixXd::Constant(1, 1, -0.6), Eigen::RowVector3d(-0.5, -1, 2.5),
                                Eigen::Vector4d(1.2, -0.1, -0.8, 0.1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Designs that are formally right and of little use: each has a note at the key to look at, and designs that are as they
-// should be have none.
+// Designs that are formally right and of little use: each has a note at the key to look at, and designs that are as
+// they should be have none.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -144,7 +144,8 @@ void test_reference_that_asks_for_more_than_the_limits_allow() {
   expect_note(problem, "limits.u_max[0]", "a reference of 1 for angle takes for ever 0.0234");
 }
 
-// 1 + 3e-7 is 1 + 3.58e-7 as a float: what the filter's model grows by is a fifth off, as is then the filter's pole, 1 − 3e-7.
+// 1 + 3e-7 is 1 + 3.58e-7 as a float: what the filter's model grows by is a fifth off, as is then the filter's pole, 1
+// − 3e-7.
 void test_rounding_that_moves_the_slowest_pole() {
   Problem problem = problem_of(Domain::discrete, 1e-3, Eigen::Vector2d(1 + 3e-7, 0.5).asDiagonal(),
                                Eigen::Vector2d(1e-5, 1), MatrixXd::Ones(1, 2));

@@ -242,7 +242,8 @@ void test_zero_on_the_circle_under_free_inputs() {
   expect_refusal(problem, "lqr.Q", {"tends to z = -1", "no stabilising gain is optimal"});
 }
 
-// (x0 − x1)² of x⁺ = [x1; u]: u = x1 keeps it 0 for ever, and x where it is. The pole at 1 is one as a double with few digits.
+// (x0 − x1)² of x⁺ = [x1; u]: u = x1 keeps it 0 for ever, and x where it is. The pole at 1 is one as a double with few
+// digits.
 void test_pole_that_tends_to_exactly_one() {
   Problem problem =
       regulator_alone(Domain::discrete, 1, (MatrixXd(2, 2) << 0, 1, 0, 0).finished(), Eigen::Vector2d(0, 1));

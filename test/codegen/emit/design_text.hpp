@@ -37,8 +37,8 @@ DesignText double_integrator();
 // `count` of them that know nothing of each other, in one design.
 DesignText double_integrators(int count);
 
-// A plant with nx states and a Kalman filter and a regulator for it, everything by chance: domains, costs, noises, forms,
-// D, cross noise, correlated V, limits, precision and arithmetic.
+// A plant with nx states and a Kalman filter and a regulator for it, everything by chance: domains, costs, noises,
+// forms, D, cross noise, correlated V, limits, precision and arithmetic.
 DesignText random_design(Random& random, int nx);
 
 }  // namespace lqg_test

@@ -53,8 +53,8 @@ void test_bounds_are_far_from_what_a_filter_does_not_know() {
   }
 }
 
-// Position in mm instead of m: its bound and that of its output are those numbers a thousand times as large, or as near as
-// powers of 256 are; the speed's stays.
+// Position in mm instead of m: its bound and that of its output are those numbers a thousand times as large, or as near
+// as powers of 256 are; the speed's stays.
 void test_bounds_follow_the_units() {
   DesignText design = double_integrator();
   const Bounds in_m = bounds_of(design);

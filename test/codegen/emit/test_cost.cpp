@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flash and stack that are stated, without the compiler that they are stated for: how values fit into registers, and the shipped designs
-// against what that compiler once made. test/bench/estimates.sh compares with the compiler itself.
+// Flash and stack that are stated, without the compiler that they are stated for: how values fit into registers, and
+// the shipped designs against what that compiler once made. test/bench/estimates.sh compares with the compiler itself.
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -36,7 +36,8 @@ Expr input(Graph& graph, int i) {
   return Expr::of(graph.input("x[" + index + "]", "x_" + index));
 }
 
-// y = 0.3 x0 + 2 x1, counted by hand: two loads, two constants of which 2 is an immediate one, four operations, one store.
+// y = 0.3 x0 + 2 x1, counted by hand: two loads, two constants of which 2 is an immediate one, four operations, one
+// store.
 void test_a_sum_of_products() {
   Graph graph({});
   const Recording recording(graph);
@@ -52,7 +53,8 @@ void test_a_sum_of_products() {
   TEST_ASSERT_EQUAL_INT(0, count.spills + count.reloads + count.slots);
 }
 
-// Squares of 12 inputs that all wait for a second use at the end: 12 registers hold them; with 8, some have to wait in memory.
+// Squares of 12 inputs that all wait for a second use at the end: 12 registers hold them; with 8, some have to wait in
+// memory.
 void test_values_that_find_no_register_are_spilled() {
   Graph graph({});
   const Recording recording(graph);
@@ -90,7 +92,8 @@ void expect_stated(const char* name, const char* what, long stated, long compile
   TEST_ASSERT_TRUE_MESSAGE(stated >= compiled && stated <= compiled + compiled * 15 / 100 + 24, message.c_str());
 }
 
-// Compiled: by test/bench/estimates.sh with Debian's arm-none-eabi-gcc 12.2.1 20221205 (15:12.2.rel1-1), each as its file says.
+// Compiled: by test/bench/estimates.sh with Debian's arm-none-eabi-gcc 12.2.1 20221205 (15:12.2.rel1-1), each as its
+// file says.
 void test_shipped_designs_are_stated_as_they_were_compiled() {
   constexpr struct {
     const char* name;

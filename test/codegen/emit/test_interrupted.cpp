@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is written when lqgen is killed at any moment, when two of them run at once, and when somebody has put links in the way.
+// What is written when lqgen is killed at any moment, when two of them run at once, and when somebody has put links in
+// the way.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/ptrace.h>
@@ -57,7 +58,8 @@ std::size_t entries() {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-// Runs `work` in a process of its own up to the stop of that number: before or behind a system call. 0: it has ended before.
+// Runs `work` in a process of its own up to the stop of that number: before or behind a system call. 0: it has ended
+// before.
 template <class Work>
 pid_t stopped_at(int stop, Work work) {
   const pid_t child = ::fork();

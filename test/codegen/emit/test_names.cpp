@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No two things that a header defines have one name, and none has that of a type or a header that the firmware may know: whatever
-// the design and its signals are called.
+// No two things that a header defines have one name, and none has that of a type or a header that the firmware may
+// know: whatever the design and its signals are called.
 #include <map>
 #include <regex>
 #include <set>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of every size in every key: a controller whose numbers are numbers of its target, or a refusal that names a key.
+// Numbers of every size in every key: a controller whose numbers are numbers of its target, or a refusal that names a
+// key.
 #include <regex>
 #include <stdexcept>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Controllers that keep z: what is emitted passes its own test, does what the physical form does, in faults too, and the
-// numbers of NAME.json say the same.
+// Controllers that keep z: what is emitted passes its own test, does what the physical form does, in faults too, and
+// the numbers of NAME.json say the same.
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
@@ -60,7 +60,8 @@ void test_emitted_forms_pass_their_own_test() {
         }
 }
 
-// L has a column of zeros: no u and no z is made of the second output. The emitted test asks that NaN in it is reported.
+// L has a column of zeros: no u and no z is made of the second output. The emitted test asks that NaN in it is
+// reported.
 void test_an_output_that_nothing_is_made_of_is_looked_at() {
   for (const char* form : {"filter", "predictor"})
     for (const char* realisation : {"folded", "modal"}) {
@@ -149,8 +150,8 @@ void test_nothing_is_said_of_forms_when_none_is_asked_for() {
   TEST_ASSERT_FALSE(made.contains("compensator") || made["code"].contains("realisation"));
 }
 
-// Both headers in one program, in a loop around a plant: every third sample an output is missing, one or the other or both.
-// What is missing has come as expected in both forms, so that u stays the same but for rounding.
+// Both headers in one program, in a loop around a plant: every third sample an output is missing, one or the other or
+// both. What is missing has come as expected in both forms, so that u stays the same but for rounding.
 void test_missing_outputs_mean_the_same_in_every_form() {
   const std::string program = R"(
 #include <math.h>
@@ -205,7 +206,8 @@ int main(void)
     }
 }
 
-// x̂ by hand comes back: in predictor form as it is; in filter form after an output that came as expected, which leaves it.
+// x̂ by hand comes back: in predictor form as it is; in filter form after an output that came as expected, which leaves
+// it.
 void test_state_set_by_hand_is_the_estimate() {
   const std::string program = R"(
 #include <math.h>

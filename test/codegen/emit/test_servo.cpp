@@ -176,9 +176,9 @@ void run_in_both_styles(Controller controller, const std::string& body,
   }
 }
 
-// 500 samples at the limit of 0.5 with an error of 1000, before a plant that does not move: without a correction ξ were 50000. With it ξ
-// stays where H takes back in each sample what the error adds, 2 ξ = 0.5 + 100/0.3.
-// Once the error has gone, a sample leaves 1 − 2 · 0.3 of what is beyond the limit.
+// 500 samples at the limit of 0.5 with an error of 1000, before a plant that does not move: without a correction ξ were
+// 50000. With it ξ stays where H takes back in each sample what the error adds, 2 ξ = 0.5 + 100/0.3. Once the error has
+// gone, a sample leaves 1 − 2 · 0.3 of what is beyond the limit.
 void test_an_integral_does_not_wind_up_at_a_limit() {
   run_in_both_styles(changed(limited_double_integrator(), integrate_position), R"(
     float most = 0;

@@ -50,7 +50,8 @@ void test_a_gate_beside_everything_else() {
   }
 }
 
-// kalman.gate alone is as wide as the file has it; a spike is only looked for where nobody has said anything, or has asked.
+// kalman.gate alone is as wide as the file has it; a spike is only looked for where nobody has said anything, or has
+// asked.
 void test_the_narrower_one_of_gate_and_spike_is_the_threshold() {
   const double infinity = std::numeric_limits<double>::infinity();
   struct Case {

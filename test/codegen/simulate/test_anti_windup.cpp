@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What ξ does at a limit: the law that is shipped against others, on several plants. With an argument it prints every law's figures.
+// What ξ does at a limit: the law that is shipped against others, on several plants. With an argument it prints every
+// law's figures.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -115,7 +116,8 @@ MatrixXd in_double(const RealMatrix& from) {
   return from.unaryExpr([](const Real& entry) { return to_double(entry); });
 }
 
-// The laws that are compared: which H, and whether r leads as by the model (Γ) or ξ is left out of it. Clamping holds ξ at a limit.
+// The laws that are compared: which H, and whether r leads as by the model (Γ) or ξ is left out of it. Clamping holds ξ
+// at a limit.
 struct Law {
   const char* name;
   double conditioning;  // share of H_input; −1: H
@@ -147,7 +149,8 @@ struct Case {
   double gain;
 };
 
-// Seconds until the error stays within 1 % of the step (a load: from the middle of the run on); overshoot as a share of the step.
+// Seconds until the error stays within 1 % of the step (a load: from the middle of the run on); overshoot as a share of
+// the step.
 struct Response {
   double settling = infinity, overshoot = 0;
 };
@@ -238,8 +241,8 @@ std::map<std::string, Score> compare(bool prints) {
   return scores;
 }
 
-// 1 rad at ±20 V, which the limits alone make last more than 10 ms: with the weights of ξ a hundred thousand apart. The law without ξ
-// goes 13 % too far at these limits, too.
+// 1 rad at ±20 V, which the limits alone make last more than 10 ms: with the weights of ξ a hundred thousand apart. The
+// law without ξ goes 13 % too far at these limits, too.
 void test_a_servo_settles_within_60_ms_whatever_its_integral_weighs() {
   for (const double q : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
     const Plant plant = servo({q}, {});

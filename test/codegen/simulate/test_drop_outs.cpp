@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A plain P, tried in the target's numbers: silence before it is looked at decides how much is lost when outputs come back.
+// A plain P, tried in the target's numbers: silence before it is looked at decides how much is lost when outputs come
+// back.
 #include <unity.h>
 
 #include "simulate/drop_outs.hpp"
@@ -11,7 +12,8 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// Positions measured to 3e-5; the covariance grows to 1e3 and more while they are missing, of which a float forgets ε P.
+// Positions measured to 3e-5; the covariance grows to 1e3 and more while they are missing, of which a float forgets ε
+// P.
 Problem precise_sensors(double initial_variance) {
   Problem problem = two_mass();
   problem.regulator.reset();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a caller sets and looks at between two samples: the state, its covariance, the outputs that an update leaves out.
+// What a caller sets and looks at between two samples: the state, its covariance, the outputs that an update leaves
+// out.
 #include <cmath>
 #include <limits>
 

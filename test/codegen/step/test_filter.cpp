@@ -16,9 +16,9 @@ using Long = Textbook::Number;
 
 constexpr int controllers = 40, samples = 150;
 
-// The largest error of a filter in the precision S, relative to the largest entry: a sample makes at most 8 nx (nx + ny)
-// roundings of half an ε that count, about the square root of that many add up, S⁻¹ amplifies them by its condition, and
-// poles within 0.9 forget them in 1/(1 − 0.9) samples.
+// The largest error of a filter in the precision S, relative to the largest entry: a sample makes at most 8 nx (nx +
+// ny) roundings of half an ε that count, about the square root of that many add up, S⁻¹ amplifies them by its
+// condition, and poles within 0.9 forget them in 1/(1 − 0.9) samples.
 template <class S>
 double tolerance(const Model<S>& model, const Textbook& textbook) {
   const double roundings = std::sqrt(8.0 * model.nx * (model.nx + model.ny)), memory = 1 / (1 - 0.9);

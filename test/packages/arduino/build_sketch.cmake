@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DBUILDER=… -DHARDWARE=… -DLIBRARIES=… -DBOARD=uno -DSKETCH=… -DFOLDER=… -P build_sketch.cmake: builds a sketch with
-# arduino-builder, which fails where it does not fit the board, and says how large it is.
+# cmake -DBUILDER=… -DHARDWARE=… -DLIBRARIES=… -DBOARD=uno -DSKETCH=… -DFOLDER=… -P build_sketch.cmake: builds a sketch
+# with arduino-builder, which fails where it does not fit the board, and says how large it is.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 set(cpu)

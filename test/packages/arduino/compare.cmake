@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DCXX=… -DSKETCH=… -DLIBRARY=… -DSTAND_IN=… -DWORK=… -DUNO=… -DELF=… -P compare.cmake: the sketch prints the same on
-# the simulated Uno and compiled for the PC, but for lines with #; and the motor comes to rest.
+# cmake -DCXX=… -DSKETCH=… -DLIBRARY=… -DSTAND_IN=… -DWORK=… -DUNO=… -DELF=… -P compare.cmake: the sketch prints the
+# same on the simulated Uno and compiled for the PC, but for lines with #; and the motor comes to rest.
 file(WRITE ${WORK}/pc.cpp "#include \"Arduino.h\"\n#include \"${SKETCH}\"\nint main() { setup(); loop(); }\n")
 execute_process(COMMAND ${CXX} -std=c++11 -O2 -ffp-contract=off -I${STAND_IN} -I${LIBRARY}/src ${WORK}/pc.cpp -o ${WORK}/pc
                 COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPYTHON=… -DEXAMPLE=… -P plant.cmake: plant.py prints, for the robot of the design, the plant that is in the design.
+# cmake -DPYTHON=… -DEXAMPLE=… -P plant.cmake: plant.py prints, for the robot of the design, the plant that is in the
+# design.
 execute_process(COMMAND ${PYTHON} ${EXAMPLE}/plant.py OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${EXAMPLE}/balancing_robot.toml design)
 string(REGEX REPLACE "#[^\n]*" "" design "${design}")

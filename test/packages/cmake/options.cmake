@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DFOLDER=… -DEXPECTED=… -P options.cmake -- <option>…: configures the project `options` with the options and builds it;
-# it has to end in EXPECTED, or to succeed where that is empty.
+# cmake -DFOLDER=… -DEXPECTED=… -P options.cmake -- <option>…: configures the project `options` with the options and
+# builds it; it has to end in EXPECTED, or to succeed where that is empty.
 include(${CMAKE_CURRENT_LIST_DIR}/arguments_after_dashes.cmake)
 file(REMOVE_RECURSE ${FOLDER})
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/options -B ${FOLDER} ${options}

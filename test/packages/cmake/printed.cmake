@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# cmake -DFORM=<first line of the CMake project> -DFOLDER=… -DTINYLQG=<source tree> -P printed.cmake -- <option>…: the project of the
-# README with its design, its program and what stands for the hardware, configured with the options and built. Nothing of the
-# library is compiled: the controller needs none. FORM is find_package, add_subdirectory or FetchContent.
+# cmake -DFORM=<first line of the CMake project> -DFOLDER=… -DTINYLQG=<source tree> -P printed.cmake -- <option>…: the
+# project of the README with its design, its program and what stands for the hardware, configured with the options and
+# built. Nothing of the library is compiled: the controller needs none. FORM is find_package, add_subdirectory or
+# FetchContent.
 include(${CMAKE_CURRENT_LIST_DIR}/arguments_after_dashes.cmake)
 file(READ ${TINYLQG}/README.md readme)
 

@@ -35,10 +35,12 @@ class Loops(InFolder):
             if "lqr" not in design:
                 continue
             loop = control.feedback(design.to_control("sensed"), design.to_control("controller"), sign=+1)
-            # Where y is made of the input before, plant and controller keep it both: poles at 0 that lqgen's loop has not.
+            # Where y is made of the input before, plant and controller keep it both: poles at 0 that lqgen's loop has
+            # not.
             count = loop.nstates
             self.assertIn(count - len(design.loop.poles), (0, len(design.plant.inputs) * (design.plant.D.any() + 1)))
-            # A coefficient of n poles within the unit circle is at most binomial(n, n/2), n 4.5e-16 of which is rounding.
+            # A coefficient of n poles within the unit circle is at most binomial(n, n/2), n 4.5e-16 of which is
+            # rounding.
             error = abs(polynomial(loop.poles(), count) - polynomial(design.loop.poles, count)).max()
             self.assertLess(error, 1e-14 * 2.0**count, file.name)
             closed += 1

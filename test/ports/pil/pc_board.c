@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* A board that is a program of the PC: the target's own text, its serial line being standard input and output. One byte of what
- * it says can be damaged on the way:
+/* A board that is a program of the PC: the target's own text, its serial line being standard input and output. One byte
+ * of what it says can be damaged on the way:
  *
- *     PIL_FAULT=flip:N   byte N has one bit wrong, and the counter stands still: what it measures may look like the beginning of
- *                        a frame, and a damaged frame with another one inside counts as two
+ *     PIL_FAULT=flip:N   byte N has one bit wrong, and the counter stands still: what it measures may look like the
+ *                        beginning of a frame, and a damaged frame with another one inside counts as two
  *     PIL_FAULT=drop:N   byte N is lost
  *     PIL_FAULT=junk:N   before byte N come others, the beginning of a frame among them
  *     PIL_FAULT=end:N    the board dies
  *     PIL_FAULT=deaf:N   byte N of what it hears is lost
  *     PIL_FAULT=hears:N  byte N of what it hears has one bit wrong
  *     PIL_FAULT=still:1  its counter stands still
- *     PIL_FAULT=dear:1   reading its counter is dear at first: the frame takes 100 ticks, a thousand instructions 1000 more, and every
- *                        step with its frame 50 */
+ *     PIL_FAULT=dear:1   reading its counter is dear at first: the frame takes 100 ticks, a thousand instructions 1000
+ *                        more, and every step with its frame 50 */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

@@ -201,7 +201,8 @@ static void test_length_beyond_the_largest_is_no_frame(void)
     TEST_ASSERT_EQUAL_UINT(1, found_count);
 }
 
-/* A million random bytes, one in eight a sync byte: the buffer is never left, and a good frame gets through afterwards. */
+/* A million random bytes, one in eight a sync byte: the buffer is never left, and a good frame gets through
+ * afterwards. */
 static void test_noise_never_blocks_the_line(void)
 {
     uint32_t state = 2463534242u;

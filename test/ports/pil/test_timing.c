@@ -41,7 +41,8 @@ static void test_counter_may_wrap_in_a_step(void)
             }
 }
 
-/* What a counter has above its mask counts for nothing: one that runs downwards in 24 bits of a wider word may have ones there. */
+/* What a counter has above its mask counts for nothing: one that runs downwards in 24 bits of a wider word may have
+ * ones there. */
 static void test_bits_above_the_mask_are_not_read(void)
 {
     TEST_ASSERT_EQUAL_UINT32(40, pil_ticks(0xAB000010, 0x12000048, bits_24, 16));

@@ -3,8 +3,8 @@
  *
  *     nucleo robot_bare_metal.bin
  *
- * The processor's instructions are Unicorn's, its peripherals those of stm32_model.c, the robot that of ports/pc. It lies, is held
- * upright, let go and pushed, loses its sensor, falls, gets it back and is put up again. */
+ * The processor's instructions are Unicorn's, its peripherals those of stm32_model.c, the robot that of ports/pc. It
+ * lies, is held upright, let go and pushed, loses its sensor, falls, gets it back and is put up again. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The STM32F401 of the robot, as far as its firmware uses it, by ST's RM0368: strict, so that what the manual forbids is a complaint.
- * At its pins: an MPU-6050, two encoders, two motors behind a TB6612FNG. */
+/* The STM32F401 of the robot, as far as its firmware uses it, by ST's RM0368: strict, so that what the manual forbids
+ * is a complaint. At its pins: an MPU-6050, two encoders, two motors behind a TB6612FNG. */
 #ifndef STM32_MODEL_H
 #define STM32_MODEL_H
 

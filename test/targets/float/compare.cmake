@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPC=<program for the PC> -DTARGET=<command that runs the target's>… -P compare.cmake: the two say the same but for
-# lines with #.
+# cmake -DPC=<program for the PC> -DTARGET=<command that runs the target's>… -P compare.cmake: the two say the same but
+# for lines with #.
 foreach(where IN ITEMS PC TARGET)
   execute_process(COMMAND ${${where}} OUTPUT_VARIABLE said RESULT_VARIABLE status)
   if(NOT status EQUAL 0)

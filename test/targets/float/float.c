@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* What a target's float operations make of random numbers of every kind: prints a hash of the results for each operation
- * and each pair of kinds. The PC rounds as IEEE 754 says, so a target whose lines are the same does, too.
+/* What a target's float operations make of random numbers of every kind: prints a hash of the results for each
+ * operation and each pair of kinds. The PC rounds as IEEE 754 says, so a target whose lines are the same does, too.
  *
- * A quotient below 2⁻¹²⁶ is not in the hashes: avr-libc rounds a few of them to the wrong neighbour. It is compared with
- * an integer division instead; the line with # counts those that differ, and one that is off by more than the last bit
- * gives exit status 1. */
+ * A quotient below 2⁻¹²⁶ is not in the hashes: avr-libc rounds a few of them to the wrong neighbour. It is compared
+ * with an integer division instead; the line with # counts those that differ, and one that is off by more than the last
+ * bit gives exit status 1. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

@@ -18,8 +18,8 @@
  *   VIN   battery, and TB6612FNG VM
  *   GND   ground of all of them
  *
- * The MPU-6050 lies flat when the robot is upright, its X arrow to the front, its Y arrow to the left. Forward is the way
- * in which both wheels count up: where one counts down, exchange its channels A and B.
+ * The MPU-6050 lies flat when the robot is upright, its X arrow to the front, its Y arrow to the left. Forward is the
+ * way in which both wheels count up: where one counts down, exchange its channels A and B.
  *
  * Timer 1 makes the PWM of pins 9 and 10, timer 2 is the clock of the loop: no tone(), no Servo. */
 #ifndef HARDWARE_H
