@@ -3,6 +3,7 @@
 
 Everything is written below the current folder. CC is the compiler.
 """
+
 import json
 import math
 import os
@@ -14,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 CC = shlex.split(os.environ.get("CC", "cc"))
-ASSUMED_VARIANCE = 1e-4                             # beside an observer, whose design says nothing of noise
+ASSUMED_VARIANCE = 1e-4  # beside an observer, whose design says nothing of noise
 UNSTABLE = 1 + 1e-6
 
 
@@ -130,8 +131,11 @@ def array(name, rows, kind="double"):
 
 def table(name: str, numbers) -> str:
     """Where these numbers of the controller's state are, of which members() has names and types."""
-    rows = "".join(f'    {{"{member}", offsetof(OF(t), {member}), sizeof(((OF(t) *)0)->{member}), sizeof({kind}), '
-                   f'{int(kind in ("float", "double"))}}},\n' for member, kind in numbers)
+    rows = "".join(
+        f'    {{"{member}", offsetof(OF(t), {member}), sizeof(((OF(t) *)0)->{member}), sizeof({kind}), '
+        f'{int(kind in ("float", "double"))}}},\n'
+        for member, kind in numbers
+    )
     return f"static const struct member {name}[] = {{\n{rows}}};\n"
 
 

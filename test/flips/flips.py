@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Flips each bit of each number of a controller's state, one at a time, in closed loop with its plant; flips.c is the loop.
+"""Flips each bit of each number of a controller's state, one at a time, in closed loop with its plant; flips.c is the
+loop.
 
     flips.py <build> DESIGN.toml|SEED STYLE [--sample N] [--list] [--deaf]
 
-After NAME_RECOVERY_SAMPLES the loop has to be back where it would be without the flip, to what the noise explains. A SEED
-is that of a random design. --sample N takes N flips, evenly. --list prints those that physics forbids to forget, too.
---deaf takes out of a straight-line header that a P that is none begins anew: then some are not forgotten. Everything is written
-below the current folder. CC is the compiler.
+After NAME_RECOVERY_SAMPLES the loop has to be back where it would be without the flip, to what the noise explains. A
+SEED is that of a random design. --sample N takes N flips, evenly. --list prints those that physics forbids to forget,
+too. --deaf takes out of a straight-line header that a P that is none begins anew: then some are not forgotten.
+Everything is written below the current folder. CC is the compiler.
 
-Exit status 0: all flips are forgotten, or physics forbids it, or lqgen refuses a random design; 1: some are not; 2: something is
-not there.
+Exit status 0: all flips are forgotten, or physics forbids it, or lqgen refuses a random design; 1: some are not; 2:
+something is not there.
 """
+
 import argparse
 import math
 import re
@@ -22,8 +24,8 @@ from pathlib import Path
 from closed_loop import array, build_program, generate, members, plant_of, plant_text, run, stop, table
 
 COUNTED = {"resets", "covariance_resets", "gated"}  # what was counted is not used
-CALLERS = {"r"}                                     # written by the caller
-LARGE = 1e30                                        # where a form without bounds computes no more
+CALLERS = {"r"}  # written by the caller
+LARGE = 1e30  # where a form without bounds computes no more
 
 
 def flips_text(design, limits: dict, header: str) -> str:

@@ -11,6 +11,7 @@ folder. CC is the compiler.
 
 Exit status 0: nothing was taken for a fault; 1: something was; 2: something is not there, or lqgen refuses the design.
 """
+
 import argparse
 import math
 import sys
@@ -19,7 +20,7 @@ from pathlib import Path
 
 from closed_loop import array, build_program, generate, members, plant_of, plant_text, run, square_root, table
 
-SILENCE = 10                                        # s
+SILENCE = 10  # s
 
 
 def start_of(plant, kalman: dict):

@@ -17,8 +17,11 @@ BY_HAND = ("include/lqg/", "ports/packages/arduino/", "test/golden/")
 def sources(root, chosen):
     command = ["git", "-c", f"safe.directory={root.resolve()}", "ls-files", "-z", "--", *chosen]
     listed = subprocess.run(command, cwd=root, check=True, capture_output=True).stdout.decode()
-    return [name for name in listed.split("\0")
-            if Path(name).suffix in STYLES and not name.startswith(BY_HAND) and (root / name).is_file()]
+    return [
+        name
+        for name in listed.split("\0")
+        if Path(name).suffix in STYLES and not name.startswith(BY_HAND) and (root / name).is_file()
+    ]
 
 
 def laid_out(program, root, name):
@@ -51,8 +54,10 @@ def main():
             if old != new and fix:
                 (root / name).write_bytes(new)
             elif old != new:
-                print(f"{name}:{first_difference(old, new)}: clang-format lays this out in another way: "
-                      "python3 test/github/layout.py --fix clang-format .")
+                print(
+                    f"{name}:{first_difference(old, new)}: clang-format lays this out in another way: "
+                    "python3 test/github/layout.py --fix clang-format ."
+                )
                 failed = True
     return failed
 

@@ -13,8 +13,9 @@ EMITTED = ("test/golden/",)
 
 def main():
     root = Path(sys.argv[1])
-    listed = subprocess.run(["git", "-c", f"safe.directory={root.resolve()}", "ls-files", "-z"], cwd=root, check=True,
-                            capture_output=True).stdout.decode()
+    listed = subprocess.run(
+        ["git", "-c", f"safe.directory={root.resolve()}", "ls-files", "-z"], cwd=root, check=True, capture_output=True
+    ).stdout.decode()
     failed = False
     for name in listed.split("\0"):
         path = root / name

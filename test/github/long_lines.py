@@ -11,8 +11,9 @@ LIMIT = 120
 
 
 def tracked(root):
-    listed = subprocess.run(["git", "-c", f"safe.directory={root.resolve()}", "ls-files", "-z"], cwd=root, check=True,
-                            capture_output=True).stdout.decode()
+    listed = subprocess.run(
+        ["git", "-c", f"safe.directory={root.resolve()}", "ls-files", "-z"], cwd=root, check=True, capture_output=True
+    ).stdout.decode()
     return [name for name in listed.split("\0") if name and (root / name).is_file()]
 
 
@@ -23,8 +24,11 @@ def long_lines(path):
     except UnicodeDecodeError:
         return []
     is_row = path.suffix == ".md"
-    return [number for number, line in enumerate(lines, 1)
-            if len(line) > LIMIT and not (is_row and line.lstrip().startswith("|"))]
+    return [
+        number
+        for number, line in enumerate(lines, 1)
+        if len(line) > LIMIT and not (is_row and line.lstrip().startswith("|"))
+    ]
 
 
 def exceptions(text):
@@ -38,8 +42,10 @@ def main():
     for name in tracked(root):
         found, most = long_lines(root / name), allowed.get(name, 0)
         if len(found) > most:
-            print(f"{name}:{found[-1]}: expected at most {most} lines of more than {LIMIT} characters, "
-                  f"found {len(found)}: break them")
+            print(
+                f"{name}:{found[-1]}: expected at most {most} lines of more than {LIMIT} characters, "
+                f"found {len(found)}: break them"
+            )
             failed = True
         elif len(found) < most:
             print(f"note: {name} has {len(found)} long lines: {sys.argv[2]} may say so")

@@ -48,8 +48,10 @@ class NamedPaths(unittest.TestCase):
     def test_a_link_of_a_document(self):
         name = ".github/CONTRIBUTING.md"
         self.assertEqual(self.check(name, "[a](../test/README.md) [b](CONTRIBUTING.md)\n"), [])
-        self.assertEqual(self.check(name, "[a](test/README.md)\n[b](../README.md)\n"),
-                         [f"{name}:1: test/README.md", f"{name}:2: ../README.md"])
+        self.assertEqual(
+            self.check(name, "[a](test/README.md)\n[b](../README.md)\n"),
+            [f"{name}:1: test/README.md", f"{name}:2: ../README.md"],
+        )
 
     def test_a_heading_of_a_link(self):
         name = ".github/CONTRIBUTING.md"

@@ -4,6 +4,7 @@
 
 Fails for a finding that no row of the table covers, and for a row that no finding needs.
 """
+
 import argparse
 import fnmatch
 import pathlib
@@ -51,8 +52,18 @@ def emit(lqgen, root, output):
 
 def findings(cppcheck, output, path, options):
     """{(file, rule): a line} of what is found in a file and in what it includes."""
-    command = [cppcheck, "--std=c99", "--language=c", "--addon=misra", "--quiet", "--template={file}:{line}: {id}",
-               f"-I{output / 'include'}", f"-I{output / 'src'}", *options, path]
+    command = [
+        cppcheck,
+        "--std=c99",
+        "--language=c",
+        "--addon=misra",
+        "--quiet",
+        "--template={file}:{line}: {id}",
+        f"-I{output / 'include'}",
+        f"-I{output / 'src'}",
+        *options,
+        path,
+    ]
     result = subprocess.run(command, check=False, capture_output=True, text=True)
     found = {}
     for line in (result.stdout + result.stderr).splitlines():

@@ -5,11 +5,13 @@
     mutants.py <build> header DESIGN.toml STYLE [--sample N]    the header that lqgen makes, by its own NAME_test.c
     mutants.py <build> src [FILE.c…] [--sample N]               src/*.c, by test/src/test_*.c
 
-A mutant of which the compiler makes the same code at -O2 is no mutant. One that survives has to stand in equivalent.txt, with a
-reason. --sample N takes N of them, evenly. Everything is written below the current folder. CC is the compiler.
+A mutant of which the compiler makes the same code at -O2 is no mutant. One that survives has to stand in
+equivalent.txt, with a reason. --sample N takes N of them, evenly. Everything is written below the current folder. CC is
+the compiler.
 
 Exit status 0: all others are killed; 1: some survive; 2: something is not there.
 """
+
 import argparse
 import os
 import re
@@ -23,7 +25,10 @@ from mutate import Mutant, mutants
 ROOT = Path(__file__).resolve().parents[2]
 CC = shlex.split(os.environ.get("CC", "cc"))
 LEFT_OUT = ("test_consistency", "test_contract")  # one is slow, the other needs a library that asserts
-SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]  # who survives without them is asked with them
+SANITIZERS = [
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover=all",
+]  # who survives without them is asked with them
 SECONDS = 20  # a mutant that takes longer hangs
 
 
@@ -33,13 +38,19 @@ def stop(why: str) -> None:
 
 
 def run(*command) -> subprocess.CompletedProcess:
-    return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    return subprocess.run(
+        [str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
+    )
 
 
 def passes(program: Path) -> bool:
     try:
-        return subprocess.run([program.absolute()], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=SECONDS,
-                              check=False).returncode == 0
+        return (
+            subprocess.run(
+                [program.absolute()], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=SECONDS, check=False
+            ).returncode
+            == 0
+        )
     except subprocess.TimeoutExpired:
         return False
 
@@ -51,7 +62,8 @@ def need(*command) -> None:
 
 
 class Equivalent:
-    """Lines of equivalent.txt: a regular expression of the file, of the line, of what became of it; the reason behind #."""
+    """Lines of equivalent.txt: a regular expression of the file, of the line, of what became of it; the reason behind
+    #."""
 
     def __init__(self):
         self.known = []
@@ -111,8 +123,10 @@ class Library:
         names_of_tests = [file for file in sorted(tests.glob("test_*.c")) if file.stem not in LEFT_OUT]
         self.tests = [compiled(file, self.options) for file in names_of_tests]
         # What lies behind an array of a test is watched only if the test is compiled so, too.
-        self.watched = {built: compiled(file, [*self.options, "-O1", *SANITIZERS], "watched_")
-                        for built, file in zip(self.tests, names_of_tests)}
+        self.watched = {
+            built: compiled(file, [*self.options, "-O1", *SANITIZERS], "watched_")
+            for built, file in zip(self.tests, names_of_tests)
+        }
 
     # Tests of the file's own name first: they kill most.
     def tests_for(self, file: Path) -> list[Path]:
@@ -176,10 +190,15 @@ def ask(subject, sample: int) -> int:
             known += 1
         else:
             alive += 1
-            print(f"{file}:{mutant.line + 1}: survives\n  - {mutant.before.strip()}\n  + {mutant.after.strip()}", flush=True)
+            print(
+                f"{file}:{mutant.line + 1}: survives\n  - {mutant.before.strip()}\n  + {mutant.after.strip()}",
+                flush=True,
+            )
         file.write_text(subject.texts[file])
     count = killed + known + alive
-    print(f"{killed} of {count} mutants killed, {known} listed as equivalent, {alive} survive; {same} more are the same code")
+    print(
+        f"{killed} of {count} mutants killed, {known} listed as equivalent, {alive} survive; {same} more are the same code"
+    )
     return 1 if alive or not killed else 0
 
 

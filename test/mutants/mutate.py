@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Small changes of C text, one at a time: what a test of that text has to notice. The same text gives the same mutants."""
+"""Small changes of C text, one at a time: what a test of that text has to notice. The same text gives the same
+mutants."""
+
 import re
 from typing import Iterator, NamedTuple
 
 
 class Mutant(NamedTuple):
-    line: int    # of the text, from 0
+    line: int  # of the text, from 0
     before: str  # the line
-    after: str   # what becomes of it
+    after: str  # what becomes of it
 
     def apply(self, text: str) -> str:
         lines = text.split("\n")
@@ -17,10 +19,23 @@ class Mutant(NamedTuple):
 
 # A binary operator stands between blanks, as the project writes them.
 OPERATORS = [
-    (" + ", [" - "]), (" - ", [" + "]), (" * ", [" / "]), (" / ", [" * "]),
-    (" < ", [" <= ", " >= "]), (" > ", [" >= ", " <= "]), (" <= ", [" < "]), (" >= ", [" > "]),
-    (" == ", [" != "]), (" != ", [" == "]), (" && ", [" || "]), (" || ", [" && "]), (" & ", [" | "]), (" | ", [" & "]),
-    (" |= ", [" = "]), (" += ", [" -= ", " = "]), (" -= ", [" += "]),
+    (" + ", [" - "]),
+    (" - ", [" + "]),
+    (" * ", [" / "]),
+    (" / ", [" * "]),
+    (" < ", [" <= ", " >= "]),
+    (" > ", [" >= ", " <= "]),
+    (" <= ", [" < "]),
+    (" >= ", [" > "]),
+    (" == ", [" != "]),
+    (" != ", [" == "]),
+    (" && ", [" || "]),
+    (" || ", [" && "]),
+    (" & ", [" | "]),
+    (" | ", [" & "]),
+    (" |= ", [" = "]),
+    (" += ", [" -= ", " = "]),
+    (" -= ", [" += "]),
 ]
 STATUS = re.compile(r"\bLQG_(?!OK\b)(?:OUTPUT|INNOVATION|INPUT|STATE|COVARIANCE|REFERENCE)_\w+|\bLQG_OK\b")
 INTEGER = re.compile(r"(?<![\w.])(\d+)(uL|u)?(?![\w.])")
@@ -53,14 +68,16 @@ def changes(line: str) -> Iterator[str]:
         yield put(*found.span(), str(int(found.group(1)) + 1) + (found.group(2) or ""))
     for found in REAL.finditer(code):
         factor = "1.001" + found.group(2)
-        yield put(*found.span(), "1.0" + found.group(2) if float(found.group(1)) == 0 else f"({found.group()} * {factor})")
+        yield put(
+            *found.span(), "1.0" + found.group(2) if float(found.group(1)) == 0 else f"({found.group()} * {factor})"
+        )
     for found in NEGATION.finditer(code):
         yield put(*found.span(), "")
     for found in CHOICE.finditer(code):
         yield put(*found.span(), f" ? {found.group(2)} : {found.group(1)}")
     condition = CONDITION.match(code)
     if condition:
-        yield f"{condition.group(1)}(!({line[condition.start(2):condition.end(2)]})){condition.group(3) or ''}"
+        yield f"{condition.group(1)}(!({line[condition.start(2) : condition.end(2)]})){condition.group(3) or ''}"
     if DELETABLE.match(code) and not code.lstrip().startswith("return"):
         yield re.match(r"\s*", line).group() + ";"
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """kconfig.py Kconfig: no warnings, and the symbols that the package's CMakeLists.txt reads, each with a help text."""
+
 import pathlib
 import re
 import sys

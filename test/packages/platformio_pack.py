@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""platformio_pack.py FOLDER ARCHIVE: PlatformIO's own packer, with its check of library.json. It would fetch the list of
-licences from the network; here the list has MIT."""
+"""platformio_pack.py FOLDER ARCHIVE: PlatformIO's own packer, with its check of library.json. It would fetch the list
+of licences from the network; here the list has MIT."""
+
 import sys
 import tarfile
 from pathlib import Path

@@ -26,11 +26,17 @@ class Unity(unittest.TestCase):
         self.sdist = self.folder / "links" / f"{ROOT}.tar.gz"
         self.sdist.parent.mkdir()
         with tarfile.open(self.sdist, "w:gz") as archive:
-            for name, text in (("PKG-INFO", "Metadata-Version: 2.1\nName: pytest-unity\nVersion: 0.1.0\n"), ("setup.py", harm),
-                               ("hatchling/__init__.py", harm), ("hatchling/build.py", harm),
-                               ("vendor/unity/src/unity.c", "int unity;\n"),
-                               ("pyproject.toml", '[build-system]\nrequires = ["there-is-no-such-package"]\n'
-                                                  'build-backend = "hatchling.build"\n')):
+            for name, text in (
+                ("PKG-INFO", "Metadata-Version: 2.1\nName: pytest-unity\nVersion: 0.1.0\n"),
+                ("setup.py", harm),
+                ("hatchling/__init__.py", harm),
+                ("hatchling/build.py", harm),
+                ("vendor/unity/src/unity.c", "int unity;\n"),
+                (
+                    "pyproject.toml",
+                    '[build-system]\nrequires = ["there-is-no-such-package"]\nbuild-backend = "hatchling.build"\n',
+                ),
+            ):
                 entry = tarfile.TarInfo(f"{ROOT}/{name}")
                 entry.size = len(text)
                 archive.addfile(entry, io.BytesIO(text.encode()))
@@ -38,9 +44,19 @@ class Unity(unittest.TestCase):
     def run_script(self, digest):
         requirement = self.folder / "unity.txt"
         requirement.write_text(f"pytest-unity==0.1.0 --hash=sha256:{digest}\n")
-        environment = {**os.environ, "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(self.sdist.parent), "HOME": str(self.folder / "home")}
-        return subprocess.run(["bash", SCRIPT, self.folder / "unity", requirement], env=environment, capture_output=True, text=True,
-                              check=False)
+        environment = {
+            **os.environ,
+            "PIP_NO_INDEX": "1",
+            "PIP_FIND_LINKS": str(self.sdist.parent),
+            "HOME": str(self.folder / "home"),
+        }
+        return subprocess.run(
+            ["bash", SCRIPT, self.folder / "unity", requirement],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
 
     def test_another_hash_is_refused_before_anything_is_unpacked(self):
         done = self.run_script("0" * 64)

@@ -1,13 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""zephyr_module.py FOLDER: zephyr/module.yml has only keys that Zephyr's schema for modules knows, and what they name is
-there. Keys: Zephyr documentation, "Modules (External projects)", "Module yaml file description"."""
+"""zephyr_module.py FOLDER: zephyr/module.yml has only keys that Zephyr's schema for modules knows, and what they name
+is there. Keys: Zephyr documentation, "Modules (External projects)", "Module yaml file description"."""
+
 import pathlib
 import sys
 
 import yaml
 
 known = {"name", "build", "samples", "tests", "boards", "blobs", "runners", "security", "package-managers"}
-known_build = {"cmake", "kconfig", "cmake-ext", "kconfig-ext", "depends", "settings", "sysbuild-cmake", "sysbuild-kconfig"}
+known_build = {
+    "cmake",
+    "kconfig",
+    "cmake-ext",
+    "kconfig-ext",
+    "depends",
+    "settings",
+    "sysbuild-cmake",
+    "sysbuild-kconfig",
+}
 
 folder = pathlib.Path(sys.argv[1])
 module = yaml.safe_load((folder / "zephyr/module.yml").read_text())

@@ -27,8 +27,14 @@ def steps(page):
 def printed(command, folder, environment):
     """What the command prints, standard error first. Standard output is a terminal, to which lqgen prints more."""
     reading, terminal = os.openpty()
-    with subprocess.Popen(["sh", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                          stdout=terminal, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(
+        ["sh", "-c", command],
+        cwd=folder,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=terminal,
+        stderr=subprocess.PIPE,
+    ) as process:
         os.close(terminal)
         out = b""
         try:

@@ -22,23 +22,30 @@ def style(report):
 
 def placed(chart, x, y, panel):
     width, height, label, lines = chart
-    return (f'<svg x="{x:g}" y="{y:g}" width="{width}" height="{height}" viewBox="0 0 {width} {height}">\n'
-            f"<title>{label}</title>\n"
-            f'<rect class="panel" width="{width}" height="{height}" fill="{panel}"/>\n{lines}</svg>\n')
+    return (
+        f'<svg x="{x:g}" y="{y:g}" width="{width}" height="{height}" viewBox="0 0 {width} {height}">\n'
+        f"<title>{label}</title>\n"
+        f'<rect class="panel" width="{width}" height="{height}" fill="{panel}"/>\n{lines}</svg>\n'
+    )
 
 
 def picture(report):
     found = charts(report)
     nyquist = next(chart for chart in found if chart[2].startswith("The loop opened"))
-    after = found[found.index(nyquist) + 1:]
+    after = found[found.index(nyquist) + 1 :]
     state, u = after[0], next(chart for chart in after if chart[2].startswith("voltage"))
     rules, colours = style(report)
     side, top = float(nyquist[0]) + GAP, float(state[1]) + GAP
     width, height = side + float(state[0]), float(nyquist[1])
     panel = colours["--panel"]
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" font-family="sans-serif" '
-            f'font-size="11">\n<style>\n{rules}\n</style>\n'
-            + placed(nyquist, 0, 0, panel) + placed(state, side, 0, panel) + placed(u, side, top, panel) + "</svg>\n")
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" font-family="sans-serif" '
+        f'font-size="11">\n<style>\n{rules}\n</style>\n'
+        + placed(nyquist, 0, 0, panel)
+        + placed(state, side, 0, panel)
+        + placed(u, side, top, panel)
+        + "</svg>\n"
+    )
 
 
 def main():

@@ -38,13 +38,14 @@ The program lqgen in this package has these libraries inside:
 
 {lines}
 
-The licence of each stands beside this file in NAME.copyright, the texts that those name in LGPL-3, GPL-3, MPL-2.0 and Apache-2.0.
+The licence of each stands beside this file in NAME.copyright, the texts that those name in LGPL-3, GPL-3, MPL-2.0 and
+Apache-2.0.
 
-lqgen uses the GNU MPFR Library and the GNU MP Library (GMP); both and their use are covered by the GNU Lesser General Public License. You may
-change them and link lqgen with what you changed: its source is the source of TinyLQG {version}, and
-ports/packages/python/make.sh links it with the libmpfr.a and libgmp.a that it finds. You may debug such changes by reverse
-engineering. The sources of MPFR are at https://www.mpfr.org, those of GMP at https://gmplib.org, those of Eigen at
-https://eigen.tuxfamily.org, each in the version above. What lqgen writes is yours: no licence of these covers it.
+lqgen uses the GNU MPFR Library and the GNU MP Library (GMP); both and their use are covered by the GNU Lesser General
+Public License. You may change them and link lqgen with what you changed: its source is the source of TinyLQG {version},
+and ports/packages/python/make.sh links it with the libmpfr.a and libgmp.a that it finds. You may debug such changes by
+reverse engineering. The sources of MPFR are at https://www.mpfr.org, those of GMP at https://gmplib.org, those of Eigen
+at https://eigen.tuxfamily.org, each in the version above. What lqgen writes is yours: no licence of these covers it.
 """
 
 
@@ -58,22 +59,42 @@ def versions(text):
 
 def component_of(name, version):
     title, license, how = LIBRARIES[name]
-    return Component(name=title, version=version, type=ComponentType.LIBRARY, bom_ref=name, description=how,
-                     licenses=[LicenseExpression(license)], purl=PackageURL("generic", name=name, version=version))
+    return Component(
+        name=title,
+        version=version,
+        type=ComponentType.LIBRARY,
+        bom_ref=name,
+        description=how,
+        licenses=[LicenseExpression(license)],
+        purl=PackageURL("generic", name=name, version=version),
+    )
 
 
 def bom_of(version, lqgen, libraries):
-    program = Component(name="lqgen", version=version, type=ComponentType.APPLICATION, bom_ref="lqgen",
-                        licenses=[LicenseExpression("MIT")],
-                        hashes=[HashType(alg=HashAlgorithm.SHA_256, content=hashlib.sha256(lqgen).hexdigest())])
-    wheel = Component(name="tinylqg", version=version, type=ComponentType.APPLICATION, bom_ref="tinylqg",
-                      licenses=[LicenseExpression("MIT")], purl=PackageURL("pypi", name="tinylqg", version=version))
+    program = Component(
+        name="lqgen",
+        version=version,
+        type=ComponentType.APPLICATION,
+        bom_ref="lqgen",
+        licenses=[LicenseExpression("MIT")],
+        hashes=[HashType(alg=HashAlgorithm.SHA_256, content=hashlib.sha256(lqgen).hexdigest())],
+    )
+    wheel = Component(
+        name="tinylqg",
+        version=version,
+        type=ComponentType.APPLICATION,
+        bom_ref="tinylqg",
+        licenses=[LicenseExpression("MIT")],
+        purl=PackageURL("pypi", name="tinylqg", version=version),
+    )
     parts = [component_of(name, libraries[name]) for name in sorted(libraries)]
     bom = Bom(components=[program, *parts])
     bom.metadata.component = wheel
     bom.register_dependency(wheel, [program])
     bom.register_dependency(program, parts)
-    bom.metadata.timestamp = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", 0)), datetime.timezone.utc)
+    bom.metadata.timestamp = datetime.datetime.fromtimestamp(
+        int(os.environ.get("SOURCE_DATE_EPOCH", 0)), datetime.timezone.utc
+    )
     content = hashlib.sha256(lqgen + repr(sorted(libraries.items())).encode()).hexdigest()
     bom.serial_number = uuid.uuid5(uuid.NAMESPACE_URL, f"pkg:pypi/tinylqg@{version}#{content}")
     return bom
@@ -84,7 +105,10 @@ def main(version, lqgen, libraries, folder):
     bom = bom_of(version, Path(lqgen).read_bytes(), found)
     text = make_outputter(bom, OutputFormat.JSON, SchemaVersion.V1_6).output_as_string(indent=2) + "\n"
     Path(folder, "tinylqg.cdx.json").write_text(text, encoding="utf-8")
-    lines = "\n".join(f"  {LIBRARIES[name][0]} {found[name]} ({name}): {LIBRARIES[name][1]}, {LIBRARIES[name][2]}" for name in sorted(found))
+    lines = "\n".join(
+        f"  {LIBRARIES[name][0]} {found[name]} ({name}): {LIBRARIES[name][1]}, {LIBRARIES[name][2]}"
+        for name in sorted(found)
+    )
     Path(folder, "NOTICE").write_text(NOTICE.format(version=version, lines=lines), encoding="utf-8")
 
 

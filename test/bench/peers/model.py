@@ -62,8 +62,9 @@ def run(model, carried):
 
 
 def array(name, matrix):
-    entries = ", ".join(f"{entry!r}f" if "e" in repr(entry) or "." in repr(entry) else f"{entry}.0f"
-                        for row in matrix for entry in row)
+    entries = ", ".join(
+        f"{entry!r}f" if "e" in repr(entry) or "." in repr(entry) else f"{entry}.0f" for row in matrix for entry in row
+    )
     return f"static const float {name}[] = {{{entries}}};"
 
 

@@ -69,8 +69,10 @@ def main():
         V = [numbers.entry(noise["V"][i][i]) for i in range(ny)]
         G = plant.get("G", [[float(i == j) for j in range(nx)] for i in range(nx)])
         sources = range(len(noise["W"]))
-        W = [[sum(G[i][k] * noise["W"][k][m] * G[j][m] for k in sources for m in sources) for j in range(nx)]
-             for i in range(nx)]
+        W = [
+            [sum(G[i][k] * noise["W"][k][m] * G[j][m] for k in sources for m in sources) for j in range(nx)]
+            for i in range(nx)
+        ]
         W = numbers.matrix([[W[i][j] if i >= j else 0 for j in range(nx)] for i in range(nx)])
         P = symmetric(symbols("P", nx * (nx + 1) // 2), nx)
     else:
@@ -84,8 +86,12 @@ def main():
             s = (C[i, :] * Pc)[0] + V[i]
             gain = Pc / s
             innovation = sf.Symbol("y") - (C[i, :] * x)[0]
-            write(f"update_{i}", given | {"y": sf.Symbol("y")},
-                  {"x_new": x + gain * innovation, "P_new": lower_triangle(P - gain * Pc.T)}, folder)
+            write(
+                f"update_{i}",
+                given | {"y": sf.Symbol("y")},
+                {"x_new": x + gain * innovation, "P_new": lower_triangle(P - gain * Pc.T)},
+                folder,
+            )
         u = -K * x
         predicted = A * P * A.T
         P_new = sf.Matrix([[predicted[i, j] + W[i, j]] for i in range(nx) for j in range(i + 1)])
@@ -95,12 +101,15 @@ def main():
         u = -K * corrected
         write("update", given | {"y": y}, {"x_new": corrected}, folder)
         write("predict", given, {"u": -K * x, "x_new": A * x + B * (-K * x)}, folder)
-    entries = ", ".join(f"{value:.9g}f" if "." in f"{value:.9g}" or "e" in f"{value:.9g}" else f"{value:.9g}.0f"
-                        for value in numbers.values)
+    entries = ", ".join(
+        f"{value:.9g}f" if "." in f"{value:.9g}" or "e" in f"{value:.9g}" else f"{value:.9g}.0f"
+        for value in numbers.values
+    )
     updates = "".join(f'#include "update_{i}.h"\n' for i in range(ny)) if carried else '#include "update.h"\n'
     calls = "".join(f"CORRECT({i})\n" for i in range(ny)) if carried else ""
     (folder / "model_code.h").write_text(
-        f'{updates}#include "predict.h"\nstatic const float entries[] = {{{entries}}};\n', encoding="utf-8")
+        f'{updates}#include "predict.h"\nstatic const float entries[] = {{{entries}}};\n', encoding="utf-8"
+    )
     (folder / "corrections.h").write_text(calls, encoding="utf-8")
 
 

@@ -37,8 +37,13 @@ def sample(A, B, Q, R, T):
     whole = expm(block([[-F.T, weight], [zeros(nz, nz), F]]) * T, method="taylor")
     phi = part(whole, nz, 2 * nz, nz, 2 * nz)
     cost = phi.T * part(whole, 0, nz, nz, 2 * nz)
-    return (part(phi, 0, nx, 0, nx), part(phi, 0, nx, nx, nz),
-            part(cost, 0, nx, 0, nx), part(cost, nx, nz, nx, nz), part(cost, 0, nx, nx, nz))
+    return (
+        part(phi, 0, nx, 0, nx),
+        part(phi, 0, nx, nx, nz),
+        part(cost, 0, nx, 0, nx),
+        part(cost, nx, nz, nx, nz),
+        part(cost, 0, nx, nx, nz),
+    )
 
 
 def riccati(A, B, Q, R, N):

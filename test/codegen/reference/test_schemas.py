@@ -14,8 +14,11 @@ from jsonschema import Draft202012Validator
 
 LQGEN, ROOT = (Path(argument) for argument in sys.argv[1:])
 BASE = (ROOT / "test/codegen/command_line/base.toml").read_text(encoding="utf-8")
-DESIGNS = sorted(path for folder in ("codegen/designs", "test/designs", "test/proof/designs", "test/codegen")
-                 for path in (ROOT / folder).rglob("*.toml"))
+DESIGNS = sorted(
+    path
+    for folder in ("codegen/designs", "test/designs", "test/proof/designs", "test/codegen")
+    for path in (ROOT / folder).rglob("*.toml")
+)
 
 # What is put in the place of what: errors that are made when a file is typed.
 ERRORS = {

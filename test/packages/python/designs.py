@@ -15,8 +15,15 @@ BUILT_LQGEN = os.environ["TINYLQG_LQGEN"]  # the build's own, which the wheel's 
 
 
 def run(*command, cwd=None):
-    return subprocess.run([str(word) for word in command], cwd=cwd, stdin=subprocess.DEVNULL, capture_output=True,
-                          text=True, timeout=120, check=False)
+    return subprocess.run(
+        [str(word) for word in command],
+        cwd=cwd,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
 
 
 class InFolder(unittest.TestCase):

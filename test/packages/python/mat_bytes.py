@@ -39,7 +39,11 @@ def nested(outer, depth, name):
 
 def sparse(rows, name):
     """2 × 2, whose entries say that they are in these rows."""
-    data = element(5, struct.pack("<2i", *rows)) + element(5, struct.pack("<3i", 0, 1, 2)) + element(9, struct.pack("<2d", 1, 1))
+    data = (
+        element(5, struct.pack("<2i", *rows))
+        + element(5, struct.pack("<3i", 0, 1, 2))
+        + element(9, struct.pack("<2d", 1, 1))
+    )
     return array(SPARSE, data, name, (2, 2))
 
 

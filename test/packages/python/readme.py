@@ -39,8 +39,15 @@ def run_chapter(title, *languages):
     environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
     for language, block in blocks:
         Path("block").write_text(as_script(language, block), encoding="utf-8")
-        done = subprocess.run([word.format(file="block") for word in PROGRAMS[language]], env=environment,
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run(
+            [word.format(file="block") for word in PROGRAMS[language]],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
         output = done.stdout + done.stderr
         assert done.returncode == 0, output
         assert language != "scilab" or "no error" in output, output

@@ -17,7 +17,9 @@ class Bare(InFolder):
             self.assertIsNone(importlib.util.find_spec(name), name)
 
     def test_from_matrices_to_gains(self):
-        tinylqg.write_design("mass.toml", ([[1, 0.01], [0, 1]], [[5e-5], [0.01]], [[1, 0]], [[0]], 0.01), Q=[1, 1], R=[1])
+        tinylqg.write_design(
+            "mass.toml", ([[1, 0.01], [0, 1]], [[5e-5], [0.01]], [[1, 0]], [[0]], 0.01), Q=[1, 1], R=[1]
+        )
         design = tinylqg.generate("mass.toml")
         self.assertEqual(design.K, json.loads(Path("mass.json").read_text())["lqr"]["K"])
         self.assertEqual(design.plant.A, [[1, 0.01], [0, 1]])
@@ -26,14 +28,19 @@ class Bare(InFolder):
 
     def test_what_is_missing_is_said(self):
         design = tinylqg.generate(SOURCE / "codegen" / "designs" / "two_mass.toml")
-        for call, package in ((design.to_control, "control"), (design.to_scipy, "mat"),
-                              (lambda: design.save_mat("x.mat"), "mat")):
+        for call, package in (
+            (design.to_control, "control"),
+            (design.to_scipy, "mat"),
+            (lambda: design.save_mat("x.mat"), "mat"),
+        ):
             with self.assertRaisesRegex(ImportError, rf"pip install 'tinylqg\[{package}\]'"):
                 call()
         Path("plant.mat").write_bytes(b"MATLAB 5.0")
         done = run(sys.executable, "-m", "tinylqg", "import", "plant.mat")
-        self.assertEqual((done.returncode, done.stderr),
-                         (3, "reading a .mat file needs scipy, which is not installed: pip install 'tinylqg[mat]'\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (3, "reading a .mat file needs scipy, which is not installed: pip install 'tinylqg[mat]'\n"),
+        )
 
 
 if __name__ == "__main__":

@@ -34,8 +34,20 @@ class CommandLine(InFolder):
 
     def test_import_takes_words_from_the_command_line(self):
         scipy.io.savemat("plant.mat", {"motor": PLANT, "name": "ignored"})
-        done = self.tinylqg("import", "plant.mat", "--variable", "motor", "--name", "crane", "--brief", "a crane",
-                            "--sample-time", "0.5", "--delay", "1.25")
+        done = self.tinylqg(
+            "import",
+            "plant.mat",
+            "--variable",
+            "motor",
+            "--name",
+            "crane",
+            "--brief",
+            "a crane",
+            "--sample-time",
+            "0.5",
+            "--delay",
+            "1.25",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         text = Path("crane.toml").read_text()
         for line in ('name = "crane"', 'brief = "a crane"', "sample_time = 0.5", "delay = 1.25"):
@@ -44,7 +56,9 @@ class CommandLine(InFolder):
     def test_import_keeps_a_file_that_somebody_edited(self):
         scipy.io.savemat("motor.mat", PLANT)
         Path("motor.toml").write_text("# mine\n")
-        self.fails(2, "motor.toml: expected a file that is not there yet", "import", "motor.mat", "--sample-time", "0.1")
+        self.fails(
+            2, "motor.toml: expected a file that is not there yet", "import", "motor.mat", "--sample-time", "0.1"
+        )
         self.assertEqual(Path("motor.toml").read_text(), "# mine\n")
         self.assertEqual(self.tinylqg("import", "motor.mat", "--sample-time", "0.1", "--force").returncode, 0)
         self.assertNotEqual(Path("motor.toml").read_text(), "# mine\n")
@@ -62,7 +76,9 @@ class CommandLine(InFolder):
     def test_what_cannot_be_read_or_written_ends_with_3(self):
         scipy.io.savemat("motor.mat", PLANT)
         self.fails(3, "missing.mat: No such file", "import", "missing.mat")
-        self.fails(3, "none/motor.toml: No such file", "import", "motor.mat", "--sample-time", "1", "-o", "none/motor.toml")
+        self.fails(
+            3, "none/motor.toml: No such file", "import", "motor.mat", "--sample-time", "1", "-o", "none/motor.toml"
+        )
         self.fails(3, "missing.json: No such file", "export", "missing.json")
 
     def test_export_is_save_mat(self):

@@ -39,8 +39,12 @@ class Plants(InFolder):
             numpy.testing.assert_array_equal(design.L, designs[0].L)
 
     def test_continuous_plants_of_all_tools_give_the_same_gains(self):
-        plants = [control.ss(A, B, C, D), scipy.signal.StateSpace(A, B, C, D), scipy.signal.lti(A, B, C, D),
-                  {"domain": "continuous", "A": A, "B": B, "C": C}]
+        plants = [
+            control.ss(A, B, C, D),
+            scipy.signal.StateSpace(A, B, C, D),
+            scipy.signal.lti(A, B, C, D),
+            {"domain": "continuous", "A": A, "B": B, "C": C},
+        ]
         designs = [self.designed(plant, sample_time=0.01) for plant in plants]
         designs.append(self.designed((numpy.array(A), B, C), domain="continuous", sample_time=0.01))
         self.assertEqual(designs[0].plant.domain, "continuous")
@@ -48,8 +52,12 @@ class Plants(InFolder):
 
     def test_discrete_plants_of_all_tools_give_the_same_gains(self):
         sampled = scipy.signal.cont2discrete(tuple(map(numpy.array, (A, B, C, D))), 0.01)
-        plants = [control.ss(*sampled), scipy.signal.StateSpace(*sampled[:4], dt=0.01),
-                  scipy.signal.dlti(*sampled[:4], dt=0.01), sampled]
+        plants = [
+            control.ss(*sampled),
+            scipy.signal.StateSpace(*sampled[:4], dt=0.01),
+            scipy.signal.dlti(*sampled[:4], dt=0.01),
+            sampled,
+        ]
         designs = [self.designed(plant) for plant in plants]
         designs.append(self.designed(sampled[:4], domain="discrete", sample_time=0.01))
         self.assertEqual((designs[0].plant.domain, designs[0].plant.sample_time), ("discrete", 0.01))
@@ -60,15 +68,30 @@ class Plants(InFolder):
         for nx in (1, 2, 3, 5, 8):
             F = numpy.array([[any_double(source) for _ in range(nx)] for _ in range(nx)])
             G = numpy.array([[any_double(source)] for _ in range(nx)])
-            design = self.designed((F, G, numpy.eye(nx)), domain="discrete", sample_time=1 / 3, Q=numpy.eye(nx), R=[1],
-                                   W=numpy.eye(nx), V=numpy.eye(nx), code={"real": "double"})
+            design = self.designed(
+                (F, G, numpy.eye(nx)),
+                domain="discrete",
+                sample_time=1 / 3,
+                Q=numpy.eye(nx),
+                R=[1],
+                W=numpy.eye(nx),
+                V=numpy.eye(nx),
+                code={"real": "double"},
+            )
             self.assertEqual(design.plant.A.tobytes(), F.tobytes())
             self.assertEqual(design.plant.B.tobytes(), G.tobytes())
             self.assertEqual(design.plant.sample_time, 1 / 3)
 
     def test_float32_is_written_as_the_double_that_it_is(self):
-        design = self.designed((numpy.array([[0.1]], dtype=numpy.float32), [[1]], [[1]]), domain="discrete", sample_time=1,
-                               Q=[1], R=[1], W=[1], V=[1])
+        design = self.designed(
+            (numpy.array([[0.1]], dtype=numpy.float32), [[1]], [[1]]),
+            domain="discrete",
+            sample_time=1,
+            Q=[1],
+            R=[1],
+            W=[1],
+            V=[1],
+        )
         self.assertEqual(design.plant.A[0, 0], float(numpy.float32(0.1)))
 
     def test_labels_become_names(self):
@@ -78,8 +101,10 @@ class Plants(InFolder):
         self.assertEqual(design.plant.inputs, ["u [V]"])
         self.assertEqual(design.plant.outputs, ["y"])
         back = design.to_control()
-        self.assertEqual((back.state_labels, back.input_labels, back.output_labels, back.dt),
-                         (["angle [rad]", "speed"], ["u [V]"], ["y"], 0.01))
+        self.assertEqual(
+            (back.state_labels, back.input_labels, back.output_labels, back.dt),
+            (["angle [rad]", "speed"], ["u [V]"], ["y"], 0.01),
+        )
 
     def test_labels_that_python_control_made_up_leave_lqgens_names(self):
         self.assertEqual(self.designed(control.ss(A, B, C, D), sample_time=0.01).plant.states, ["x0", "x1"])
@@ -118,8 +143,13 @@ class Plants(InFolder):
 
     def test_letters_words_and_infinities(self):
         brief = 'the "loop" of Größe ψ'
-        design = self.designed((A, B, C), domain="continuous", sample_time=0.01, brief=brief,
-                               limits={"u_min": [-float("inf")], "u_max": numpy.array([12.5])})
+        design = self.designed(
+            (A, B, C),
+            domain="continuous",
+            sample_time=0.01,
+            brief=brief,
+            limits={"u_min": [-float("inf")], "u_max": numpy.array([12.5])},
+        )
         self.assertEqual(design.brief, brief)
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Files and values that somebody made to do harm: each is refused by a DesignError or arrives as what it says, and nothing is
-written but NAME.toml."""
+"""Files and values that somebody made to do harm: each is refused by a DesignError or arrives as what it says, and
+nothing is written but NAME.toml."""
 
 import contextlib
 import io
@@ -32,12 +32,38 @@ hypothesis.settings.register_profile("hostile", derandomize=True, database=None,
 hypothesis.settings.load_profile("hostile")
 
 texts = strategies.text() | strategies.sampled_from(
-    ["../victim/config", "/victim", "a/b", "..", "", "\n[code]\nreal = 1", '"', "'", "\\", "a.b", "a b", "é", "\0", "\x7f", "\ud800",
-     "\u2028", "\x1b[2J", "a" * 400, "]", "#", "=", "__class__", "two\nmass"])
+    [
+        "../victim/config",
+        "/victim",
+        "a/b",
+        "..",
+        "",
+        "\n[code]\nreal = 1",
+        '"',
+        "'",
+        "\\",
+        "a.b",
+        "a b",
+        "é",
+        "\0",
+        "\x7f",
+        "\ud800",
+        "\u2028",
+        "\x1b[2J",
+        "a" * 400,
+        "]",
+        "#",
+        "=",
+        "__class__",
+        "two\nmass",
+    ]
+)
 numbers = strategies.floats() | strategies.integers() | strategies.sampled_from([2**63 - 1, -(2**63), 2**64, 10**400])
 values = strategies.recursive(
-    numbers | texts, lambda inner: strategies.lists(inner, max_size=3) | strategies.dictionaries(texts, inner, max_size=3),
-    max_leaves=8)
+    numbers | texts,
+    lambda inner: strategies.lists(inner, max_size=3) | strategies.dictionaries(texts, inner, max_size=3),
+    max_leaves=8,
+)
 
 
 def tree(folder):
@@ -79,8 +105,10 @@ class Confined(InFolder):
         before = tree(self.folder)
         status, said = quiet_main("import", "plant.mat", "--sample-time", "0.1", "--force")
         self.assertEqual((status, tree(self.folder)), (2, before))
-        self.assertEqual(said, "name: expected at most 31 lower-case letters, digits and _, a letter first, "
-                               "found '../victim/config'\n")
+        self.assertEqual(
+            said,
+            "name: expected at most 31 lower-case letters, digits and _, a letter first, found '../victim/config'\n",
+        )
 
     @hypothesis.given(texts)
     def test_any_name_writes_its_own_file_or_none(self, name):
@@ -119,8 +147,18 @@ class Texts(InFolder):
         try:
             text = tinylqg.design_text(([[1.0]], [[1.0]]), domain="discrete", sample_time=1, name="x", lqr=table)
         except tinylqg.DesignError:
-            self.assertTrue(self.has(table, lambda item: isinstance(item, int) and abs(item) >= 2**63 or
-                                     isinstance(item, str) and any("\ud800" <= c <= "\udfff" for c in item)), table)
+            self.assertTrue(
+                self.has(
+                    table,
+                    lambda item: (
+                        isinstance(item, int)
+                        and abs(item) >= 2**63
+                        or isinstance(item, str)
+                        and any("\ud800" <= c <= "\udfff" for c in item)
+                    ),
+                ),
+                table,
+            )
             return
         found = tomllib.loads(text)
         self.assertEqual(found.keys() - {"lqr"}, {"name", "plant"})
@@ -137,14 +175,38 @@ class Texts(InFolder):
         deep = {"a": 1}
         for _ in range(2000):
             deep = {"a": deep}
-        for section, value in (("lqr", {"a": endless}), ("lqr", deep), ("lqr", {"a": {1}}), ("lqr", {1: 2}), ("lqr", [1]),
-                               ("lqr", "Q"), ("stage", {"from": 1}), ("stage", [1]), ("stage", "abc"), ("lqr", {"a": b"b"}),
-                               ("kalman", 1), ("lqr", {"a": True}), ("lqr", {"a": 10**5000}), ("lqr", {"\ud800": 1})):
+        for section, value in (
+            ("lqr", {"a": endless}),
+            ("lqr", deep),
+            ("lqr", {"a": {1}}),
+            ("lqr", {1: 2}),
+            ("lqr", [1]),
+            ("lqr", "Q"),
+            ("stage", {"from": 1}),
+            ("stage", [1]),
+            ("stage", "abc"),
+            ("lqr", {"a": b"b"}),
+            ("kalman", 1),
+            ("lqr", {"a": True}),
+            ("lqr", {"a": 10**5000}),
+            ("lqr", {"\ud800": 1}),
+        ):
             with self.refused(section):
                 tinylqg.design_text(([[1]], [[1]]), domain="discrete", sample_time=1, name="x", **{section: value})
-        for key, value in (("sample_time", "soon"), ("sample_time", [1, 2]), ("sample_time", 10**400), ("domain", [1]), ("domain", 1),
-                           ("sample_time", numpy.ones(3)), ("domain", numpy.ones(2)), ("sample_time", 1j), ("name", 5),
-                           ("name", ["x"]), ("name", None), ("name", "x" * 40)):
+        for key, value in (
+            ("sample_time", "soon"),
+            ("sample_time", [1, 2]),
+            ("sample_time", 10**400),
+            ("domain", [1]),
+            ("domain", 1),
+            ("sample_time", numpy.ones(3)),
+            ("domain", numpy.ones(2)),
+            ("sample_time", 1j),
+            ("name", 5),
+            ("name", ["x"]),
+            ("name", None),
+            ("name", "x" * 40),
+        ):
             keys = {"domain": "discrete", "sample_time": 1, "name": "x", key: value}
             with self.refused(key):
                 tinylqg.design_text(([[1]], [[1]]), **keys)
@@ -156,17 +218,28 @@ class MatlabFiles(InFolder):
     def outcome(self):
         """The design file's tables, or None where it is refused."""
         try:
-            return tomllib.loads(tinylqg.design_text(**{"name": "x", "sample_time": 0.1, **tinylqg.read_mat("plant.mat")}))
+            return tomllib.loads(
+                tinylqg.design_text(**{"name": "x", "sample_time": 0.1, **tinylqg.read_mat("plant.mat")})
+            )
         except tinylqg.DesignError as error:
             self.assertTrue(str(error).isprintable(), error)
             return None
 
     # savemat writes ASCII, leaves out what begins with _ or a digit, and ends names at a zero.
-    fields = strategies.text(strategies.characters(max_codepoint=127, exclude_characters="\0"), min_size=1, max_size=31).filter(
-        lambda name: name[0] not in "_0123456789")
+    fields = strategies.text(
+        strategies.characters(max_codepoint=127, exclude_characters="\0"), min_size=1, max_size=31
+    ).filter(lambda name: name[0] not in "_0123456789")
 
-    @hypothesis.given(strategies.dictionaries(fields, texts.filter(lambda text: "\ud800" not in text and "\0" not in text) |
-                                              strategies.floats() | strategies.complex_numbers(), min_size=1, max_size=4))
+    @hypothesis.given(
+        strategies.dictionaries(
+            fields,
+            texts.filter(lambda text: "\ud800" not in text and "\0" not in text)
+            | strategies.floats()
+            | strategies.complex_numbers(),
+            min_size=1,
+            max_size=4,
+        )
+    )
     @hypothesis.example({"Q] \n[code": 1.0, 'x" = 1': "a\n[b]"})
     def test_fields_are_keys_of_their_section_only(self, fields):
         save("plant.mat", **PLANT, lqr=fields)
@@ -180,14 +253,61 @@ class MatlabFiles(InFolder):
             if isinstance(value, str) and value.isalpha() and value.isascii():
                 self.assertEqual(found["lqr"][key], value)
 
-    hostile = [numpy.nan, numpy.inf, -numpy.inf, 1e308, 5e-324, 1j, numpy.full((2, 2), numpy.nan), numpy.full((2, 2), 1e300), "text",
-               "", "\n[code]\n", numpy.array([[1 + 1j]]), numpy.zeros((0, 3)), numpy.ones((3, 1, 2)), {"a": {"b": {"c": "\""}}},
-               numpy.array(["x", {"a": 1.0}, 3.0], dtype=object), numpy.array([[2**64 - 1]], dtype=numpy.uint64),
-               numpy.array([[-(2**63)]], dtype=numpy.int64), numpy.array([], dtype=object), numpy.array([["ab"], ["cd"]])]
+    hostile = [
+        numpy.nan,
+        numpy.inf,
+        -numpy.inf,
+        1e308,
+        5e-324,
+        1j,
+        numpy.full((2, 2), numpy.nan),
+        numpy.full((2, 2), 1e300),
+        "text",
+        "",
+        "\n[code]\n",
+        numpy.array([[1 + 1j]]),
+        numpy.zeros((0, 3)),
+        numpy.ones((3, 1, 2)),
+        {"a": {"b": {"c": "\""}}},
+        numpy.array(["x", {"a": 1.0}, 3.0], dtype=object),
+        numpy.array([[2**64 - 1]], dtype=numpy.uint64),
+        numpy.array([[-(2**63)]], dtype=numpy.int64),
+        numpy.array([], dtype=object),
+        numpy.array([["ab"], ["cd"]]),
+    ]
 
     def test_every_value_in_every_variable(self):
-        for key in ("A", "B", "C", "D", "G", "H", "Q", "R", "N", "W", "V", "Swv", "x0", "P0", "u_min", "u_rate", "delay", "states",
-                    "inputs", "Ts", "sample_time", "domain", "name", "brief", "lqr", "kalman", "stage", "code", "limits"):
+        for key in (
+            "A",
+            "B",
+            "C",
+            "D",
+            "G",
+            "H",
+            "Q",
+            "R",
+            "N",
+            "W",
+            "V",
+            "Swv",
+            "x0",
+            "P0",
+            "u_min",
+            "u_rate",
+            "delay",
+            "states",
+            "inputs",
+            "Ts",
+            "sample_time",
+            "domain",
+            "name",
+            "brief",
+            "lqr",
+            "kalman",
+            "stage",
+            "code",
+            "limits",
+        ):
             for value in self.hostile:
                 for variables in ({**PLANT, **WEIGHTS, key: value}, {"plant": {**PLANT, **WEIGHTS, key: value}}):
                     save("plant.mat", **variables)
@@ -220,7 +340,13 @@ class MatlabFiles(InFolder):
             tinylqg.read_mat("plant.mat")
 
     def test_damaged_files(self):
-        save("plant.mat", **PLANT, **WEIGHTS, states=cells("a", "b"), lqr={"horizon": 5.0, "bryson": {"states": [1.0, 2.0]}})
+        save(
+            "plant.mat",
+            **PLANT,
+            **WEIGHTS,
+            states=cells("a", "b"),
+            lqr={"horizon": 5.0, "bryson": {"states": [1.0, 2.0]}},
+        )
         whole = Path("plant.mat").read_bytes()
         source = random.Random(3)
         for _ in range(20):
@@ -316,8 +442,14 @@ class Hdf5Files(InFolder):
         self.refuses("an entry of which has 100000000 bytes")
 
     def test_classes_and_texts_that_are_none_are_refused(self):
-        for kind, value in ((b"char", [[2.0**40]]), (b"char", [[-1]]), (b"char", [[0.5]]), (b"\xff", [[1.0]]), (3, [["x"]]),
-                            ("cell", [["y"]])):
+        for kind, value in (
+            (b"char", [[2.0**40]]),
+            (b"char", [[-1]]),
+            (b"char", [[0.5]]),
+            (b"\xff", [[1.0]]),
+            (3, [["x"]]),
+            ("cell", [["y"]]),
+        ):
             with self.subTest(kind=kind, value=value):
                 if "Q" in self.file:
                     del self.file["Q"]
@@ -348,14 +480,37 @@ class Results(InFolder):
         matrices = {"A": [[1]], "B": [[1]], "C": [[1]], "D": [[0]], "states": ["x"], "inputs": ["u"], "outputs": ["y"]}
         for data in (b"[" * 100000, b'{"a":' * 100000, b"\xff", b"", b"1" * 10000, b'"\\ud800"', b"null"):
             self.refuses(data)
-        for plant in (None, [], 1, "x", {}, {**matrices, "A": 1}, {**matrices, "A": []}, {**matrices, "A": [[1, 2]]},
-                      {**matrices, "A": [["x"]]}, {**matrices, "B": [[1], [2]]}, {**matrices, "D": [[1, 2]]}, {**matrices, "C": {}},
-                      {**matrices, "states": [1]}, {**matrices, "inputs": "u"}, {**matrices, "A": [[None]]}):
+        for plant in (
+            None,
+            [],
+            1,
+            "x",
+            {},
+            {**matrices, "A": 1},
+            {**matrices, "A": []},
+            {**matrices, "A": [[1, 2]]},
+            {**matrices, "A": [["x"]]},
+            {**matrices, "B": [[1], [2]]},
+            {**matrices, "D": [[1, 2]]},
+            {**matrices, "C": {}},
+            {**matrices, "states": [1]},
+            {**matrices, "inputs": "u"},
+            {**matrices, "A": [[None]]},
+        ):
             self.refuses({"lqgen": "0", "name": "x", "plant": plant})
         for name in ("../victim", 1, None, "x\n", ["x"]):
             self.refuses({"lqgen": "0", "name": name, "plant": matrices})
-        for key, value in (("loop", 1), ("kalman", []), ("stages", 1), ("stages", [1]), ("stages", [{}]), ("lqr", {"poles": [[1]]}),
-                           ("lqr", {"poles": [1]}), ("lqr", {"K": [[1], [1, 2]]}), ("stages", [{"plant": {}}])):
+        for key, value in (
+            ("loop", 1),
+            ("kalman", []),
+            ("stages", 1),
+            ("stages", [1]),
+            ("stages", [{}]),
+            ("lqr", {"poles": [[1]]}),
+            ("lqr", {"poles": [1]}),
+            ("lqr", {"K": [[1], [1, 2]]}),
+            ("stages", [{"plant": {}}]),
+        ):
             self.refuses({"lqgen": "0", "name": "x", "plant": matrices, key: value})
 
     @hypothesis.given(strategies.data())
@@ -379,8 +534,13 @@ class Results(InFolder):
 class DesignFiles(InFolder):
     def test_name_is_what_TOML_says(self):
         before, rest = re.split('^name *= *"two_mass"', DESIGN.read_text(), flags=re.MULTILINE)
-        for line in (r'name = "two\u005fmass"', "'name' = 'two_mass'", r'"na\u006de" = "two_mass"', '# name = "x"\nname="two_mass"',
-                     "name = 'two_mass' # x"):
+        for line in (
+            r'name = "two\u005fmass"',
+            "'name' = 'two_mass'",
+            r'"na\u006de" = "two_mass"',
+            '# name = "x"\nname="two_mass"',
+            "name = 'two_mass' # x",
+        ):
             Path("x.toml").write_text(before + line + rest)
             self.assertEqual(tinylqg.generate("x.toml").name, "two_mass")
 

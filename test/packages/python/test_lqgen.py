@@ -38,12 +38,20 @@ class Lqgen(InFolder):
     def test_exit_status_and_streams_are_the_programs(self):
         Path("impossible.toml").write_text(IMPOSSIBLE)
         Path("wrong.toml").write_text("name = 1\n")
-        for status, arguments in ((0, ["--version"]), (0, ["--help"]), (1, ["impossible.toml"]), (2, ["wrong.toml"]),
-                                  (2, ["--no-such-option"]), (2, []), (3, ["missing.toml"])):
+        for status, arguments in (
+            (0, ["--version"]),
+            (0, ["--help"]),
+            (1, ["impossible.toml"]),
+            (2, ["wrong.toml"]),
+            (2, ["--no-such-option"]),
+            (2, []),
+            (3, ["missing.toml"]),
+        ):
             wheel, build = run(LQGEN, *arguments), run(BUILT_LQGEN, *arguments)
             self.assertEqual(wheel.returncode, status, arguments)
-            self.assertEqual((wheel.returncode, wheel.stdout, wheel.stderr),
-                             (build.returncode, build.stdout, build.stderr))
+            self.assertEqual(
+                (wheel.returncode, wheel.stdout, wheel.stderr), (build.returncode, build.stdout, build.stderr)
+            )
 
     def test_needs_what_every_linux_has(self):
         needed = run("ldd", tinylqg.lqgen_path()).stdout
@@ -55,8 +63,10 @@ class Lqgen(InFolder):
         self.assertEqual(run(LQGEN, "--version").stdout.strip(), tinylqg.__version__)
 
     def test_headers_and_sources_are_those_of_the_tree(self):
-        for made, folder, pattern in ((tinylqg.include_dir(), SOURCE / "include", "lqg/*.h"),
-                                      (tinylqg.source_dir(), SOURCE / "src", "*.[ch]")):
+        for made, folder, pattern in (
+            (tinylqg.include_dir(), SOURCE / "include", "lqg/*.h"),
+            (tinylqg.source_dir(), SOURCE / "src", "*.[ch]"),
+        ):
             expected = {path.relative_to(folder): path.read_bytes() for path in folder.glob(pattern)}
             found = {path.relative_to(made): path.read_bytes() for path in made.glob(pattern)}
             self.assertGreater(len(expected), 5)
@@ -64,12 +74,22 @@ class Lqgen(InFolder):
 
     def test_compact_controller_builds_with_the_packages_sources(self):
         tinylqg.generate(SOURCE / "codegen" / "designs" / "two_mass.toml", ".", "--style", "compact")
-        Path("main.c").write_text('#include "two_mass.h"\nint main(void)\n{\n    two_mass_t loop;\n    float u[1];\n'
-                                  "    const float y[2] = {1, 1};\n    two_mass_init(&loop);\n"
-                                  "    return two_mass_step(&loop, y, u) == LQG_OK && u[0] < 0 ? 0 : 1;\n}\n")
+        Path("main.c").write_text(
+            '#include "two_mass.h"\nint main(void)\n{\n    two_mass_t loop;\n    float u[1];\n'
+            "    const float y[2] = {1, 1};\n    two_mass_init(&loop);\n"
+            "    return two_mass_step(&loop, y, u) == LQG_OK && u[0] < 0 ? 0 : 1;\n}\n"
+        )
         sources = sorted(tinylqg.source_dir().glob("*.c"))
-        done = run(os.environ.get("CC", "cc"), "-std=c99", "-I.", f"-I{tinylqg.include_dir()}", "main.c", *sources,
-                   "-o", "main")
+        done = run(
+            os.environ.get("CC", "cc"),
+            "-std=c99",
+            "-I.",
+            f"-I{tinylqg.include_dir()}",
+            "main.c",
+            *sources,
+            "-o",
+            "main",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(run("./main").returncode, 0)
 

@@ -17,18 +17,49 @@ class Read(InFolder):
         return tinylqg.design_text(**{"name": "x", "sample_time": 0.1, **tinylqg.read_mat("plant.mat"), **more})
 
     def test_every_variable_goes_to_its_key(self):
-        save("plant.mat", **PLANT, **{**WEIGHTS, "W": 1.0}, G=[[0.0], [1]], H=[[0.5]], N=[[0.0], [0.1]], Swv=[[0.001]],
-             x0=[[1.0], [2]], P0=numpy.eye(2), u_min=-1.0, u_max=1.0, u_rate=5.0, delay=0.05,
-             states=cells("a [m]", "b"), inputs=cells("u"), outputs=cells("y"), name="servo", brief="a servo")
+        save(
+            "plant.mat",
+            **PLANT,
+            **{**WEIGHTS, "W": 1.0},
+            G=[[0.0], [1]],
+            H=[[0.5]],
+            N=[[0.0], [0.1]],
+            Swv=[[0.001]],
+            x0=[[1.0], [2]],
+            P0=numpy.eye(2),
+            u_min=-1.0,
+            u_max=1.0,
+            u_rate=5.0,
+            delay=0.05,
+            states=cells("a [m]", "b"),
+            inputs=cells("u"),
+            outputs=cells("y"),
+            name="servo",
+            brief="a servo",
+        )
         keys = tinylqg.read_mat("plant.mat")
-        self.assertEqual({section: list(table) for section, table in keys.items() if isinstance(table, dict)}, {
-            "plant": ["A", "B", "C", "D", "G", "H", "delay", "states", "inputs", "outputs", "domain"],
-            "lqr": ["Q", "R", "N"],
-            "kalman": ["process_noise", "measurement_noise", "cross_noise", "initial_state", "initial_covariance"],
-            "limits": ["u_min", "u_max", "u_rate"]})
+        self.assertEqual(
+            {section: list(table) for section, table in keys.items() if isinstance(table, dict)},
+            {
+                "plant": ["A", "B", "C", "D", "G", "H", "delay", "states", "inputs", "outputs", "domain"],
+                "lqr": ["Q", "R", "N"],
+                "kalman": ["process_noise", "measurement_noise", "cross_noise", "initial_state", "initial_covariance"],
+                "limits": ["u_min", "u_max", "u_rate"],
+            },
+        )
         text = tinylqg.design_text(**keys, sample_time=0.1)
-        for line in ('name = "servo"', 'brief = "a servo"', "delay = 0.05", 'states = ["a [m]", "b"]', 'inputs = ["u"]',
-                     "D = [[0]]", "H = [[0.5]]", "N = [[0], [0.1]]", "initial_state = [1, 2]", "u_min = [-1]"):
+        for line in (
+            'name = "servo"',
+            'brief = "a servo"',
+            "delay = 0.05",
+            'states = ["a [m]", "b"]',
+            'inputs = ["u"]',
+            "D = [[0]]",
+            "H = [[0.5]]",
+            "N = [[0], [0.1]]",
+            "initial_state = [1, 2]",
+            "u_min = [-1]",
+        ):
             self.assertIn(line + "\n", text)
         Path("servo.toml").write_text(text)
         self.assertEqual(tinylqg.generate("servo.toml").brief, "a servo")
@@ -36,19 +67,38 @@ class Read(InFolder):
     def test_gains_are_those_of_the_same_design_written_directly(self):
         save("plant.mat", **PLANT, **WEIGHTS)
         tinylqg.write_design("read.toml", **tinylqg.read_mat("plant.mat"), sample_time=0.01)
-        tinylqg.write_design("direct.toml", {key: numpy.atleast_2d(PLANT[key]) for key in "ABCD"}, sample_time=0.01,
-                             **{key: numpy.atleast_2d(value) for key, value in WEIGHTS.items()})
+        tinylqg.write_design(
+            "direct.toml",
+            {key: numpy.atleast_2d(PLANT[key]) for key in "ABCD"},
+            sample_time=0.01,
+            **{key: numpy.atleast_2d(value) for key, value in WEIGHTS.items()},
+        )
         numpy.testing.assert_array_equal(tinylqg.generate("read.toml").K, tinylqg.generate("direct.toml").K)
 
     def test_structures_are_sections(self):
-        text = self.text_of({"lqr": {"bryson": {"states": [0.1, 1.0], "inputs": 5.0}, "horizon": 20.0,
-                                     "integral": {"outputs": 0.0, "Q": 2.0}},
-                             "kalman": {"gain": "online", "structure": numpy.array([[1.0], [0]])},
-                             "V": 1e-5, "code": {"real": "double", "flash": 4096.0},
-                             "observer": {"poles": numpy.array([0.1 + 0.2j, 0.1 - 0.2j])}})
-        for line in ("bryson = { states = [0.1, 1], inputs = [5] }", "horizon = 20", 'gain = "online"', "flash = 4096",
-                     "integral = { outputs = [0], Q = [2] }", "structure = [[1], [0]]", "measurement_noise = [1e-05]",
-                     "poles = [[0.1, 0.2], [0.1, -0.2]]"):
+        text = self.text_of(
+            {
+                "lqr": {
+                    "bryson": {"states": [0.1, 1.0], "inputs": 5.0},
+                    "horizon": 20.0,
+                    "integral": {"outputs": 0.0, "Q": 2.0},
+                },
+                "kalman": {"gain": "online", "structure": numpy.array([[1.0], [0]])},
+                "V": 1e-5,
+                "code": {"real": "double", "flash": 4096.0},
+                "observer": {"poles": numpy.array([0.1 + 0.2j, 0.1 - 0.2j])},
+            }
+        )
+        for line in (
+            "bryson = { states = [0.1, 1], inputs = [5] }",
+            "horizon = 20",
+            'gain = "online"',
+            "flash = 4096",
+            "integral = { outputs = [0], Q = [2] }",
+            "structure = [[1], [0]]",
+            "measurement_noise = [1e-05]",
+            "poles = [[0.1, 0.2], [0.1, -0.2]]",
+        ):
             self.assertIn(line + "\n", text)
 
     def test_variables_beside_a_structure_of_their_section(self):
@@ -88,8 +138,9 @@ class Read(InFolder):
             self.text_of({"Ts": 0.25, "domain": "continuous"})
 
     def test_integers_and_logicals_are_numbers(self):
-        text = self.text_of({"A": numpy.array([[0, 1], [0, -2]], dtype=numpy.int8),
-                             "lqr": {"structure": numpy.array([[True, False]])}})
+        text = self.text_of(
+            {"A": numpy.array([[0, 1], [0, -2]], dtype=numpy.int8), "lqr": {"structure": numpy.array([[True, False]])}}
+        )
         self.assertIn("A = [[0, 1],\n     [0, -2]]\n", text)
         self.assertIn("structure = [[1, 0]]\n", text)
 

@@ -112,9 +112,19 @@ class Files(InFolder):
 
     def test_filter_that_never_becomes_steady(self):
         A, B, C = [[0.9, 0.1, 0], [0, 0.95, 0], [0, 0, 1]], [[0], [0.1], [0]], [[1, 0, 1], [0, 1, 0]]
-        tinylqg.write_design("bias.toml", (A, B, C), domain="discrete", sample_time=0.1, G=[[0, 0], [1, 0], [0, 0]],
-                             W=[0.01, 0.01], V=[0.01, 0.04], Q=[1, 1, 0], R=[1], lqr={"horizon": 20},
-                             kalman={"gain": "online"})
+        tinylqg.write_design(
+            "bias.toml",
+            (A, B, C),
+            domain="discrete",
+            sample_time=0.1,
+            G=[[0, 0], [1, 0], [0, 0]],
+            W=[0.01, 0.01],
+            V=[0.01, 0.04],
+            Q=[1, 1, 0],
+            R=[1],
+            lqr={"horizon": 20},
+            kalman={"gain": "online"},
+        )
         design = tinylqg.generate("bias.toml")
         self.assertEqual(design.kalman, {"form": "filter"})
         with self.refused("bias", "never becomes steady"):
@@ -138,8 +148,9 @@ def closed_with_reference(plant, controller):
     states = numpy.block([[plant.A, numpy.zeros((n, m))], [B[:, :ny] @ plant.C, A]])
     states[:n] += plant.B @ to_u
     inputs = numpy.vstack([plant.B @ D[:, ny:], B[:, ny:]])
-    return control.ss(states, inputs, numpy.hstack([plant.C, numpy.zeros((ny, m))]), numpy.zeros((ny, inputs.shape[1])),
-                      plant.dt)
+    return control.ss(
+        states, inputs, numpy.hstack([plant.C, numpy.zeros((ny, m))]), numpy.zeros((ny, inputs.shape[1])), plant.dt
+    )
 
 
 if __name__ == "__main__":

@@ -11,5 +11,15 @@ from .result import Design, load
 
 __version__ = version("tinylqg")
 
-__all__ = ["Design", "DesignError", "design_text", "generate", "include_dir", "load", "lqgen_path", "read_mat",
-           "source_dir", "write_design"]
+__all__ = [
+    "Design",
+    "DesignError",
+    "design_text",
+    "generate",
+    "include_dir",
+    "load",
+    "lqgen_path",
+    "read_mat",
+    "source_dir",
+    "write_design",
+]

@@ -35,7 +35,9 @@ def write(output, text, force):
         with output.open("wb" if force else "xb") as file:
             file.write(text)
     except FileExistsError:
-        raise expected(output, "a file that is not there yet", "one that somebody may have edited; --force replaces it") from None
+        raise expected(
+            output, "a file that is not there yet", "one that somebody may have edited; --force replaces it"
+        ) from None
 
 
 def export_mat(arguments):
@@ -68,8 +70,11 @@ def parser():
     writer.add_argument("-o", dest="output", metavar="NAME.mat", help="default: NAME.mat beside it")
     writer.set_defaults(run=export_mat)
 
-    for name, what in (("include", "folder for the compiler's include path"), ("src", "folder of the C library's sources"),
-                       ("lqgen", "program")):
+    for name, what in (
+        ("include", "folder for the compiler's include path"),
+        ("src", "folder of the C library's sources"),
+        ("lqgen", "program"),
+    ):
         commands.add_parser(name, help=f"print the {what}").set_defaults(run=print_path)
     return top
 

@@ -11,9 +11,27 @@ from .plant import plant_table
 SECTIONS = ("lqr", "pole_placement", "kalman", "observer", "limits", "stage", "require", "code")
 
 
-def design_text(plant, *, name, brief=None,
-                sample_time=None, domain=None, G=None, H=None, delay=None, states=None, inputs=None, outputs=None,
-                Q=None, R=None, N=None, W=None, V=None, Swv=None, **sections):
+def design_text(
+    plant,
+    *,
+    name,
+    brief=None,
+    sample_time=None,
+    domain=None,
+    G=None,
+    H=None,
+    delay=None,
+    states=None,
+    inputs=None,
+    outputs=None,
+    Q=None,
+    R=None,
+    N=None,
+    W=None,
+    V=None,
+    Swv=None,
+    **sections,
+):
     """The text of the design file `name` for `plant`, which is one of
 
     - a StateSpace of python-control. A continuous one (dt = 0) needs `sample_time`; labels become the names of states,
@@ -30,8 +48,16 @@ def design_text(plant, *, name, brief=None,
         if section not in SECTIONS:
             raise expected("design", "one of " + ", ".join(SECTIONS), section)
     sections = {section: table_of(section, value) for section, value in sections.items() if value is not None}
-    given = {"domain": domain, "sample_time": sample_time, "G": G, "H": H, "delay": delay,
-             "states": states, "inputs": inputs, "outputs": outputs}
+    given = {
+        "domain": domain,
+        "sample_time": sample_time,
+        "G": G,
+        "H": H,
+        "delay": delay,
+        "states": states,
+        "inputs": inputs,
+        "outputs": outputs,
+    }
     tables = {"plant": plant_table(plant, given)}
     tables["lqr"] = merged("lqr", sections, {"Q": Q, "R": R, "N": N})
     tables["kalman"] = merged("kalman", sections, {"process_noise": W, "measurement_noise": V, "cross_noise": Swv})

@@ -28,8 +28,8 @@ def needs(package, what, extra):
 
 @contextmanager
 def refusing(where, what):
-    """Around what reads a foreign file: whatever it makes the readers stumble over is a DesignError. A file that cannot be
-    read at all stays an OSError."""
+    """Around what reads a foreign file: whatever it makes the readers stumble over is a DesignError. A file that cannot
+    be read at all stays an OSError."""
     try:
         yield
     except (DesignError, ImportError):

@@ -85,14 +85,21 @@ class Shape:
         self.integrated = list(map(int, design.lqr.get("integral", [])))
         self.has_rate = design.lqr.K.shape[1] > nx + len(self.integrated)
         wanted = list(map(int, design.lqr.get("references", [])))
-        sizes = [nx if self.estimates else 0, len(self.integrated),
-                 nu if self.has_rate or senses_last_input(design, plant) else 0,
-                 len(plant.C) if self.estimates else nx, len(wanted) if references else 0]
+        sizes = [
+            nx if self.estimates else 0,
+            len(self.integrated),
+            nu if self.has_rate or senses_last_input(design, plant) else 0,
+            len(plant.C) if self.estimates else nx,
+            len(wanted) if references else 0,
+        ]
         ends = numpy.cumsum(sizes)
         self.estimate, self.integral, self.last, self.y, self.r = numpy.split(numpy.eye(ends[-1]), ends[:-1])
         self.states = ends[2]
-        self.r_of_integrals = (self.r[[wanted.index(i) for i in self.integrated]] if references
-                               else numpy.zeros((len(self.integrated), ends[-1])))
+        self.r_of_integrals = (
+            self.r[[wanted.index(i) for i in self.integrated]]
+            if references
+            else numpy.zeros((len(self.integrated), ends[-1]))
+        )
         self.names = self.named(design, plant, wanted if references else [])
 
     def named(self, design, plant, wanted):
@@ -106,7 +113,7 @@ class Shape:
         return {"states": states, "inputs": inputs, "outputs": list(table.inputs)}
 
     def system(self, following, u):
-        return following[:, : self.states], following[:, self.states:], u[:, : self.states], u[:, self.states:]
+        return following[:, : self.states], following[:, self.states :], u[:, : self.states], u[:, self.states :]
 
 
 def innovation_and_input(design, plant, shape):

@@ -35,7 +35,9 @@ def generate(design, folder=".", *options):
     cannot be read or written an OSError.
     """
     command = [str(lqgen_path()), "-o", str(folder), "--only", "h,test,json", "--quiet", *options, "--", str(design)]
-    run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", errors="backslashreplace", check=False)
+    run = subprocess.run(
+        command, capture_output=True, text=True, encoding="utf-8", errors="backslashreplace", check=False
+    )
     if run.returncode == 3:
         raise OSError(run.stderr.strip())
     if run.returncode != 0:

@@ -7,13 +7,29 @@ from .mat_file import variables_of
 from .plant import scalar, timed
 
 MATRICES = ("A", "B", "C", "D", "G", "H", "N", "cross_noise", "structure")
-NUMBERS = ("sample_time", "Ts", "delay", "decay", "settling_time", "horizon", "gate", "rho", "from", "gain_margin_dB",
-           "phase_margin_deg", "disk_margin", "max_pole", "flash")
+NUMBERS = (
+    "sample_time",
+    "Ts",
+    "delay",
+    "decay",
+    "settling_time",
+    "horizon",
+    "gate",
+    "rho",
+    "from",
+    "gain_margin_dB",
+    "phase_margin_deg",
+    "disk_margin",
+    "max_pole",
+    "flash",
+)
 
 # Which section a variable belongs to, and how it is called there.
 HOMES = {
-    **{key: ("plant", key) for key in ("A", "B", "C", "D", "G", "H", "delay", "states", "inputs", "outputs",
-                                       "sample_time", "domain")},
+    **{
+        key: ("plant", key)
+        for key in ("A", "B", "C", "D", "G", "H", "delay", "states", "inputs", "outputs", "sample_time", "domain")
+    },
     **{key: ("lqr", key) for key in ("Q", "R", "N")},
     "W": ("kalman", "process_noise"),
     "V": ("kalman", "measurement_noise"),
@@ -26,12 +42,14 @@ TOP = ("name", "brief")
 
 
 def read_mat(path, variable=None):
-    """What `design_text` and `write_design` take, from a .mat file: `write_design("motor.toml", **read_mat("motor.mat"))`.
+    """What `design_text` and `write_design` take, from a .mat file: `write_design("motor.toml",
+    **read_mat("motor.mat"))`.
 
-    Its variables are A, B, C, D, G, H, Q, R, N, W, V, Swv, x0, P0, u_min, u_max, u_rate, delay, states, inputs, outputs,
-    name, brief, and Ts as MATLAB means it: 0, or none, is a continuous plant, which needs sample_time as well. A
-    structure with the name of a section (lqr, kalman, …) has that section's keys. With `variable` they are the fields
-    of that structure, or the variable is a system that Octave's `ss` made. A variable that is none of these is an error.
+    Its variables are A, B, C, D, G, H, Q, R, N, W, V, Swv, x0, P0, u_min, u_max, u_rate, delay, states, inputs,
+    outputs, name, brief, and Ts as MATLAB means it: 0, or none, is a continuous plant, which needs sample_time as well.
+    A structure with the name of a section (lqr, kalman, …) has that section's keys. With `variable` they are the fields
+    of that structure, or the variable is a system that Octave's `ss` made. A variable that is none of these is an
+    error.
     """
     variables = variables_of(path)
     if variable is None and len(variables) == 1 and is_system(*variables.values()):
@@ -92,8 +110,10 @@ def section(name, value):
     structures = value if isinstance(value, list) else [value]
     if not all(isinstance(item, dict) for item in structures) or (len(structures) != 1 and name != "stage"):
         raise expected(name, "a structure", "something else")
-    tables = [{key: section(key, item) if isinstance(item, dict) else shaped(key, item) for key, item in structure.items()}
-              for structure in structures]
+    tables = [
+        {key: section(key, item) if isinstance(item, dict) else shaped(key, item) for key, item in structure.items()}
+        for structure in structures
+    ]
     return tables if name == "stage" else tables[0]
 
 

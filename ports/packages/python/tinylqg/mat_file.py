@@ -44,8 +44,9 @@ def load_v5(path, data):
     if arrays > MOST_ARRAYS:
         raise expected(path, f"a .mat file of at most {MOST_ARRAYS} arrays", "more")
     found = loadmat(io.BytesIO(data))
-    return {name: of_v5(path, name, value) for name, value in found.items()
-            if not name.startswith("__") and name != "None"}
+    return {
+        name: of_v5(path, name, value) for name, value in found.items() if not name.startswith("__") and name != "None"
+    }
 
 
 def unpacked(path, data):
@@ -53,10 +54,10 @@ def unpacked(path, data):
     order = "little" if data[126:128] == b"IM" else "big"
     at, left = 128, LARGEST_FILE
     while at + 8 <= len(data):
-        kind, size = (int.from_bytes(data[at + i: at + i + 4], order) for i in (0, 4))
+        kind, size = (int.from_bytes(data[at + i : at + i + 4], order) for i in (0, 4))
         if kind == 15:
             unpacker = zlib.decompressobj()
-            part = unpacker.decompress(data[at + 8: at + 8 + size], left + 1)
+            part = unpacker.decompress(data[at + 8 : at + 8 + size], left + 1)
             left -= len(part)
             if left < 0:
                 raise expected(path, "a .mat file", f"more than {LARGEST_FILE} bytes, unpacked")
@@ -72,7 +73,10 @@ def of_v5(path, name, value, depth=0):
         raise expected(path, "matrices", f"the object {name}; [A, B, C, D] = ssdata(sys); Ts = sys.Ts; makes them")
     check_size(path, name, value.shape)
     if value.dtype.names is not None:
-        items = [{key: of_v5(path, f"{name}.{key}", item[key], depth + 1) for key in value.dtype.names} for item in value.flat]
+        items = [
+            {key: of_v5(path, f"{name}.{key}", item[key], depth + 1) for key in value.dtype.names}
+            for item in value.flat
+        ]
         return items[0] if len(items) == 1 else items
     if value.dtype == object:
         return [of_v5(path, name, item, depth + 1) for item in value.flat]
@@ -102,7 +106,11 @@ def of_octave_system(path, name, system):
     time_base = system["lti"].flat[0]
     table = {key: system[key.lower()] for key in "ABCD"}
     table["Ts"] = time_base["tsam"]
-    for key, labels in (("states", system["stname"]), ("inputs", time_base["inname"]), ("outputs", time_base["outname"])):
+    for key, labels in (
+        ("states", system["stname"]),
+        ("inputs", time_base["inname"]),
+        ("outputs", time_base["outname"]),
+    ):
         names = of_v5(path, name, labels)
         if names and all(names):
             table[key] = names

@@ -17,8 +17,11 @@ NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
 def design_name(name, where="name"):
     """`name`, which is a C identifier in lower case: it begins names of files and symbols. lqgen checks the rest."""
     if not isinstance(name, str) or not NAME.fullmatch(name):
-        raise expected(where, "at most 31 lower-case letters, digits and _, a letter first",
-                       repr(name) if isinstance(name, str) else f"{type(name).__name__} {name!r}")
+        raise expected(
+            where,
+            "at most 31 lower-case letters, digits and _, a letter first",
+            repr(name) if isinstance(name, str) else f"{type(name).__name__} {name!r}",
+        )
     return name
 
 

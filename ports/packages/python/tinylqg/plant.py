@@ -23,8 +23,11 @@ def plant_table(system, given):
     elif all(hasattr(system, key) for key in ("A", "B", "C", "D", "dt")):
         table = of_control(system)
     else:
-        raise expected("plant", "a state space of python-control or scipy, (A, B, C, D), or a dictionary",
-                       f"{type(system).__module__}.{type(system).__name__}")
+        raise expected(
+            "plant",
+            "a state space of python-control or scipy, (A, B, C, D), or a dictionary",
+            f"{type(system).__module__}.{type(system).__name__}",
+        )
     return complete(table, given)
 
 

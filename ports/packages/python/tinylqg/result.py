@@ -37,9 +37,9 @@ class Design(Table):
 
         "plant": x⁺ = A x + B u, y = C x + D u; without outputs y = x. "controller": from y to u, what the firmware
         computes while no limit acts, with r = 0 or, with `references`, with r as further inputs. "sensed": from u to y,
-        the plant as the controller sees it; with the controller it closes the loop that has design.loop.poles. It is the
-        plant, but without a filter y is the state, and in the filter form y is taken while the last u acts: where
-        D ≠ 0, that u is a state. With stages, controller and plant are the last ones here.
+        the plant as the controller sees it; with the controller it closes the loop that has design.loop.poles. It is
+        the plant, but without a filter y is the state, and in the filter form y is taken while the last u acts: where D
+        ≠ 0, that u is a state. With stages, controller and plant are the last ones here.
         """
         if part == "plant":
             return loop.plant(self)
@@ -79,7 +79,8 @@ class Design(Table):
 
 
 def mat_variables(design):
-    """One variable for each; a schedule is nu × nx × steps, poles of other things than the loop keep their owner's name."""
+    """One variable for each; a schedule is nu × nx × steps, poles of other things than the loop keep their owner's
+    name."""
     import numpy
 
     values = {"name": design.name, "Ts": design.plant.sample_time}
