@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
+// `check` designs and writes nothing; `new` writes a design file to begin with.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
+#include "commands/new.hpp"
 #include "emit/c/header.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/report/json.hpp"
@@ -31,6 +33,7 @@ enum Exit { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 
 struct Arguments {
   std::string design_file;
+  bool only_checks = false;
   std::string folder = ".";
   std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
@@ -81,6 +84,10 @@ bool overwrites_design(const Arguments& arguments, const std::vector<emit::File>
   return false;
 }
 
+void show_summary(const Arguments& arguments, const emit::Controller& controller) {
+  if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(controller);
+}
+
 int generate(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   const input::DesignFile file = input::read_design_file(arguments.design_file);
@@ -109,6 +116,10 @@ int generate(const Arguments& arguments) {
   watch.show("code, test and report");
   const std::vector<emit::File> outputs = files(arguments, *controller);
   watch.end();
+  if (arguments.only_checks) {
+    show_summary(arguments, *controller);
+    return written;
+  }
   if (overwrites_design(arguments, outputs)) {
     std::cerr << input::printable(arguments.design_file)
               << ": expected a design file that is not one of the outputs; rename it, or choose another folder "
@@ -119,7 +130,42 @@ int generate(const Arguments& arguments) {
     std::cerr << input::printable(*failure) << "\n";
     return unreadable;
   }
-  if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(*controller);
+  show_summary(arguments, *controller);
+  return written;
+}
+
+struct NewArguments {
+  std::string name, starter;
+  std::string folder = ".";
+};
+
+// `lqgen new`: without --from it says what there is.
+int make_new(const NewArguments& arguments) {
+  if (arguments.starter.empty()) {
+    std::cout << "lqgen new NAME --from STARTER writes NAME.toml, a design file to begin with:\n\n"
+              << commands::list_of_starters();
+    return written;
+  }
+  if (arguments.name.empty()) {
+    std::cerr << "lqgen new: expected the name of the design, found none: lqgen new NAME --from "
+              << input::printable(arguments.starter) << "\n";
+    return wrong;
+  }
+  if (const auto why = commands::refuse_name(arguments.name)) {
+    std::cerr << "lqgen new: name: " << input::printable(*why) << "\n";
+    return wrong;
+  }
+  const auto text = commands::text_of_starter(arguments.starter, arguments.name);
+  if (!text) {
+    const std::string near = commands::nearest_starter(arguments.starter);
+    std::cerr << "lqgen new: unknown starter `" << input::printable(arguments.starter) << "`"
+              << (near.empty() ? "; lqgen new lists them" : ", did you mean `" + near + "`?") << "\n";
+    return wrong;
+  }
+  if (const auto failure = commands::write_new(arguments.folder, arguments.name, *text)) {
+    std::cerr << input::printable(*failure) << "\n";
+    return unreadable;
+  }
   return written;
 }
 
@@ -135,7 +181,9 @@ void add_printed(CLI::App& app, const std::string& name, std::string (*text)(), 
 }
 
 // Says what the command line's unknown options may mean, in their order; false where there are none.
-bool explain_unknown_options(const CLI::App& app) {
+bool explain_unknown_options(const CLI::App& whole) {
+  const std::vector<CLI::App*> chosen = whole.get_subcommands();
+  const CLI::App& app = chosen.empty() ? whole : *chosen.front();
   std::vector<std::string> known = {"--help"};
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
@@ -151,22 +199,10 @@ bool explain_unknown_options(const CLI::App& app) {
   return found;
 }
 
-}  // namespace
-
-// Setting up the command line throws only where two options have one name.
-// NOLINTNEXTLINE(bugprone-exception-escape)
-int main(int argc, char** argv) {
-  Arguments arguments;
-  CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};
-  app.set_version_flag("--version", emit::version());
+// Options of all that designs.
+void add_design_options(CLI::App& app, Arguments& arguments) {
   app.add_option("DESIGN", arguments.design_file, "design file (TOML); - is standard input")
-      ->required()
       ->option_text("DESIGN.toml");
-  app.add_option("-o", arguments.folder, "folder for what is written")->option_text("DIR [.]");
-  app.add_option("--only", arguments.only, "write only these")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))
-      ->option_text("h,test,json,html,proof");
   app.add_option("--style", arguments.style, "instead of code.style of the design")
       ->check(CLI::IsMember({"unrolled", "compact", "auto"}))
       ->option_text("unrolled|compact|auto");
@@ -177,19 +213,51 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1u, 1000000u))
       ->option_text("S");
   app.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+}
+
+void add_folder(CLI::App& app, std::string& folder) {
+  app.add_option("-o", folder, "folder for what is written")->option_text("DIR [.]");
+}
+
+}  // namespace
+
+// Setting up the command line throws only where two options have one name.
+// NOLINTNEXTLINE(bugprone-exception-escape)
+int main(int argc, char** argv) {
+  Arguments arguments;
+  NewArguments new_arguments;
+  CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};
+  app.set_version_flag("--version", emit::version());
+  add_design_options(app, arguments);
+  add_folder(app, arguments.folder);
+  app.add_option("--only", arguments.only, "write only these")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))
+      ->option_text("h,test,json,html,proof");
   add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
   add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");
+
+  CLI::App* const check = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
+  add_design_options(*check, arguments);
+  CLI::App* const beginning = app.add_subcommand("new", "Writes a commented design file to begin with, NAME.toml.");
+  beginning->add_option("NAME", new_arguments.name, "name of the design")->option_text("NAME");
+  beginning->add_option("--from", new_arguments.starter, "what to begin with; `lqgen new` lists what there is")
+      ->option_text("STARTER");
+  add_folder(*beginning, new_arguments.folder);
+  app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
+    if (!*beginning && arguments.design_file.empty()) throw CLI::RequiredError("DESIGN");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0 && explain_unknown_options(app)) return wrong;
     return app.exit(error) == 0 ? written : wrong;
   }
+  arguments.only_checks = static_cast<bool>(*check);
   try {
-    return generate(arguments);
+    return *beginning ? make_new(new_arguments) : generate(arguments);
   } catch (const std::exception& error) {
-    std::cerr << input::printable(shown_path(arguments)) << ": lqgen failed: " << input::printable(error.what())
-              << "\n";
+    const std::string what = *beginning ? "lqgen new" : shown_path(arguments);
+    std::cerr << input::printable(what) << ": lqgen failed: " << input::printable(error.what()) << "\n";
     return impossible;
   }
 }

@@ -72,7 +72,8 @@ check_floors(emit "^emit/controller\\.hpp$" "text;recorded;vectors;plan;c;proof;
              "^nlohmann/" "^mbedtls/")
 check(codegen/emit ${any_room} "^controller/" "^design/")
 check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.hpp$" "^nlohmann/")
-check(codegen ${any_room} "^input/" "^reference/documents\\.hpp$" "^emit/" "^design/solve\\.hpp$" "^CLI/" "^watch\\.hpp$")
+check(codegen/commands ${any_room} "^commands/" "^input/")
+check(codegen ${any_room} "^commands/" "^input/" "^reference/documents\\.hpp$" "^emit/" "^design/solve\\.hpp$" "^CLI/" "^watch\\.hpp$")
 
 # A folder that nobody has given a place has to be given one.
 file(GLOB_RECURSE all RELATIVE "${ROOT}" "${ROOT}/codegen/*.[ch]pp" "${ROOT}/src/*.[ch]" "${ROOT}/include/*.h")

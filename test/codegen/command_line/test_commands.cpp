@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// test_commands LQGEN BASE.toml: `lqgen new` and `lqgen check`.
+#include <sys/stat.h>
+
+#include <sstream>
+#include <unity.h>
+
+#include "program.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+enum Status { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
+
+std::string lqgen, base;
+fs::path folder;  // of the test that runs, with base.toml
+
+Outcome run_lqgen(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), lqgen);
+  return run(arguments, folder);
+}
+
+// Standard error is this line, and the folder is as it was.
+void expect_refusal(Status status, const std::string& line, const std::vector<std::string>& arguments) {
+  const Snapshot before = snapshot(folder);
+  const Outcome outcome = run_lqgen(arguments);
+  TEST_ASSERT_EQUAL_INT_MESSAGE(status, outcome.status, outcome.err.c_str());
+  TEST_ASSERT_EQUAL_STRING((line + "\n").c_str(), outcome.err.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(before == snapshot(folder), "files were touched");
+}
+
+// The first word of each line that begins with two blanks.
+std::vector<std::string> listed_starters() {
+  std::vector<std::string> names;
+  std::istringstream lines(run_lqgen({"new"}).out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("  ", 0) == 0) names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+void test_new_alone_lists_what_there_is() {
+  const Outcome outcome = run_lqgen({"new"});
+  TEST_ASSERT_EQUAL_INT(written, outcome.status);
+  for (const char* starter : {"  servo ", "  balancing ", "  temperature ", "  estimator ", "  regulator "})
+    TEST_ASSERT_TRUE_MESSAGE(outcome.out.find(starter) != std::string::npos, starter);
+  TEST_ASSERT_TRUE(outcome.out.find("angle of a DC motor") != std::string::npos);
+}
+
+void test_what_every_starter_writes_designs_at_once() {
+  for (const std::string& starter : listed_starters()) {
+    TEST_ASSERT_EQUAL_INT(written, run_lqgen({"new", "mine", "--from", starter, "-o", starter}).status);
+    const std::string file = starter + "/mine.toml";
+    TEST_ASSERT_TRUE(read_file(folder / file).find("\"mine\"") != std::string::npos);
+    const Outcome outcome = run_lqgen({"check", file, "--quiet"});
+    TEST_ASSERT_EQUAL_INT_MESSAGE(written, outcome.status, (starter + ": " + outcome.err).c_str());
+    TEST_ASSERT_EQUAL_STRING("", outcome.err.c_str());
+    TEST_ASSERT_EQUAL_UINT(1, snapshot(folder / starter).size());
+  }
+}
+
+void test_new_is_the_shipped_design_but_for_its_name() {
+  run_lqgen({"new", "servo", "--from", "servo"});
+  const std::string servo = read_file(folder / "servo.toml");
+  run_lqgen({"new", "arm", "--from", "servo"});
+  std::string arm = read_file(folder / "arm.toml");
+  const std::size_t at = arm.find("\"arm\"");
+  TEST_ASSERT_TRUE(at != std::string::npos);
+  TEST_ASSERT_EQUAL_STRING(servo.c_str(), arm.replace(at, 5, "\"servo\"").c_str());
+}
+
+void test_new_never_writes_over_a_file() {
+  expect_refusal(
+      unreadable,
+      "./base.toml: expected a file that is not there yet, found one; choose another name, or another folder "
+      "with -o",
+      {"new", "base", "--from", "servo"});
+}
+
+void test_new_where_nothing_can_be_written() {
+  write_file(folder / "file", "");
+  expect_refusal(unreadable, "file: Not a directory", {"new", "mine", "--from", "servo", "-o", "file"});
+}
+
+void test_new_refuses_what_no_header_can_be_called() {
+  expect_refusal(wrong, "lqgen new: name: expected a name that is no keyword of C or C++, found \"while\"",
+                 {"new", "while", "--from", "servo"});
+}
+
+void test_new_says_which_starter_may_be_meant() {
+  expect_refusal(wrong, "lqgen new: unknown starter `srevo`, did you mean `servo`?", {"new", "a", "--from", "srevo"});
+  expect_refusal(wrong, "lqgen new: unknown starter `xyz`; lqgen new lists them", {"new", "a", "--from", "xyz"});
+  expect_refusal(wrong, "lqgen new: expected the name of the design, found none: lqgen new NAME --from servo",
+                 {"new", "--from", "servo"});
+}
+
+void test_misspelt_options_of_a_command_are_explained() {
+  expect_refusal(wrong, "lqgen: unknown option `--form`, did you mean `--from`?", {"new", "a", "--form=servo"});
+}
+
+void test_check_says_what_lqgen_says_and_writes_nothing() {
+  const Snapshot before = snapshot(folder);
+  const Outcome outcome = run_lqgen({"check", "base.toml"});
+  TEST_ASSERT_EQUAL_INT(written, outcome.status);
+  TEST_ASSERT_EQUAL_STRING("", outcome.out.c_str());
+  TEST_ASSERT_TRUE(before == snapshot(folder));
+  const Outcome made = run_lqgen({"base.toml", "-o", "out"});
+  TEST_ASSERT_EQUAL_STRING(made.err.c_str(), outcome.err.c_str());
+}
+
+void test_check_refuses_what_lqgen_refuses() {
+  write_file(folder / "bad.toml", "name = \"bad\"\n");
+  const Outcome outcome = run_lqgen({"check", "bad.toml"}), made = run_lqgen({"bad.toml"});
+  TEST_ASSERT_EQUAL_INT(wrong, outcome.status);
+  TEST_ASSERT_EQUAL_STRING(made.err.c_str(), outcome.err.c_str());
+  TEST_ASSERT_EQUAL_INT(unreadable, run_lqgen({"check", "none.toml"}).status);
+}
+
+void test_a_command_has_to_have_its_design() {
+  TEST_ASSERT_EQUAL_INT(wrong, run_lqgen({"check"}).status);
+  TEST_ASSERT_EQUAL_INT(wrong, run_lqgen({}).status);
+}
+
+void test_a_design_file_may_be_called_like_a_command() {
+  write_file(folder / "check", base);
+  TEST_ASSERT_EQUAL_INT(written, run_lqgen({"./check", "-o", "out"}).status);
+}
+
+}  // namespace
+
+void setUp() {
+  folder = fresh_folder("commands");
+  write_file(folder / "base.toml", base);
+}
+void tearDown() {}
+
+int main(int, char** arguments) {
+  lqgen = fs::absolute(arguments[1]);
+  base = read_file(arguments[2]);
+  UNITY_BEGIN();
+  RUN_TEST(test_new_alone_lists_what_there_is);
+  RUN_TEST(test_what_every_starter_writes_designs_at_once);
+  RUN_TEST(test_new_is_the_shipped_design_but_for_its_name);
+  RUN_TEST(test_new_never_writes_over_a_file);
+  RUN_TEST(test_new_where_nothing_can_be_written);
+  RUN_TEST(test_new_refuses_what_no_header_can_be_called);
+  RUN_TEST(test_new_says_which_starter_may_be_meant);
+  RUN_TEST(test_misspelt_options_of_a_command_are_explained);
+  RUN_TEST(test_check_says_what_lqgen_says_and_writes_nothing);
+  RUN_TEST(test_check_refuses_what_lqgen_refuses);
+  RUN_TEST(test_a_command_has_to_have_its_design);
+  RUN_TEST(test_a_design_file_may_be_called_like_a_command);
+  return UNITY_END();
+}
