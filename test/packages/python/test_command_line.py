@@ -91,7 +91,7 @@ class CommandLine(InFolder):
 
     def test_paths(self):
         self.assertTrue(Path(self.tinylqg("include").stdout.strip(), "lqg", "lqg.h").is_file())
-        self.assertTrue(Path(self.tinylqg("src").stdout.strip(), "lqg.c").is_file())
+        self.assertTrue(Path(self.tinylqg("src").stdout.strip(), "loop.c").is_file())
         self.assertEqual(run(self.tinylqg("lqgen").stdout.strip(), "--version").stdout.strip(), tinylqg.__version__)
 
 
