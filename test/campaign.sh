@@ -215,7 +215,8 @@ fuzz() {
   seconds=$(number 3600 "$@")
   [ ! -x "$library" ] || count=$((count + 1))
   [ ! -x "$files" ] || count=$((count + 1))
-  [ "$count" -gt 0 ] || refuse "Not found: fuzzers in $build; they come with clang and its runtime library: CC=clang-19 test/run.sh"
+  [ "$count" -gt 0 ] ||
+    refuse "Not found: fuzzers in $build; they come with clang and its runtime library: CC=clang-19 test/run.sh"
   [ ! -x "$library" ] || fuzz_one library "$library" "$lqg_root/test/src/fuzz_corpus" -max_len=2000
   [ ! -x "$files" ] || fuzz_one design_files "$files" "$lqg_root/codegen/designs" -max_len=4000 \
     "-dict=$lqg_root/test/codegen/input/fuzz_design_file.dict"
@@ -284,7 +285,8 @@ proofs() {
   parts_of "$lqg_root"/codegen/designs/*.toml "$lqg_root"/test/designs/*.toml "$lqg_root"/test/proof/designs/*.toml
   keep_parts
   for part in "${parts[@]}"; do
-    design=$(find "$lqg_root"/codegen/designs "$lqg_root"/test/designs "$lqg_root"/test/proof/designs -name "${part%.*}.toml")
+    design=$(find "$lqg_root"/codegen/designs "$lqg_root"/test/designs "$lqg_root"/test/proof/designs \
+      -name "${part%.*}.toml")
     start "$part" "$lqg_root/test/proof/prove.sh" "$design" --style "${part#*.}" -o .
   done
 }
@@ -302,7 +304,9 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz | options | spikes | mutants | flips) [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*" ;;
+    soak | random | fuzz | options | spikes | mutants | flips)
+      [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*"
+      ;;
     bits) ;;
     proofs) [ $# = 0 ] || refuse "proofs: expected nothing more, found: $*" ;;
     *) refuse "no campaign $campaign: test/campaign.sh lists them" ;;

@@ -88,25 +88,27 @@ endfunction()
 function(lqg_build_lqgen variable)
   lqg_source_tree(root)
   if(NOT root)
-    message(FATAL_ERROR "lqg_add_controller: there is no lqgen. Install TinyLQG with it (LQG_BUILD_CODEGEN=ON), put it on the PATH, "
-                        "or set LQG_LQGEN_EXECUTABLE to an lqgen for this machine")
+    message(FATAL_ERROR "lqg_add_controller: there is no lqgen. Install TinyLQG with it (LQG_BUILD_CODEGEN=ON), put it "
+                        "on the PATH, or set LQG_LQGEN_EXECUTABLE to an lqgen for this machine")
   endif()
   set(folder ${CMAKE_BINARY_DIR}/lqgen_for_this_machine)
   set(lqgen ${folder}/bin/lqgen${CMAKE_HOST_EXECUTABLE_SUFFIX})
   get_property(is_built GLOBAL PROPERTY lqgen_for_this_machine_is_built)
   if(NOT is_built)
     set_property(GLOBAL PROPERTY lqgen_for_this_machine_is_built TRUE)
-    message(STATUS "Building lqgen for this machine (a few minutes the first time; LQGEN=<path> names one that is there)")
+    message(STATUS "Building lqgen for this machine "
+                   "(a few minutes the first time; LQGEN=<path> names one that is there)")
     set(plain ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MFLAGS --unset=MAKELEVEL)
     if(CMAKE_CROSSCOMPILING)
-      list(APPEND plain --unset=CMAKE_TOOLCHAIN_FILE --unset=CC --unset=CXX --unset=CPPFLAGS --unset=CFLAGS --unset=CXXFLAGS
-                        --unset=LDFLAGS)
+      list(APPEND plain --unset=CMAKE_TOOLCHAIN_FILE --unset=CC --unset=CXX --unset=CPPFLAGS --unset=CFLAGS
+                        --unset=CXXFLAGS --unset=LDFLAGS)
     endif()
     cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
     lqg_run_for_lqgen(${plain} ${CMAKE_COMMAND} -S ${root} -B ${folder} -G ${CMAKE_GENERATOR}
                       -DLQG_BUILD_CODEGEN=ON -DLQG_BUILD_TESTS=OFF -DCMAKE_BUILD_TYPE=Release
                       -DCMAKE_RUNTIME_OUTPUT_DIRECTORY_RELEASE=${folder}/bin)
-    lqg_run_for_lqgen(${plain} ${CMAKE_COMMAND} --build ${folder} --config Release --target lqgen --parallel ${processors})
+    lqg_run_for_lqgen(${plain} ${CMAKE_COMMAND} --build ${folder} --config Release --target lqgen
+                      --parallel ${processors})
   endif()
   set(${variable} ${lqgen} PARENT_SCOPE)
 endfunction()
@@ -114,7 +116,8 @@ endfunction()
 function(lqg_run_for_lqgen)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "lqg_add_controller: lqgen could not be built for this machine; the reason stands above. What it needs "
-                        "is named by ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/setup.sh. LQG_LQGEN_EXECUTABLE names an lqgen that is there")
+    message(FATAL_ERROR "lqg_add_controller: lqgen could not be built for this machine; the reason stands above. What "
+                        "it needs is named by ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/setup.sh. "
+                        "LQG_LQGEN_EXECUTABLE names an lqgen that is there")
   endif()
 endfunction()

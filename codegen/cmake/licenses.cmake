@@ -51,8 +51,9 @@ function(lqg_copy_license debian to)
     set(from ${LQG_LICENSES}/${name})
   endif()
   if(NOT EXISTS "${from}")
-    message(FATAL_ERROR "The package needs ${to}, the licence of a library in lqgen: expected the file `${from}`, found none. "
-                        "Make the package on Debian or Ubuntu, or name a folder that has the licences with -DLQG_LICENSES=…")
+    message(FATAL_ERROR "The package needs ${to}, the licence of a library in lqgen: expected the file `${from}`, "
+                        "found none. Make the package on Debian or Ubuntu, or name a folder that has the licences with "
+                        "-DLQG_LICENSES=…")
   endif()
   configure_file("${from}" ${to} COPYONLY)
 endfunction()

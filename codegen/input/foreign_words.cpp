@@ -63,9 +63,9 @@ ForeignWord foreign_word(const std::string& table, const std::string& name) {
   if (name == "K")
     return {"", "K is what lqgen computes: did you mean `Q` and `R` in [lqr], or `poles` in [pole_placement]?"};
   if (name == "L")
-    return {
-        "",
-        "L is what lqgen computes: did you mean `process_noise` and `measurement_noise` in [kalman], or `poles` in [observer]?"};
+    return {"",
+            "L is what lqgen computes: did you mean `process_noise` and `measurement_noise` in [kalman], "
+            "or `poles` in [observer]?"};
   for (const Word& word : known_words)
     if (word.name == in_lower_case(name) && (word.only_in.empty() || word.only_in == table))
       return {std::string(word.path), ""};

@@ -38,7 +38,8 @@ std::string toml_hint(std::string_view line) {
   if (has(value, "[0-9.)]\\s*[*/^]|[*/^]\\s*[0-9.(]|[0-9.)]\\s+[-+]\\s*[0-9.(]|\\b(pi|sqrt|exp|sin|cos)\\b"))
     return "expected numbers, found arithmetic: write its result";
   if (has(value, "(^|[\\s\\[,])[-+]?[0-9][0-9_.]*(e[-+]?[0-9]+)?\\s*[A-Za-z%][A-Za-z/]*[0-9]?\\s*($|[,\\]])"))
-    return "expected a number without a unit; units are SI, and may stand in a comment behind it or in the names of signals, \"dy1 [m]\"";
+    return "expected a number without a unit; units are SI, and may stand in a comment behind it or "
+           "in the names of signals, \"dy1 [m]\"";
   return "";
 }
 

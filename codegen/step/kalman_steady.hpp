@@ -15,8 +15,8 @@ struct Innovation {
 
 template <class S, class Listener>
 Innovation<S> innovate(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  listener.section(
-      std::string(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂") + ", 0 if it is not used", i);
+  const std::string feedthrough = model.D.cols() ? " − D u" : "";
+  listener.section("innovation = y − C x̂" + feedthrough + ", 0 if it is not used", i);
   const S raw = residual(model, state, y, i);
   listener.name(raw, "raw_innovation");
   const S variance = is_zero(model.gate) ? S(0) : S(model.variance(i));

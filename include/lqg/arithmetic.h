@@ -16,16 +16,16 @@
 #define LQG_ARITHMETIC_H
 
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ == 1) || defined _M_FP_FAST
-#error "TinyLQG cannot be compiled with -ffast-math: it would no longer notice a NaN. Leave out -ffast-math, -Ofast and -ffinite-math-only for this file."
+#error "TinyLQG cannot be compiled with -ffast-math: NaNs are lost. Leave out -ffast-math, -Ofast, -ffinite-math-only."
 #endif
 
 #if defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__
-#error "TinyLQG needs its operations in the order in which they are written. Leave out -funsafe-math-optimizations, -fassociative-math and -freciprocal-math for this file."
+#error "TinyLQG: operations change order. Leave out -funsafe-math-optimizations, -fassociative-math, -freciprocal-math."
 #endif
 
 /* 16 is what processors with half precision say: it leaves float and double alone. */
 #if defined __FLT_EVAL_METHOD__ && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
-#error "TinyLQG needs float operations that are rounded to float: here they are more precise (x87, -ffp-eval-method). On x86 use -msse2 -mfpmath=sse."
+#error "TinyLQG needs operations rounded to float: leave out -ffp-eval-method; on x86 use -msse2 -mfpmath=sse, not x87."
 #endif
 
 #if defined LQG_REAL_DOUBLE && defined __SIZEOF_DOUBLE__ && __SIZEOF_DOUBLE__ < 8

@@ -18,7 +18,8 @@ root=$(cd "$1" && pwd)
 mkdir -p "${2:?which output folder?}"
 out=$(cd "$2" && pwd)
 
-version=$(sed -nE 's/^#define LQG_VERSION_(MAJOR|MINOR|PATCH) ([0-9]+)$/\2/p' "$root/include/lqg/version.h" | paste -sd . -)
+version=$(sed -nE 's/^#define LQG_VERSION_(MAJOR|MINOR|PATCH) ([0-9]+)$/\2/p' "$root/include/lqg/version.h" |
+  paste -sd . -)
 # The project's page, which manifests name. No registry takes a package with the stand-in.
 url=${TINYLQG_URL:-https://tinylqg.invalid}
 

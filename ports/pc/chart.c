@@ -92,10 +92,10 @@ int chart_write_svg(const char *path, const char *heading, const chart_curve_t c
 
     if (!file)
         return -1;
-    fprintf(
-        file,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"13\">\n",
-        WIDTH + 2 * MARGIN, curve_count * (HEIGHT + 50) + 50);
+    fprintf(file,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+            "font-family=\"sans-serif\" font-size=\"13\">\n",
+            WIDTH + 2 * MARGIN, curve_count * (HEIGHT + 50) + 50);
     fprintf(
         file,
         "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n<text x=\"%d\" y=\"24\" font-size=\"16\">%s</text>\n",

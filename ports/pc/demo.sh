@@ -18,8 +18,10 @@ esac
 folder=$lqg_root/build/demo
 lqg_find_lqgen
 mkdir -p "$lqg_root/build"
-cmake -S "$lqg_root/ports/pc" -B "$folder" -DLQG_LQGEN_EXECUTABLE="$LQGEN" >"$folder.log" 2>&1 || lqg_stop "CMake could not configure $folder: $folder.log"
-cmake --build "$folder" --parallel "$(getconf _NPROCESSORS_ONLN)" >>"$folder.log" 2>&1 || lqg_stop "The build failed: $folder.log"
+cmake -S "$lqg_root/ports/pc" -B "$folder" -DLQG_LQGEN_EXECUTABLE="$LQGEN" >"$folder.log" 2>&1 ||
+  lqg_stop "CMake could not configure $folder: $folder.log"
+cmake --build "$folder" --parallel "$(getconf _NPROCESSORS_ONLN)" >>"$folder.log" 2>&1 ||
+  lqg_stop "The build failed: $folder.log"
 
 header=$folder/lqg/balancing_robot_demo/balancing_robot.h
 echo

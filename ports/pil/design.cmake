@@ -13,7 +13,8 @@ function(lqg_add_pil_design target)
   string(TOUPPER ${name} in_capitals)
   file(SHA256 ${lqg_pil_design} digest)
   string(REGEX REPLACE "(..)" "0x\\1," digest ${digest})
-  target_compile_definitions(${target} PRIVATE DESIGN_DIGEST=${digest} CONTROLLER=${name} CONTROLLER_IN_CAPITALS=${in_capitals}
+  target_compile_definitions(${target} PRIVATE DESIGN_DIGEST=${digest} CONTROLLER=${name}
+                                               CONTROLLER_IN_CAPITALS=${in_capitals}
                                                "CONTROLLER_HEADER=\"${name}.h\"")
   target_include_directories(${target} PRIVATE ${lqg_pil_folder})
 endfunction()

@@ -37,7 +37,8 @@ folder=${FOLDER:-$lqg_root/build/pil}
 host=$folder/host
 target=$folder/$port
 
-[ -f "$toolchain" ] || lqg_stop "There is no port $port: expected one of the folders of ports/ with a toolchain.cmake, as cortex-m4f"
+[ -f "$toolchain" ] ||
+  lqg_stop "There is no port $port: expected one of the folders of ports/ with a toolchain.cmake, as cortex-m4f"
 compiler=arm-none-eabi-gcc
 [[ $port != rv* ]] || compiler=riscv64-unknown-elf-gcc
 lqg_has_command "$compiler" ||
@@ -47,7 +48,9 @@ lqg_has_command "$compiler" ||
 build() {
   local folder=$1
   shift
-  { cmake -B "$folder" "$@" && cmake --build "$folder" --parallel "$(getconf _NPROCESSORS_ONLN)"; } >"$folder.log" 2>&1 || {
+  {
+    cmake -B "$folder" "$@" && cmake --build "$folder" --parallel "$(getconf _NPROCESSORS_ONLN)"
+  } >"$folder.log" 2>&1 || {
     tail -n 20 "$folder.log" >&2
     lqg_stop "The build failed: $folder.log"
   }

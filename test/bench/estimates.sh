@@ -71,18 +71,22 @@ compare() {
   ! grep -q "^static inline .*${name}_advance(" "$made/$name.h" || names+=(-DKEEPS_Z)
   grep -q " ${name}_control(" "$made/$name.h" || names+=(-DESTIMATES)
   find_library "$folder/library${variant[*]}" "${variant[@]}"
-  "${compiler[@]}" "${variant[@]}" "${names[@]}" "$bench/footprint.c" -Wl,-e,roots "${linked[@]}" "$library" -lm -o "$folder/footprint.elf"
-  flash=$("$size" -A "$folder/footprint.elf" | awk '$1 ~ /^\.(text|rodata|data|ARM\.exidx)/ { sum += $2 } END { print sum }')
+  "${compiler[@]}" "${variant[@]}" "${names[@]}" "$bench/footprint.c" -Wl,-e,roots "${linked[@]}" "$library" -lm \
+    -o "$folder/footprint.elf"
+  flash=$("$size" -A "$folder/footprint.elf" |
+    awk '$1 ~ /^\.(text|rodata|data|ARM\.exidx)/ { sum += $2 } END { print sum }')
   stack=$(arm-none-eabi-objdump -d --no-show-raw-insn "$folder/footprint.elf" |
     awk -f "$bench/stack.awk" -v roots="${name}_update ${name}_control ${name}_predict ${name}_advance")
   stated_flash=$(json_value "$made/$name.json" flash) stated_stack=$(json_value "$made/$name.json" stack)
-  awk -v title="$title" -v a="$stated_flash" -v b="$flash" -v c="$stated_stack" -v d="$stack" -v most_flash=$most_flash -v most_stack=$most_stack -v allowed=$allowed '
+  awk -v title="$title" -v a="$stated_flash" -v b="$flash" -v c="$stated_stack" -v d="$stack" \
+    -v most_flash=$most_flash -v most_stack=$most_stack -v allowed=$allowed '
     function fault(stated, compiled, most) {
       return stated < compiled ? " too little |" : stated > compiled * (1 + most / 100) + allowed ? " too much |" : ""
     }
     function more(stated, compiled) { return compiled ? sprintf("%+.1f %%", 100 * (stated - compiled) / compiled) : "" }
     BEGIN {
-      print "| " title " | " a " | " b " | " more(a, b) " | " c " | " d " | " more(c, d) " |" fault(a, b, most_flash) fault(c, d, most_stack)
+      print "| " title " | " a " | " b " | " more(a, b) " | " c " | " d " | " more(c, d) " |" \
+        fault(a, b, most_flash) fault(c, d, most_stack)
     }' | tee -a "$folder/table.md"
 }
 
@@ -105,5 +109,7 @@ for ((i = seed; i < seed + random; i++)); do
   compare "random $i" "$folder/random_$i.toml"
 done
 if grep -q "too little\|too much" "$folder/table.md"; then
-  lqg_stop "$(grep -c "too little" "$folder/table.md" || true) too little, $(grep -c "too much" "$folder/table.md" || true) too much: codegen/emit/plan states what the compiler does not make"
+  too_little=$(grep -c "too little" "$folder/table.md" || true)
+  too_much=$(grep -c "too much" "$folder/table.md" || true)
+  lqg_stop "$too_little too little, $too_much too much: codegen/emit/plan states what the compiler does not make"
 fi

@@ -22,9 +22,11 @@ measure() {
     printf 'extern function %s;\n' "${functions[@]}"
     echo "__attribute__((section(\".roots\"))) function *const roots[] = {$(IFS=, && echo "${functions[*]}")};"
   } >"$folder/roots.c"
-  "${compiler[@]}" "$folder/roots.c" -Wl,-e,roots "${linked[@]}" "$folder/$suffix/library.a" -lm -Wl,-Map="$folder/map" -o "$folder/roots.elf"
+  "${compiler[@]}" "$folder/roots.c" -Wl,-e,roots "${linked[@]}" "$folder/$suffix/library.a" -lm \
+    -Wl,-Map="$folder/map" -o "$folder/roots.elf"
   for function in "${functions[@]}"; do
-    deepest+=" $(arm-none-eabi-objdump -d --no-show-raw-insn "$folder/roots.elf" | awk -f "$bench/stack.awk" -v roots="$function")"
+    deepest+=" $(arm-none-eabi-objdump -d --no-show-raw-insn "$folder/roots.elf" |
+      awk -f "$bench/stack.awk" -v roots="$function")"
   done
   echo "$title$suffix: flash $(sed '1,/Linker script and memory map/d' "$folder/map" | awk '
     function hexadecimal(text,    i, value) {
@@ -42,7 +44,10 @@ for suffix in _f32 _f32_fused _f64 _f64_fused; do
   [[ $suffix != _f64* ]] || define+=(-DLQG_REAL_DOUBLE)
   [[ $suffix != *_fused ]] || define+=(-DLQG_FUSED)
   mkdir -p "$folder/$suffix"
-  (cd "$folder/$suffix" && "${compiler[@]}" "${define[@]}" -c "$lqg_root"/src/*.c && arm-none-eabi-ar rcs library.a ./*.o)
+  (
+    cd "$folder/$suffix" && "${compiler[@]}" "${define[@]}" -c "$lqg_root"/src/*.c &&
+      arm-none-eabi-ar rcs library.a ./*.o
+  )
   for filter in steady plain ud; do
     measure $filter kalman_${filter}_{init,partial_update,predict}
     measure "$filter, whole update" kalman_${filter}_{init,update,predict}

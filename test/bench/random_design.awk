@@ -20,9 +20,10 @@ function matrix(rows, columns, kind,    i, j, row, out, value) {
   for (i = 0; i < rows; i++) {
     row = ""
     for (j = 0; j < columns; j++) {
-      if (kind == "A") value = is_chained ? (i == j ? between(0.7, 0.99) : j == i + 1 ? between(0.05, 0.2) : 0) : between(-0.9, 0.9) / sqrt(rows)
-      else if (kind == "B") value = !is_chained ? between(-1, 1) : i == rows - 1 - j * int(rows / columns) ? between(0.1, 1) : 0
-      else value = !is_chained ? between(-1, 1) : j == i * int(columns / rows) ? 1 : 0
+      if (!is_chained) value = kind == "A" ? between(-0.9, 0.9) / sqrt(rows) : between(-1, 1)
+      else if (kind == "A") value = i == j ? between(0.7, 0.99) : j == i + 1 ? between(0.05, 0.2) : 0
+      else if (kind == "B") value = i == rows - 1 - j * int(rows / columns) ? between(0.1, 1) : 0
+      else value = j == i * int(columns / rows) ? 1 : 0
       row = row (j ? ", " : "") sprintf("%.6g", value)
     }
     out = out (i ? ",\n     " : "") "[" row "]"

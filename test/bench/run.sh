@@ -68,14 +68,16 @@ make_controller() {
   arithmetic=$(design_value "$3" arithmetic)
   grep -q '^[[:space:]]*B *=' "$3" || has_input=
   "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet || lqg_stop "lqgen refuses $3"
-  grep -q "^static const .* y_in\[" "$1/${name}_test.c" && { [ -z "$has_input" ] || grep -q " ${name}_control(" "$1/$name.h"; } ||
+  grep -q "^static const .* y_in\[" "$1/${name}_test.c" &&
+    { [ -z "$has_input" ] || grep -q " ${name}_control(" "$1/$name.h"; } ||
     lqg_stop "$3: expected a filter and a regulator, or a filter and no input, found only one of them"
   sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$1/${name}_test.c" >"$1/vectors.h"
   if grep -q "^static inline .*${name}_advance(" "$1/$name.h"; then
     keeps_z=yes
     grep -q "_control(.* y\[" "$1/$name.h" || predicts=yes
   fi
-  echo "title='$2' name=$name arithmetic=${arithmetic:-plain} style=$4 real=$5 has_input=$has_input keeps_z=$keeps_z predicts=$predicts"
+  echo "title='$2' name=$name arithmetic=${arithmetic:-plain} style=$4 real=$5" \
+    "has_input=$has_input keeps_z=$keeps_z predicts=$predicts"
 }
 
 # start_controller <title> <design> <style> <real>: in a folder of its own; those of the tables in their order.
@@ -166,7 +168,8 @@ find_library() {
 link_controller() {
   local main=$1
   shift
-  "${compiler[@]}" "${variant[@]}" "${names[@]}" "$bench/$main.c" "$@" "${linked[@]}" "$library" -lm -o "$work/$main.elf"
+  "${compiler[@]}" "${variant[@]}" "${names[@]}" "$bench/$main.c" "$@" "${linked[@]}" "$library" -lm \
+    -o "$work/$main.elf"
 }
 
 # The sections of a program that go into flash.
@@ -213,7 +216,8 @@ measure_core() {
   work=$folder/work/$core
   compile_once
   printf '## %s\n\n%s\n\n' "$core" "$(heading)"
-  echo "| design | style | real | multiply-adds | update | most | control | most | predict | most | flash | RAM | stack |"
+  echo "| design | style | real | multiply-adds | update | most | control | most | predict | most |" \
+    "flash | RAM | stack |"
   echo "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
   for made in "${controllers[@]}"; do
     source "$made/description"
@@ -314,7 +318,8 @@ for argument in "$@"; do
   esac
 done
 [ ${#cores[@]} -gt 0 ] || cores=("${every_core[@]}")
-[ ${#designs[@]} = 0 ] || [ "$task" = print ] || lqg_stop "The record is of the shipped designs: expected --$task alone, found ${designs[*]}"
+[ ${#designs[@]} = 0 ] || [ "$task" = print ] ||
+  lqg_stop "The record is of the shipped designs: expected --$task alone, found ${designs[*]}"
 mkdir -p "$folder"
 case $task in
   print) print "${cores[@]}" ;;

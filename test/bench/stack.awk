@@ -55,7 +55,8 @@ function depth(f,    i, callee, below, deepest) {
   sub(/[@;].*/, "", operands)
   if (operation == "push" || (operation == "stmdb" && operands ~ /^sp!/)) frame[current] += 4 * registers_in(operands)
   else if (operation == "vpush") frame[current] += (operands ~ /\{d/ ? 8 : 4) * registers_in(operands)
-  else if (operation ~ /^(str|str\.w|strd)$/ && operands ~ /\[sp, #-[0-9]+\]!/) frame[current] += number_behind(operands, "#-")
+  else if (operation ~ /^(str|str\.w|strd)$/ && operands ~ /\[sp, #-[0-9]+\]!/)
+    frame[current] += number_behind(operands, "#-")
   else if (operation ~ /^sub(\.w|w)?$/ && operands ~ /^sp, (sp, )?#/) frame[current] += number_behind(operands, "#")
   else if (operation ~ /^b/ && operands ~ /^[0-9a-f]+ </) {
     split(operands, parts, " ")

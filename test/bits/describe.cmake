@@ -24,8 +24,8 @@ endforeach()
 
 set(does)
 foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "ADVANCES: ${NAME}_advance\\("
-                      "REFERS:#define ${upper_name}_NR " "HAS_INPUT:#define ${upper_name}_NU " "PREDICTS:, predictor form "
-                      "COUNTS_RESETS: resets;")
+                      "REFERS:#define ${upper_name}_NR " "HAS_INPUT:#define ${upper_name}_NU "
+                      "PREDICTS:, predictor form " "COUNTS_RESETS: resets;")
   string(REGEX MATCH "^([A-Z_]*):(.*)$" found "${pair}")
   set(macro ${CMAKE_MATCH_1})
   if(header MATCHES "${CMAKE_MATCH_2}")

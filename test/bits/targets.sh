@@ -22,7 +22,8 @@ trap 'rm -r "$work"' EXIT
 # Of clang, in place of those that only gcc knows.
 clang_options() {
   if [ "$family" = riscv ]; then
-    echo "--target=riscv$(port_value lqg_bits)-unknown-elf -mcmodel=medany -isystem /usr/lib/picolibc/riscv64-unknown-elf/include"
+    echo "--target=riscv$(port_value lqg_bits)-unknown-elf -mcmodel=medany" \
+      "-isystem /usr/lib/picolibc/riscv64-unknown-elf/include"
   else
     echo "--target=arm-none-eabi -mthumb -fshort-enums -isystem /usr/lib/arm-none-eabi/include"
   fi

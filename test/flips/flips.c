@@ -257,8 +257,8 @@ int main(int count, char *arguments[])
                         report(&flip, outcome, samples);
                 }
     printf(
-        "%ld flips forgotten, the last after %d of %d samples; %ld late, %ld never, %ld unsound; plants beyond what u can bring back: %ld, "
-        "driven beyond their bounds by a u without limits: %ld\n",
+        "%ld flips forgotten, the last after %d of %d samples; %ld late, %ld never, %ld unsound; "
+        "plants beyond what u can bring back: %ld, driven beyond their bounds by a u without limits: %ld\n",
         found[FORGOTTEN], longest, RECOVERY_SAMPLES, found[LATE], found[NEVER], found[UNSOUND], found[BEYOND_U],
         found[BEYOND_BOUNDS]);
     return found[LATE] || found[NEVER] || found[UNSOUND];

@@ -197,7 +197,8 @@ def ask(subject, sample: int) -> int:
         file.write_text(subject.texts[file])
     count = killed + known + alive
     print(
-        f"{killed} of {count} mutants killed, {known} listed as equivalent, {alive} survive; {same} more are the same code"
+        f"{killed} of {count} mutants killed, {known} listed as equivalent, {alive} survive; "
+        f"{same} more are the same code"
     )
     return 1 if alive or not killed else 0
 

@@ -81,7 +81,8 @@ ends() {
   done
   make_program bits "${sources[@]}" "$root/test/bits/main.c" "$root"/src/*.c || { echo refused; return; }
   "$work/bits" | grep -v contracted >"$work/bits.txt" || true
-  make_program library "$root/test/src/print_bits.c" "$root/test/src/bits.c" "$root"/src/*.c || { echo refused; return; }
+  make_program library "$root/test/src/print_bits.c" "$root/test/src/bits.c" "$root"/src/*.c ||
+    { echo refused; return; }
   "$work/library" >"$work/library.txt" || true
   if cmp -s "$work/bits.txt" "$work/expected" && cmp -s "$work/library.txt" "$work/library_expected"; then
     echo right
@@ -148,6 +149,6 @@ case $mode in
   pairs) pairs "$4" ;;
 esac
 total=$((count[refused] + count[found] + count[right] + count[wrong]))
-echo "$compiler${4:+ $4}: $total combinations: ${count[right]} right, ${count[refused]} refused, ${count[found]} found by the check," \
-  "${count[wrong]} wrong"
+echo "$compiler${4:+ $4}: $total combinations: ${count[right]} right, ${count[refused]} refused," \
+  "${count[found]} found by the check, ${count[wrong]} wrong"
 [ "$total" -gt 0 ] && [ "$failed" = 0 ]

@@ -14,7 +14,8 @@ if(EXISTS ${stamp})
   endif()
 endif()
 
-execute_process(COMMAND ${PYTHON} -m venv --clear ${FOLDER} RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said)
+execute_process(COMMAND ${PYTHON} -m venv --clear ${FOLDER}
+                RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said)
 if(NOT failed)
   execute_process(COMMAND ${FOLDER}/bin/pip --quiet --disable-pip-version-check install --requirement ${REQUIREMENTS}
                   RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said)

@@ -16,7 +16,12 @@ done
 find "$folder/tree" -type f -exec chmod go= {} +
 
 # What `diff` compares: each file and folder on a line.
-list() { (cd "$1" && find . -printf '%p %y %m %T@ ' \( -type f -exec sha256sum {} \; -o -printf '\n' \) | sed 's| \./.*$||' | LC_ALL=C sort); }
+list() {
+  (
+    cd "$1" && find . -printf '%p %y %m %T@ ' \( -type f -exec sha256sum {} \; -o -printf '\n' \) |
+      sed 's| \./.*$||' | LC_ALL=C sort
+  )
+}
 
 packages=(arduino esp-idf platformio single-header zephyr)
 env -u SOURCE_DATE_EPOCH OUTPUT="$folder/made" LQGEN="$lqgen" TZ=Pacific/Chatham LC_ALL=C.UTF-8 LANGUAGE=de \

@@ -7,7 +7,8 @@ set(warnings -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror)
 set(c ${CC} -std=c99 -Wmissing-prototypes -Wdouble-promotion)
 set(cxx ${CXX} -x c++ -std=c++11)
 file(MAKE_DIRECTORY ${WORK})
-file(WRITE ${WORK}/implementation.c "#include \"tinylqg.h\"\n#define LQG_IMPLEMENTATION\n#include \"tinylqg.h\"\n#include \"tinylqg.h\"\n"
+file(WRITE ${WORK}/implementation.c
+  "#include \"tinylqg.h\"\n#define LQG_IMPLEMENTATION\n#include \"tinylqg.h\"\n#include \"tinylqg.h\"\n"
   "int copy, begin, law, limit, is_finite, multiply_add, subtract;\n")
 set(print_bits ${ROOT}/test/src/print_bits.c ${ROOT}/test/src/bits.c)
 
@@ -21,7 +22,8 @@ foreach(variant IN ITEMS tinylqg double fused double_fused)
                   COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${WORK}/library OUTPUT_VARIABLE expected COMMAND_ERROR_IS_FATAL ANY)
   foreach(compiler IN ITEMS c cxx)
-    execute_process(COMMAND ${${compiler}} ${options} ${warnings} -I${PACKAGE} -c ${WORK}/implementation.c -o ${WORK}/implementation.o
+    execute_process(COMMAND ${${compiler}} ${options} ${warnings} -I${PACKAGE} -c ${WORK}/implementation.c
+                            -o ${WORK}/implementation.o
                     COMMAND_ERROR_IS_FATAL ANY)
     # <lqg/….h> of the package leads to tinylqg.h
     execute_process(COMMAND ${CC} -std=c99 ${options} -I${PACKAGE} ${print_bits} ${WORK}/implementation.o -lm

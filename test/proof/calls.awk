@@ -40,7 +40,8 @@ function write_call(prototype,   call, list, count, parameter, i) {
   calls++
 }
 
-$0 ~ "^static inline (lqg_status_t|void) " name "_[a-z0-9_]+\\(" || $0 ~ "^static lqg_status_t " name "_reset\\(" { prototype = " " }
+$0 ~ "^static inline (lqg_status_t|void) " name "_[a-z0-9_]+\\(" ||
+  $0 ~ "^static lqg_status_t " name "_reset\\(" { prototype = " " }
 
 prototype {
   prototype = prototype " " $0
@@ -50,7 +51,8 @@ prototype {
 END {
   if (failed) exit 2
   if (!calls) not_understood("a header without functions")
-  print "\nenum { CALLS = " calls " };\n\n/* One of the calls. */\nstatic void call_any(LOOP)\n{\n    const int call = any_int;"
+  print "\nenum { CALLS = " calls " };\n"
+  print "/* One of the calls. */\nstatic void call_any(LOOP)\n{\n    const int call = any_int;"
   for (i = 0; i < calls; i++) print "    if (call == " i ")\n        call_" i "(loop);"
   print "}"
 }

@@ -13,7 +13,9 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd) root=$(cd "$here/../.." && pw
 source "$here/restate_library.sh"
 
 stop() { echo "$2" >&2; exit "$1"; }
-usage() { stop 2 "usage: prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER] [--try]"; }
+usage() {
+  stop 2 "usage: prove.sh DESIGN.toml [--style unrolled|compact|auto] [--real float|double] [-o FOLDER] [--try]"
+}
 has() { command -v "$1" >/dev/null 2>&1; }
 
 design='' folder='' only_try='' options=()
@@ -64,14 +66,15 @@ sed 's|/\*@ slevel merge; \*/ ;||' "$proof" >"$folder/same.h"
 [ "$(text "$folder/same.h" '-DRESTATED(test,facts)=test' "${defines[@]}")" = "$(text "$header" "${defines[@]}")" ] ||
   stop 2 "not understood: $proof is not $header"
 [ -z "${BREAK:-}" ] || sed -i "$BREAK" "$proof"
-awk -v name="$name" -f "$here/calls.awk" "$header" >"$folder/calls.h" || stop 2 "prove.sh does not know how to call $header"
+awk -v name="$name" -f "$here/calls.awk" "$header" >"$folder/calls.h" ||
+  stop 2 "prove.sh does not know how to call $header"
 
 # What is said to follow from the tests is tried first.
 flags=(-I"$folder" -I"$here" -I"$root/include" "${defines[@]}" "-DHEADER=\"$(basename "$proof")\"")
 library=()
 [ "$style" = unrolled ] || library=("$root"/src/*.c)
-"$compiler" -std=c99 -O1 -ffp-contract=off "${flags[@]}" -DPROOF_TRIED -include "$here/tried.h" "$here/tried.c" "${library[@]}" -lm \
-  -o "$folder/tried" || stop 2 "not understood: $header does not compile with $here/tried.c"
+"$compiler" -std=c99 -O1 -ffp-contract=off "${flags[@]}" -DPROOF_TRIED -include "$here/tried.h" "$here/tried.c" \
+  "${library[@]}" -lm -o "$folder/tried" || stop 2 "not understood: $header does not compile with $here/tried.c"
 "$folder/tried" || stop 1 "not proved: what should follow from a test does not"
 [ -z "$only_try" ] || { echo "$name, $style, $real: tried"; exit 0; }
 
@@ -94,17 +97,26 @@ paths=(-eva-slevel 4)
 [ "$style" = unrolled ] || paths=(-eva-split-return full -eva-slevel-function "lqg_gate_weigh_$variant:0")
 frama-c -eva -eva-precision 2 -eva-domains equality "${paths[@]}" -eva-auto-loop-unroll 200 -eva-min-loop-unroll 16 \
   ${control:+-eva-slevel-function "$control:10000"} -warn-special-float none -machdep x86_64 \
-  -cpp-extra-args="$(printf '%q ' "${flags[@]}") -include unknown.h" "$here/controller.c" "${library[@]}" >"$log" 2>&1 ||
+  -cpp-extra-args="$(printf '%q ' "${flags[@]}") -include unknown.h" "$here/controller.c" "${library[@]}" \
+  >"$log" 2>&1 ||
   stop 2 "not understood: $(tail -n 20 "$log")"
 
 # What was not proved, with the function it is in.
 not_proved() {
   awk -v name="$name" '
-    FNR == NR { if (match($0, "^static .*" name "_[a-z0-9_]+\\(")) { at = substr($0, 1, RLENGTH - 1); sub(/.* /, "", at) } within[FNR] = at; next }
+    FNR == NR {
+      if (match($0, "^static .*" name "_[a-z0-9_]+\\(")) { at = substr($0, 1, RLENGTH - 1); sub(/.* /, "", at) }
+      within[FNR] = at
+      next
+    }
     /^\[/ { shows = 0 }
     /^\[eva:alarm\]/ {
       shows = 1
-      if (match($0, name "_proof\\.h:[0-9]+")) { line = substr($0, RSTART, RLENGTH); sub(/.*:/, "", line); print within[line + 0] ":" }
+      if (match($0, name "_proof\\.h:[0-9]+")) {
+        line = substr($0, RSTART, RLENGTH)
+        sub(/.*:/, "", line)
+        print within[line + 0] ":"
+      }
     }
     shows { print }
   ' "$proof" "$log" | grep -v '^ *stack: .*' | head -n 60 >&2
@@ -115,7 +127,8 @@ functions=$(sed -n "s/.*@ check ${name}_\\(.*\\)_returns.*/\\1/p" "$folder/calls
 grep -q "^  0 alarms generated" "$log" || { not_proved; stop 1 "$name, $style, $real: not proved"; }
 grep -Eq "Assertions +$checks valid +0 unknown +0 invalid +$checks total" "$log" || {
   not_proved
-  stop 1 "$name, $style, $real: not proved; of $checks checks, those that were reached:$(grep 'Assertions ' "$log" | tr -s ' ')"
+  reached=$(grep 'Assertions ' "$log" | tr -s ' ' || true)
+  stop 1 "$name, $style, $real: not proved; of $checks checks, those that were reached:$reached"
 }
 said=''
 ! is BOUNDS || said+=', x within its bounds'

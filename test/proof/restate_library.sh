@@ -3,16 +3,22 @@
 restate_library() {
   cp "$root"/src/*.[ch] "$1"
   sed -i 's/return a - a == 0;/return FINITE(a);/' "$1/kernel.h"
-  sed -i 's/return limits ? absolute(a) < limits\[i\] : is_finite(a);/return limits ? BELOW(a, limits[i]) : is_finite(a);/' "$1/kernel.h"
+  local below='return limits ? absolute(a) < limits\[i\] : is_finite(a);'
+  sed -i "s/$below/return limits ? BELOW(a, limits[i]) : is_finite(a);/" "$1/kernel.h"
   local within='perhaps_all_scaled_below(state->x, kalman->x_scale, kalman->plant.nx)'
   sed -i "s/^    if (is_within_bounds(&check))\$/    if ($within)/" "$1/kalman_steady.c"
   local P='perhaps_diagonal_below(state->P, kalman->x_scale, kalman->plant.nx)'
   local factors='perhaps_factors_below(state->U, state->d, kalman->x_scale, nx)'
-  sed -i "s/recover(kalman, state, is_within_bounds(&check), /recover(kalman, state, $within, /" "$1"/kalman_{plain,ud}.c
-  sed -i "s/^    const int x_is_fit = is_within_bounds(&check);\$/    const int x_is_fit = $within;/" "$1"/kalman_{plain,ud}.c
-  sed -i "s/recover(kalman, state, x_is_fit, is_within_bounds(&check))/recover(kalman, state, x_is_fit, $P)/" "$1/kalman_plain.c"
-  sed -i "s/recover(kalman, state, x_is_fit, is_within_bounds(&check))/recover(kalman, state, x_is_fit, $factors)/" "$1/kalman_ud.c"
-  sed -i '0,/is_within_bounds(&check)/s//perhaps_all_finite(state->x, ekf->nx)/; s/!is_within_bounds(&check)/any_int/' "$1/ekf.c"
+  sed -i "s/recover(kalman, state, is_within_bounds(&check), /recover(kalman, state, $within, /" \
+    "$1"/kalman_{plain,ud}.c
+  sed -i "s/^    const int x_is_fit = is_within_bounds(&check);\$/    const int x_is_fit = $within;/" \
+    "$1"/kalman_{plain,ud}.c
+  sed -i "s/recover(kalman, state, x_is_fit, is_within_bounds(&check))/recover(kalman, state, x_is_fit, $P)/" \
+    "$1/kalman_plain.c"
+  sed -i "s/recover(kalman, state, x_is_fit, is_within_bounds(&check))/recover(kalman, state, x_is_fit, $factors)/" \
+    "$1/kalman_ud.c"
+  sed -i '0,/is_within_bounds(&check)/s//perhaps_all_finite(state->x, ekf->nx)/; s/!is_within_bounds(&check)/any_int/' \
+    "$1/ekf.c"
   local theta='perhaps_all_finite(state->theta, rls->ntheta)'
   sed -i "0,/is_within_bounds(&check)/s//$theta/; s/!is_within_bounds(&check)/any_int/" "$1/rls.c"
   local xi='perhaps_all_scaled_below(state->xi, servo->xi_scale, servo->nxi)'

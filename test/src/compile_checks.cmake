@@ -35,7 +35,8 @@ endforeach()
 
 add_test(NAME src.variants_do_not_mix
          COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_C_COMPILER} "-DFLAGS=${CMAKE_C_FLAGS}"
-                 -DINCLUDE=${include_folder} -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/variant_caller.c -DWORK=${CMAKE_CURRENT_BINARY_DIR}
+                 -DINCLUDE=${include_folder} -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/variant_caller.c
+                 -DWORK=${CMAKE_CURRENT_BINARY_DIR}
                  -Dtinylqg=$<TARGET_FILE:tinylqg> -Ddouble=$<TARGET_FILE:tinylqg_double>
                  -Dfused=$<TARGET_FILE:tinylqg_fused> -Ddouble_fused=$<TARGET_FILE:tinylqg_double_fused>
                  -DLIBM=$<$<BOOL:${UNIX}>:-lm> -P ${CMAKE_CURRENT_SOURCE_DIR}/mix_variants.cmake)

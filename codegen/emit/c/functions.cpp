@@ -80,13 +80,13 @@ std::string unusable(const Controller& controller) {
 }
 
 Words update_words(const Controller& controller) {
+  const std::string rest_of_law = controller.has.feedthrough ? " − D u), u: the input that acts" : ")";
   return {{"unusable", unusable(controller)},
           {"left_out", is_steady(controller) ? "counts as equal to its expected value: its innovation is 0"
                                              : "is not used in this sample"},
           {"statuses", statuses_of_update(controller)},
           {"gain", is_steady(controller) ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P"},
-          {"law",
-           controller.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u), u: the input that acts" : "x̂ ← x̂ + L (y − C x̂)"}};
+          {"law", "x̂ ← x̂ + L (y − C x̂" + rest_of_law}};
 }
 
 std::string update_function(const Controller& controller, const FunctionBodies& bodies) {

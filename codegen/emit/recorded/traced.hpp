@@ -22,8 +22,8 @@ struct TracedFunction {
   bool checks_covariance = false;  // P may be at fault, not x̂: NAME_recover
   bool is_void = false;
   int answer = -1;  // the condition that it returns, in place of a status
-  std::vector<int>
-      asked;  // the questions to NAME_weigh, which add to the status and count even where nothing else needs their answers
+  // The questions to NAME_weigh, which add to the status and count even where nothing else needs their answers.
+  std::vector<int> asked;
   std::vector<int> gates;  // the conditions that the gate left the output out
   std::vector<int> lost;   // output by output, the condition that a partial update leaves it out
 

@@ -172,9 +172,11 @@ std::string turns_as_data(const Controller& controller, const Calls& calls) {
             std::to_string(turn.entry) + ", " + number_of(turn.number, is_double) + "},\n";
   data.erase(data.size() - 2, 1);
   return "\n" + trace::wrap("enum {" + names + "};", 4) +
-         "\n\n/* What is called, turn by turn: with that row of the tables, times `number`, or with `number` in place of one entry,\n"
+         "\n\n/* What is called, turn by turn: with that row of the tables, times `number`, "
+         "or with `number` in place of one entry,\n"
          " * which is then not -1. A write is what a fault of the memory may leave. */\n"
-         "static const struct {\n    unsigned char call, row;\n    short entry;\n    {real} number;\n} turns[TURNS] = {\n" +
+         "static const struct {\n    unsigned char call, row;\n    short entry;\n    {real} number;\n"
+         "} turns[TURNS] = {\n" +
          data + "};\n";
 }
 

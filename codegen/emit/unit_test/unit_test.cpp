@@ -94,11 +94,11 @@ std::string covariance_check(const Controller& controller) {
   const bool is_ud = controller.filter == step::Filter::ud;
   if (!is_ud && controller.filter != step::Filter::plain) return "";
   return std::string("        if (k % ") + std::to_string(samples_per_covariance) + " == 0) {\n" +
-         (is_ud
-              ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
-                "            {name}_covariance(&self, P);\n"
-                "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
-              : "            assert_near(P_tolerance, P_out[k / {every}], self.P, (int)(sizeof self.P / sizeof self.P[0]));\n") +
+         (is_ud ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
+                  "            {name}_covariance(&self, P);\n"
+                  "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
+                : "            assert_near(P_tolerance, P_out[k / {every}], self.P, "
+                  "(int)(sizeof self.P / sizeof self.P[0]));\n") +
          "        }\n";
 }
 
@@ -314,7 +314,8 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
         bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
   words["bits"] =
-      "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n    RUN_TEST(test_{name}_answers_every_call_as_the_host_does);\n";
+      "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n"
+      "    RUN_TEST(test_{name}_answers_every_call_as_the_host_does);\n";
   if (controller.target.is_fused)
     words["bits"] = fill("#if defined FP_FAST_{FMA} || defined __FP_FAST_{FMA} || defined __GLIBC__\n",
                          {{"FMA", controller.target.is_double ? "FMA" : "FMAF"}}) +
@@ -328,7 +329,8 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
 std::string unit_test(const Controller& controller) {
   const Vectors vectors = make_vectors(controller);
   const std::string text =
-      "\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n#include \"unity.h\"\n\n#include \"{name}.h\"\n\n"
+      "\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
+      "#include \"unity.h\"\n\n#include \"{name}.h\"\n\n"
       "#define SAMPLES {samples}\n#define HASH {hash}u  /* over every bit of all results, on the host */\n"
       "#define TURNS {turns}\n#define HASH_OF_TURNS {hash_of_turns}u\n\n" +
       data(controller, vectors) + turns_as_data(controller, vectors.calls) + helpers() + reference_test(controller) +

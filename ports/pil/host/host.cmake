@@ -11,8 +11,8 @@ function(lqg_add_pil_host target)
   else()
     set(plant ${lqg_pil_host}/plant_robot.c ${pc}/scenario.c ${pc}/robot.c ${pc}/noise.c)
   endif()
-  add_executable(${target} ${lqg_pil_host}/main.c ${lqg_pil_host}/target.c ${lqg_pil_host}/line.c ${lqg_pil_host}/timing.c
-                           ${lqg_pil_host}/../protocol.c ${pc}/chart.c ${plant})
+  add_executable(${target} ${lqg_pil_host}/main.c ${lqg_pil_host}/target.c ${lqg_pil_host}/line.c
+                           ${lqg_pil_host}/timing.c ${lqg_pil_host}/../protocol.c ${pc}/chart.c ${plant})
   set_target_properties(${target} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -pedantic -Wall -Wextra -Wconversion -Wshadow -Wmissing-prototypes)
   target_include_directories(${target} PRIVATE ${LQG_PIL_SAMPLES})

@@ -7,7 +7,8 @@ else()
   set(kernel_port ${FREERTOS_KERNEL}/portable/GCC/ARM_CM3)
 endif()
 if(NOT EXISTS ${FREERTOS_KERNEL}/tasks.c OR NOT EXISTS ${kernel_port}/port.c)
-  message(FATAL_ERROR "FREERTOS_KERNEL: expected the kernel's folder with tasks.c and portable/GCC, found ${FREERTOS_KERNEL}")
+  message(FATAL_ERROR "FREERTOS_KERNEL: expected the kernel's folder with tasks.c and portable/GCC, "
+                      "found ${FREERTOS_KERNEL}")
 endif()
 
 add_library(freertos STATIC ${FREERTOS_KERNEL}/tasks.c ${FREERTOS_KERNEL}/list.c ${kernel_port}/port.c)

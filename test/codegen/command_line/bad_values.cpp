@@ -181,8 +181,8 @@ std::vector<BadDesign> wrong_values() {
        {"10:9: plant.delay: expected at most 256 states together with the inputs on their way, found …"}},
       {"poles of the continuous plane",
        {{16, "[pole_placement]\npoles = [-0.5, -2, [-1, 3], [-1, -3]]", 20}},
-       {"17:9: pole_placement.poles: expected poles z inside of the unit circle, found -2; poles s of the continuous plane go to "
-        "`continuous_poles`"}},
+       {"17:9: pole_placement.poles: expected poles z inside of the unit circle, found -2; poles s of the continuous "
+        "plane go to `continuous_poles`"}},
       {"poles that are too few",
        {{16, "[pole_placement]\npoles = [0.1, 0.2, 0.3]", 20}},
        {"17:9: pole_placement.poles: expected 4 poles, one for each state, found 3"}},

@@ -34,7 +34,8 @@ std::vector<BadDesign> impossible() {
       {"unstable mode that no input reaches but for rounding",
        {{0, design("discrete", "[[0.8217409642975664, 0.2709986757468266], [0.2709986757468266, 0.7282590357024338]]",
                    "[[-0.644217687237691], [0.7648421872844885]]", "[[1, 1]]")}},
-       {"6:5: plant.B: …z = 1.05…angle, rate…only by the rounding of the file's numbers: move every number of A and B by 9.6e-17 of itself…"}},
+       {"6:5: plant.B: …z = 1.05…angle, rate…only by the rounding of the file's numbers: "
+        "move every number of A and B by 9.6e-17 of itself…"}},
       {"folded form of a law with limits",
        {{40, "realisation = \"folded\""}},
        {"40:15: code.realisation: expected \"physical\": with [limits] x̂ has to hear of the input that was applied"}},

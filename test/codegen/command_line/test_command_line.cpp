@@ -93,7 +93,8 @@ void test_misspelt_options_are_explained_in_their_order() {
   const Outcome outcome = run_lqgen({"base.toml", "--sytle", "compact", "--quite", "--zzzz"});
   TEST_ASSERT_EQUAL_INT(wrong, outcome.status);
   TEST_ASSERT_EQUAL_STRING(
-      "lqgen: unknown option `--sytle`, did you mean `--style`?\nlqgen: unknown option `--quite`, did you mean `--quiet`?\n"
+      "lqgen: unknown option `--sytle`, did you mean `--style`?\n"
+      "lqgen: unknown option `--quite`, did you mean `--quiet`?\n"
       "lqgen: unknown option `--zzzz`; lqgen --help lists them\n",
       outcome.err.c_str());
 }

@@ -117,12 +117,13 @@ std::string run_in_both_styles(Controller controller, const std::string& body) {
   std::string printed[2];
   for (const bool compact : {false, true}) {
     controller.style = compact ? lqg::design::Style::compact : lqg::design::Style::unrolled;
-    printed[compact] = run_with_header(
-        controller,
-        "#include <math.h>\n#include <stdio.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
-        "    static const float bound[LOOP_NX] = LOOP_X_BOUNDS;\n    static loop_t self;\n    float x[LOOP_NX], y[LOOP_NY] = {0}, u[LOOP_NU] = {0};\n\n"
-        "    (void)x, (void)y, (void)u, (void)bound;\n    loop_init(&self);\n" +
-            body + "    return 0;\n}\n");
+    printed[compact] =
+        run_with_header(controller,
+                        "#include <math.h>\n#include <stdio.h>\n#include \"loop.h\"\n\nint main(void)\n{\n"
+                        "    static const float bound[LOOP_NX] = LOOP_X_BOUNDS;\n    static loop_t self;\n"
+                        "    float x[LOOP_NX], y[LOOP_NY] = {0}, u[LOOP_NU] = {0};\n\n"
+                        "    (void)x, (void)y, (void)u, (void)bound;\n    loop_init(&self);\n" +
+                            body + "    return 0;\n}\n");
   }
   TEST_ASSERT_EQUAL_STRING(printed[0].c_str(), printed[1].c_str());
   return printed[0];

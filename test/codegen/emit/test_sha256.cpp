@@ -22,9 +22,9 @@ void test_sha256_of_448_bits() {
 }
 
 void test_sha256_of_896_bits() {
-  expect(
-      "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1",
-      "abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu");
+  expect("cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1",
+         "abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmn"
+         "hijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu");
 }
 
 void test_sha256_of_a_million_a() {

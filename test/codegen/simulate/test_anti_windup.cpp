@@ -59,34 +59,40 @@ VectorXd vector(std::initializer_list<double> entries) {
 // A Maxon RE25 that turns a shaft to an angle: 2017 and 47.37 1/s as from its data sheet.
 // clang-format off
 Plant servo(std::vector<double> q, std::vector<VectorXd> steps) {
-  return {"servo", matrix({{0, 1}, {0, -47.37}}), matrix({{0}, {2017}}), matrix({{1, 0}}), 0.001, vector({0.05, 50}), vector({20}),
-          vector({-20}), vector({20}), std::move(q), std::move(steps), vector({6}), 6};
+  return {"servo", matrix({{0, 1}, {0, -47.37}}), matrix({{0}, {2017}}), matrix({{1, 0}}), 0.001,
+          vector({0.05, 50}), vector({20}), vector({-20}), vector({20}), std::move(q), std::move(steps),
+          vector({6}), 6};
 }
 
 std::vector<Plant> plants() {
   return {servo({1e2, 1e4, 1e6}, {vector({0.02}), vector({0.2}), vector({1}), vector({5})}),
-          {"double integrator", matrix({{0, 1}, {0, 0}}), matrix({{0}, {1}}), matrix({{1, 0}}), 0.01, vector({0.1, 0.5}), vector({1}),
-           vector({-1}), vector({1}), {1, 10, 1000}, {vector({0.01}), vector({0.3}), vector({3})}, vector({0.3}), 40},
-          {"lag", matrix({{-1}}), matrix({{1}}), matrix({{1}}), 0.01, vector({0.2}), vector({1}), vector({-1}), vector({1}),
-           {1, 100, 1e4}, {vector({0.05}), vector({0.4}), vector({0.75})}, vector({0.2}), 30},
+          {"double integrator", matrix({{0, 1}, {0, 0}}), matrix({{0}, {1}}), matrix({{1, 0}}), 0.01,
+           vector({0.1, 0.5}), vector({1}), vector({-1}), vector({1}), {1, 10, 1000},
+           {vector({0.01}), vector({0.3}), vector({3})}, vector({0.3}), 40},
+          {"lag", matrix({{-1}}), matrix({{1}}), matrix({{1}}), 0.01, vector({0.2}), vector({1}), vector({-1}),
+           vector({1}), {1, 100, 1e4}, {vector({0.05}), vector({0.4}), vector({0.75})}, vector({0.2}), 30},
           {"two masses", matrix({{0, 1, 0, 0}, {-20, -0.05, 20, 0.05}, {0, 0, 0, 1}, {100, 0.25, -100, -0.25}}),
-           matrix({{0}, {1}, {0}, {0}}), matrix({{0, 0, 1, 0}}), 0.02, vector({0.2, infinity, 0.2, infinity}), vector({1}), vector({-2}),
-           vector({2}), {5, 50}, {vector({0.05}), vector({0.5}), vector({4})}, vector({0.5}), 40},
-          {"speed of a motor", matrix({{-1.0865, 8487.18}, {-9.9636, -1454.55}}), matrix({{0}, {363.636}}), matrix({{1, 0}}), 0.001,
-           vector({20, infinity}), vector({12}), vector({-12}), vector({12}), {1, 1000}, {vector({10}), vector({100}), vector({300})},
-           vector({3}), 2},
-          {"oven", matrix({{-0.016, 0.016}, {0.002, -0.0025}}), matrix({{0.002}, {0}}), matrix({{0, 1}}), 1, vector({infinity, 2}),
-           vector({400}), vector({0}), vector({800}), {1e-5, 1e-4}, {vector({5}), vector({60}), vector({250})}, vector({100}), 10000},
-          {"two inputs", matrix({{-0.5, 0.3}, {0.2, -1}}), matrix({{1, 0.4}, {0.3, 0.8}}), MatrixXd::Identity(2, 2), 0.02,
-           vector({0.2, 0.2}), vector({1, 0.5}), vector({-1, -0.6}), vector({1, 0.6}), {1, 1000},
+           matrix({{0}, {1}, {0}, {0}}), matrix({{0, 0, 1, 0}}), 0.02, vector({0.2, infinity, 0.2, infinity}),
+           vector({1}), vector({-2}), vector({2}), {5, 50},
+           {vector({0.05}), vector({0.5}), vector({4})}, vector({0.5}), 40},
+          {"speed of a motor", matrix({{-1.0865, 8487.18}, {-9.9636, -1454.55}}), matrix({{0}, {363.636}}),
+           matrix({{1, 0}}), 0.001, vector({20, infinity}), vector({12}), vector({-12}), vector({12}), {1, 1000},
+           {vector({10}), vector({100}), vector({300})}, vector({3}), 2},
+          {"oven", matrix({{-0.016, 0.016}, {0.002, -0.0025}}), matrix({{0.002}, {0}}), matrix({{0, 1}}), 1,
+           vector({infinity, 2}), vector({400}), vector({0}), vector({800}), {1e-5, 1e-4},
+           {vector({5}), vector({60}), vector({250})}, vector({100}), 10000},
+          {"two inputs", matrix({{-0.5, 0.3}, {0.2, -1}}), matrix({{1, 0.4}, {0.3, 0.8}}), MatrixXd::Identity(2, 2),
+           0.02, vector({0.2, 0.2}), vector({1, 0.5}), vector({-1, -0.6}), vector({1, 0.6}), {1, 1000},
            {vector({0.05, -0.02}), vector({0.8, 0}), vector({0, 0.45}), vector({1.1, 0.6})}, vector({0.2, -0.1}), 30},
-          {"gantry", matrix({{0, 1, 0, 0}, {0, -0.5, 0, 0.1}, {0, 0, 0, 1}, {0, 0, 0, -1}}), matrix({{0, 0}, {2, 0.4}, {0, 0}, {0.5, 3}}),
-           matrix({{1, 0, 0, 0}, {0, 0, 1, 0}}), 0.01, vector({0.1, 1, 0.1, 1}), vector({2, 1}), vector({-2, -1}), vector({2, 1}),
+          {"gantry", matrix({{0, 1, 0, 0}, {0, -0.5, 0, 0.1}, {0, 0, 0, 1}, {0, 0, 0, -1}}),
+           matrix({{0, 0}, {2, 0.4}, {0, 0}, {0.5, 3}}), matrix({{1, 0, 0, 0}, {0, 0, 1, 0}}), 0.01,
+           vector({0.1, 1, 0.1, 1}), vector({2, 1}), vector({-2, -1}), vector({2, 1}),
            {10, 1000}, {vector({0.02, 0.01}), vector({0.3, -0.3}), vector({3, 1})}, vector({0.5, 0.2}), 30},
-          {"unstable", matrix({{2}}), matrix({{1}}), matrix({{1}}), 0.01, vector({0.2}), vector({1}), vector({-1}), vector({1}),
-           {1, 100}, {vector({0.02}), vector({0.12}), vector({0.3})}, vector({0.15}), 20},
-          {"cart and pendulum", matrix({{0, 1, 0, 0}, {0, -0.5, 0, 0}, {0, 0, 0, 1}, {0, 0.5, 12, -0.1}}), matrix({{0}, {1}, {0}, {-1}}),
-           matrix({{1, 0, 0, 0}}), 0.01, vector({0.2, infinity, 0.2, infinity}), vector({3}), vector({-6}), vector({6}), {1, 10},
+          {"unstable", matrix({{2}}), matrix({{1}}), matrix({{1}}), 0.01, vector({0.2}), vector({1}), vector({-1}),
+           vector({1}), {1, 100}, {vector({0.02}), vector({0.12}), vector({0.3})}, vector({0.15}), 20},
+          {"cart and pendulum", matrix({{0, 1, 0, 0}, {0, -0.5, 0, 0}, {0, 0, 0, 1}, {0, 0.5, 12, -0.1}}),
+           matrix({{0}, {1}, {0}, {-1}}), matrix({{1, 0, 0, 0}}), 0.01, vector({0.2, infinity, 0.2, infinity}),
+           vector({3}), vector({-6}), vector({6}), {1, 10},
            {vector({0.05}), vector({0.2}), vector({0.6})}, vector({0.6}), 40}};
 }
 // clang-format on

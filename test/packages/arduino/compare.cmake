@@ -2,7 +2,8 @@
 # cmake -DCXX=… -DSKETCH=… -DLIBRARY=… -DSTAND_IN=… -DWORK=… -DUNO=… -DELF=… -P compare.cmake: the sketch prints the
 # same on the simulated Uno and compiled for the PC, but for lines with #; and the motor comes to rest.
 file(WRITE ${WORK}/pc.cpp "#include \"Arduino.h\"\n#include \"${SKETCH}\"\nint main() { setup(); loop(); }\n")
-execute_process(COMMAND ${CXX} -std=c++11 -O2 -ffp-contract=off -I${STAND_IN} -I${LIBRARY}/src ${WORK}/pc.cpp -o ${WORK}/pc
+execute_process(COMMAND ${CXX} -std=c++11 -O2 -ffp-contract=off -I${STAND_IN} -I${LIBRARY}/src ${WORK}/pc.cpp
+                        -o ${WORK}/pc
                 COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK}/pc OUTPUT_VARIABLE expected COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${UNO} ${ELF} OUTPUT_VARIABLE found COMMAND_ERROR_IS_FATAL ANY)

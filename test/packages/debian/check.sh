@@ -15,14 +15,17 @@ fail() {
 package=$(echo "$folder"/*.deb)
 field() { dpkg-deb --field "$package" "$1"; }
 
-version=$(sed -nE 's/^#define LQG_VERSION_(MAJOR|MINOR|PATCH) ([0-9]+)$/\2/p' "$root/include/lqg/version.h" | paste -sd .)
-[ "$(basename "$package")" = "tinylqg_${version}_$(dpkg --print-architecture).deb" ] || fail "The file is called $package"
+version=$(sed -nE 's/^#define LQG_VERSION_(MAJOR|MINOR|PATCH) ([0-9]+)$/\2/p' "$root/include/lqg/version.h" |
+  paste -sd .)
+[ "$(basename "$package")" = "tinylqg_${version}_$(dpkg --print-architecture).deb" ] ||
+  fail "The file is called $package"
 [ "$(field Version)" = "$version" ] || fail "Version: expected $version, found $(field Version)"
 [ "$(field Section)" = devel ] || fail "Section: expected devel, found $(field Section)"
 for library in libc6 libmpfr6 libstdc++6; do
   field Depends | grep -q -F "$library (>= " || fail "Depends: expected $library, found $(field Depends)"
 done
-[[ $(field Maintainer) =~ ^[^\<]+\ \<[^@]+@[^@]+\>$ ]] || fail "Maintainer: expected a name and <address>, found $(field Maintainer)"
+[[ $(field Maintainer) =~ ^[^\<]+\ \<[^@]+@[^@]+\>$ ]] ||
+  fail "Maintainer: expected a name and <address>, found $(field Maintainer)"
 
 rm -rf "$folder/root"
 dpkg-deb -x "$package" "$folder/root"
@@ -30,9 +33,11 @@ usr=$folder/root/usr
 grep -q "Copyright: 2026 TinyLQG contributors" "$usr/share/doc/tinylqg/copyright" || fail "copyright: no holder"
 grep -q "MERCHANTABILITY" "$usr/share/doc/tinylqg/copyright" || fail "copyright: no licence"
 for library in boost cli11 eigen gmp mbedtls mpfr nlohmann-json tomlplusplus; do
-  grep -q -i "copyright" "$usr/share/doc/tinylqg/libraries/$library.copyright" || fail "libraries: no licence of $library"
+  grep -q -i "copyright" "$usr/share/doc/tinylqg/libraries/$library.copyright" ||
+    fail "libraries: no licence of $library"
 done
-grep -q "Boost Software License" "$usr/share/doc/tinylqg/libraries/boost.copyright" || fail "libraries: no licence of Boost"
+grep -q "Boost Software License" "$usr/share/doc/tinylqg/libraries/boost.copyright" ||
+  fail "libraries: no licence of Boost"
 
 # Once more, by somebody else: the same bytes.
 (umask 077 && TZ=Pacific/Chatham LC_ALL=C.UTF-8 "$root/ports/packages/debian/make.sh" "$root" "$folder/again")

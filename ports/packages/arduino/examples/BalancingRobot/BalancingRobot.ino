@@ -17,14 +17,15 @@
  *     lqgen balancing_robot.toml --only h --style unrolled --real float
  *
  * Use: switch on with the robot at rest, in any position, for two seconds: the light is on while the gyroscope's offset
- * is measured. Hold the robot upright: when it has been so for half a second, the light begins to blink fast, the motors
- * start, and it stands by itself. When it falls, when the gyroscope is silent, or when the battery is empty, the motors
- * stop.
+ * is measured. Hold the robot upright: when it has been so for half a second, the light begins to blink fast, the
+ * motors start, and it stands by itself. When it falls, when the gyroscope is silent, or when the battery is empty, the
+ * motors stop.
  *
- * The first time, before the battery feeds the motors: while it waits, the serial monitor (115200 baud) shows once a second
- * the tilt, what the wheels have turned (all in degrees) and the battery's voltage. The tilt has to be positive forward, and
- * both wheels have to count up when the robot is rolled forward (else exchange that encoder's channels). Then hold it with the
- * wheels in the air: tilted forward they have to run forward (else exchange that motor's wires). */
+ * The first time, before the battery feeds the motors: while it waits, the serial monitor (115200 baud) shows once a
+ * second the tilt, what the wheels have turned (all in degrees) and the battery's voltage. The tilt has to be positive
+ * forward, and both wheels have to count up when the robot is rolled forward (else exchange that encoder's channels).
+ * Then hold it with the wheels in the air: tilted forward they have to run forward (else exchange that motor's
+ * wires). */
 #include <TinyLQG.h>
 #include <Wire.h>
 
@@ -81,7 +82,8 @@ static void start(float pitch) {
 }
 
 static void print_sensors(const Motion &motion) {
-  const float values[] = {motion.tilt * (180 / PI), left_wheel() * (180 / PI), right_wheel() * (180 / PI), battery_voltage()};
+  const float values[] = {motion.tilt * (180 / PI), left_wheel() * (180 / PI), right_wheel() * (180 / PI),
+                          battery_voltage()};
 
   for (const float value : values) {
     Serial.print(value, 1);
@@ -118,7 +120,8 @@ static void balance(const Motion &motion) {
   balancing_robot_predict(&controller, u);
 
   count = motion.is_valid ? 0 : count + 1;
-  if (!(fabs(controller.x[BALANCING_ROBOT_X_PITCH]) < fallen_pitch) || fabs(y[BALANCING_ROBOT_Y_ENCODER]) > turned_wheel ||
+  if (!(fabs(controller.x[BALANCING_ROBOT_X_PITCH]) < fallen_pitch) ||
+      fabs(y[BALANCING_ROBOT_Y_ENCODER]) > turned_wheel ||
       count > silent_samples || battery_voltage() < empty_battery)
     enter(WAITS);
 }

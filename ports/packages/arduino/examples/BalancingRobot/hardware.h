@@ -171,7 +171,14 @@ static float right_wheel() {
 
 // InvenSense, "MPU-6000 and MPU-6050 Register Map and Descriptions", revision 4.2.
 static const unsigned char mpu = 0x68;
-enum { CONFIG = 0x1A, GYRO_CONFIG = 0x1B, ACCEL_CONFIG = 0x1C, ACCEL_XOUT_H = 0x3B, GYRO_YOUT_H = 0x45, PWR_MGMT_1 = 0x6B };
+enum {
+  CONFIG = 0x1A,
+  GYRO_CONFIG = 0x1B,
+  ACCEL_CONFIG = 0x1C,
+  ACCEL_XOUT_H = 0x3B,
+  GYRO_YOUT_H = 0x45,
+  PWR_MGMT_1 = 0x6B
+};
 
 struct Motion {
   bool is_valid;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-/* A DC motor that turns to angle 0 and stays there: the controller of dc_motor.toml and, in place of a real motor, a few
- * lines of physics. Any board will do, nothing has to be connected. The serial monitor (115200 baud) shows a line every
- * 3 ms of the motor's time: milliseconds, angle in µrad, voltage in mV.
+/* A DC motor that turns to angle 0 and stays there: the controller of dc_motor.toml and, in place of a real motor, a
+ * few lines of physics. Any board will do, nothing has to be connected. The serial monitor (115200 baud) shows a line
+ * every 3 ms of the motor's time: milliseconds, angle in µrad, voltage in mV.
  *
  * dc_motor.h was made on a PC by
  *
  *     lqgen dc_motor.toml --only h --style unrolled --real float
  *
- * For a motor of your own change dc_motor.toml, run lqgen again, and put in place of run_motor() what reads your encoder
- * and your current sensor and sets your motor driver, from a timer of DC_MOTOR_SAMPLE_TIME. */
+ * For a motor of your own change dc_motor.toml, run lqgen again, and put in place of run_motor() what reads your
+ * encoder and your current sensor and sets your motor driver, from a timer of DC_MOTOR_SAMPLE_TIME. */
 #include <TinyLQG.h>
 
 #include "dc_motor.h"
