@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "emit/recorded/constants.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "controller/model_of.hpp"
 #include "emit/recorded/symbols.hpp"
@@ -138,14 +140,29 @@ std::string unit_of(const Controller& controller, Quantity quantity, int i) {
   return (!is_squared ? unit : is_simple ? unit + "²" : "(" + unit + ")²") + ", ";
 }
 
+// The powers of two that a text names, in their order.
+std::set<int> powers_in(const std::string& text, const std::string& prefix) {
+  static const std::string word = "TWO_TO_", minus = "MINUS_";
+  std::set<int> exponents;
+  for (std::size_t at = text.find(prefix + word); at != std::string::npos; at = text.find(prefix + word, at + 1)) {
+    if (at > 0 && is_of_name(text[at - 1])) continue;
+    std::size_t number = at + prefix.size() + word.size();
+    const bool is_negative = text.compare(number, minus.size(), minus) == 0;
+    if (is_negative) number += minus.size();
+    int exponent = 0;
+    const std::from_chars_result end = std::from_chars(text.data() + number, text.data() + text.size(), exponent);
+    if (end.ec == std::errc() && end.ptr != text.data() + text.size() && !is_of_name(*end.ptr))
+      exponents.insert(is_negative ? -exponent : exponent);
+  }
+  return exponents;
+}
+
 void add_powers(const std::string& text, const Controller& controller, std::vector<Constant>& out) {
   const std::string name = upper(controller.problem.name) + "_";
-  for (int exponent = -2046; exponent < 2048; ++exponent) {
-    const std::string power = name + name_of_power(exponent);
-    if (uses(text, power))
-      out.push_back({power, trace::literal(std::ldexp(1.0, exponent), controller.target.is_double),
-                     "2^" + std::to_string(exponent)});
-  }
+  for (const int exponent : powers_in(text, name))
+    out.push_back({name + name_of_power(exponent),
+                   trace::literal(std::ldexp(1.0, exponent), controller.target.is_double),
+                   "2^" + std::to_string(exponent)});
 }
 
 }  // namespace
