@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "design/scenario.hpp"
+
 namespace lqg::design {
 
 struct Signal {
@@ -120,8 +122,20 @@ struct Stage {
 };
 
 // What the closed loop has to reach.
+struct RmsRequirement {
+  enum class Of { state, input, output } of = Of::state;
+  int signal = 0;
+  double most = 0;
+};
 struct Requirements {
   std::optional<double> gain_margin_dB, phase_margin_deg, disk_margin, max_pole;
+  std::optional<double> delay_margin;  // s
+  // In the scenario of that name; in each one without a name.
+  std::string scenario;
+  std::optional<double> overshoot;        // share of the step
+  std::optional<double> settling_time;    // s
+  std::optional<double> share_at_limits;  // of the samples
+  std::vector<RmsRequirement> rms;
 };
 
 enum class Scalar { float32, float64 };
@@ -147,6 +161,7 @@ struct Problem {
   std::optional<Estimator> estimator;
   std::optional<Limits> limits;
   std::vector<Stage> stages;  // by rising `from`
+  std::vector<Scenario> scenarios;
   Requirements requirements;
   Code code;
 };
