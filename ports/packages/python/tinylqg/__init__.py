@@ -3,7 +3,7 @@
 
 from importlib.metadata import version
 
-from .design import design_text, write_design
+from .design_file import design_text, write_design
 from .errors import DesignError
 from .lqgen import generate, include_dir, lqgen_path, source_dir
 from .mat import read_mat

@@ -6,9 +6,11 @@ from pathlib import Path
 from . import toml
 from .errors import DesignError, expected
 from .names import design_name
-from .plant import plant_table
+from .plant import plant_table, two_dimensional
+from .words import unknown
 
-SECTIONS = ("lqr", "pole_placement", "kalman", "observer", "limits", "stage", "require", "code")
+SECTIONS = ("lqr", "pole_placement", "kalman", "observer", "limits", "stage", "require", "code", "scenario")
+SEVERAL = ("stage", "scenario")  # tables of this name
 
 
 def design_text(
@@ -36,23 +38,25 @@ def design_text(
 
     - a StateSpace of python-control. A continuous one (dt = 0) needs `sample_time`; labels become the names of states,
       inputs and outputs, as `dy1 [m]`;
-    - an lti or dlti of scipy.signal;
+    - a TransferFunction of python-control, which becomes a minimal state space: `transfer.py` says with which states;
+    - an lti or dlti of scipy.signal, transfer functions likewise;
     - matrices (A, B), (A, B, C), (A, B, C, D) with `domain` "continuous" or "discrete", or (A, B, C, D, dt);
     - a dictionary with the keys of [plant].
 
     `sample_time` … `outputs` are keys of [plant]; Q, R and N those of [lqr]; W, V and Swv are process_noise,
     measurement_noise and cross_noise of [kalman]. Every other key is given in its section, as
-    `kalman={"gain": "online"}` or `stage=[{"from": 20, "R": [2]}]`. lqgen checks the whole.
+    `kalman={"gain": "online"}` or `stage=[{"from": 20, "R": [2]}]`. A number in place of a matrix is one of 1 × 1. lqgen
+    checks the whole.
     """
-    for section in sections:
-        if section not in SECTIONS:
-            raise expected("design", "one of " + ", ".join(SECTIONS), section)
+    for word in sections:
+        if word not in SECTIONS:
+            raise unknown(word)
     sections = {section: table_of(section, value) for section, value in sections.items() if value is not None}
     given = {
         "domain": domain,
         "sample_time": sample_time,
-        "G": G,
-        "H": H,
+        "G": two_dimensional(G),
+        "H": two_dimensional(H),
         "delay": delay,
         "states": states,
         "inputs": inputs,
@@ -68,8 +72,10 @@ def design_text(
 
 
 def table_of(section, value):
-    """A section as a table; `stage` is several."""
-    if section == "stage":
+    """A section as a table; `stage` and `scenario` are several."""
+    if section == "scenario" and isinstance(value, dict):
+        return [value]
+    if section in SEVERAL:
         if not isinstance(value, (list, tuple)) or not all(isinstance(item, dict) for item in value):
             raise expected(section, "a list of dictionaries", f"{type(value).__name__} {value!r}")
     elif not isinstance(value, dict):
@@ -85,7 +91,7 @@ def merged(section, sections, given):
             continue
         if table.get(key) is not None:
             raise DesignError(f"{section}.{key}: given twice")
-        table[key] = value
+        table[key] = two_dimensional(value)
     return table
 
 
