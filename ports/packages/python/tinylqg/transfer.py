@@ -68,9 +68,9 @@ def entry_of(numpy, i, j, numerator, denominator):
     A = numpy.eye(order, k=1)
     first = numpy.eye(order)[0]
     if not b[:-1].any():
-        A[-1] = -a[:0:-1]
+        A[-1] = 0 - a[:0:-1]
     else:
-        A[:, 0] = -a[1:]
+        A[:, 0] = 0 - a[1:]
     return A, b, first, gain
 
 
@@ -87,7 +87,7 @@ def without_common_roots(numpy, b, a):
             poles.append(pole)
     if len(poles) == len(a) - 1:
         return b, a
-    return b[0] * numpy.real(numpy.poly(zeros)), numpy.real(numpy.poly(poles))
+    return tuple(numpy.atleast_1d(numpy.real(numpy.poly(roots))) * k for roots, k in ((zeros, b[0]), (poles, 1)))
 
 
 def reduced(numpy, A, B, C):
