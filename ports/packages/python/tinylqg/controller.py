@@ -121,10 +121,10 @@ def numbers(what, values, count):
     values = [item for value in values for item in (value if isinstance(value, list) else [value])]
     if len(values) != count:
         raise expected(what, f"{count} number{'s' if count != 1 else ''}", len(values))
-    try:
-        return [float("nan") if value is None else float(value) for value in values]
-    except (TypeError, ValueError):
-        raise expected(what, "numbers", repr(values)) from None
+    values = [float("nan") if value is None else value for value in values]
+    if not all(isinstance(value, (int, float)) for value in values):
+        raise expected(what, "numbers", repr(values))
+    return [float(value) for value in values]
 
 
 def compiler():
