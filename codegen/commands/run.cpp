@@ -75,9 +75,7 @@ struct Shape {
     words = needs_further ? numbers(measured + further) + both : numbers(measured) + " (" + first + ")";
     if (!needs_further && further > 0) words += " or " + std::to_string(measured + further) + both;
   }
-  bool fits(Index count) const {
-    return count == measured + further || (count == measured && !needs_further);
-  }
+  bool fits(Index count) const { return count == measured + further || (count == measured && !needs_further); }
 };
 
 // The numbers of a line, or the word that is none.

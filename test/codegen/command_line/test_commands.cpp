@@ -139,7 +139,8 @@ void test_run_ends_at_a_line_that_is_wrong() {
   const Outcome outcome = run_lines("0.5 0\n0.5 volt\n0.5 0\n");
   TEST_ASSERT_EQUAL_INT(wrong, outcome.status);
   TEST_ASSERT_EQUAL_UINT(1, std::count(outcome.out.begin(), outcome.out.end(), '\n'));
-  TEST_ASSERT_EQUAL_STRING("standard input: line 2: expected 2 numbers (y), or reset, found \"volt\"\n", outcome.err.c_str());
+  TEST_ASSERT_EQUAL_STRING("standard input: line 2: expected 2 numbers (y), or reset, found \"volt\"\n",
+                           outcome.err.c_str());
 }
 
 void test_run_refuses_what_lqgen_refuses_and_a_design_on_standard_input() {

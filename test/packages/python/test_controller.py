@@ -56,7 +56,9 @@ class Same(InFolder):
                 design = tinylqg.Design.load(file).replace({"code.real": real})
                 self.assert_same_controllers(design)
             result = design.solve()
-            kinds.add(("lqr" in result, result.get("kalman", {}).get("form"), "compensator" in result, "stages" in result))
+            kinds.add(
+                ("lqr" in result, result.get("kalman", {}).get("form"), "compensator" in result, "stages" in result)
+            )
         self.assertGreater(len(kinds), 6, kinds)
 
     def test_loops_of_the_library(self):

@@ -64,7 +64,9 @@ class Sweeps(InFolder):
         self.assertTrue(numpy.isnan(sweep.column("loop.wibble")).all())
 
     def test_whole_matrices_are_values(self):
-        sweep = tinylqg.Design.load(SERVO).sweep(A=[[[0, 1], [0, -50]], numpy.array([[0, 1], [0, -70]])], progress=False)
+        sweep = tinylqg.Design.load(SERVO).sweep(
+            A=[[[0, 1], [0, -50]], numpy.array([[0, 1], [0, -70]])], progress=False
+        )
         self.assertEqual([point.design.tables["plant"]["A"][1][1] for point in sweep], [-50, -70])
 
     def test_what_is_no_list(self):

@@ -30,7 +30,9 @@ class Transfer(InFolder):
         numpy.testing.assert_array_equal(found["C"], [[1, 0, 0]])
         self.assertEqual(list(found["states"]), ["y", "y_dot", "y_dot2"])
         found = matrices(scipy.signal.dlti([1], [1, 0.2, 0.4], dt=0.5))
-        self.assertEqual((list(found["states"]), found["domain"], found["sample_time"]), (["y", "y_next"], "discrete", 0.5))
+        self.assertEqual(
+            (list(found["states"]), found["domain"], found["sample_time"]), (["y", "y_next"], "discrete", 0.5)
+        )
 
     def test_with_zeros_the_first_state_is_the_output(self):
         plant = control.tf([3, 1, 2], [1, 4, 5, 6])
@@ -71,10 +73,7 @@ class Transfer(InFolder):
             B, C = source.normal(size=(n, 2)), source.normal(size=(2, n))
             entries = [[numpy.poly(A.diagonal()) for _ in range(2)] for _ in range(2)]
             tops = [
-                [
-                    sum(C[i, k] * B[k, j] * numpy.poly(numpy.delete(A.diagonal(), k)) for k in range(n))
-                    for j in range(2)
-                ]
+                [sum(C[i, k] * B[k, j] * numpy.poly(numpy.delete(A.diagonal(), k)) for k in range(n)) for j in range(2)]
                 for i in range(2)
             ]
             plant = control.tf(tops, entries)
@@ -84,7 +83,9 @@ class Transfer(InFolder):
 
     def test_design_of_a_transfer_function(self):
         design = tinylqg.Design(control.tf([3], [1, 2, 0]), sample_time=0.01, Q=[10, 0.1], R=0.1)
-        again = tinylqg.Design(control.ss([[0, 1], [0, -2]], [[0], [3]], [[1, 0]], 0), sample_time=0.01, Q=[10, 0.1], R=0.1)
+        again = tinylqg.Design(
+            control.ss([[0, 1], [0, -2]], [[0], [3]], [[1, 0]], 0), sample_time=0.01, Q=[10, 0.1], R=0.1
+        )
         numpy.testing.assert_array_equal(design.K, again.K)
 
     def test_what_has_no_state_space(self):

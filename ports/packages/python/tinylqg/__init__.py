@@ -3,9 +3,10 @@
 
 from importlib.metadata import version
 
-from .design import Design, Finding
+from .design import Design
 from .design_file import design_text, write_design
 from .errors import DesignError
+from .findings import Finding
 from .lqgen import generate, include_dir, lqgen_path, source_dir
 from .mat import read_mat
 from .result import Result, load

@@ -7,11 +7,12 @@ import re
 import tempfile
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Union
 
 from . import toml
 from .design_file import design_text
 from .errors import DesignError, expected, refusing
+from .findings import findings_in
 from .lqgen import generate, run_lqgen
 from .names import design_name, tomllib
 from .paths import with_values
@@ -27,17 +28,6 @@ Matrix = Any  # an array of NumPy, a list of rows, the list of a diagonal, or a 
 Words = Mapping[str, Any]
 
 MARGINS = re.compile(r"gain_margin.*|phase_margin_deg|delay_margin.*|crossover|disk_margin")
-NOTE = re.compile(r"(?:(?P<place>\S.*?:\d+:\d+): )?note: (?P<key>[^:]+): (?P<message>.*)")
-
-
-class Finding(NamedTuple):
-    """A note of lqgen about a design that it makes."""
-
-    key: str
-    """The key that it is about: "limits.u_max[0]"."""
-    message: str
-    place: Optional[str] = None
-    """FILE:LINE:COLUMN, of a design that was loaded from a file."""
 
 
 class Design:
@@ -232,8 +222,7 @@ class Design:
         with tempfile.TemporaryDirectory() as folder:
             _, said = self.lqgen("-o", folder, "--only", "json", "--", "-")
             data = Path(folder, self.name + ".json").read_bytes()
-        findings = [NOTE.fullmatch(line) for line in said.splitlines()]
-        return result_of(self.name, data), [Finding(m["key"], m["message"], m["place"]) for m in findings if m]
+        return result_of(self.name, data), findings_in(said)
 
     def solve(self) -> Result:
         """All numbers of the design, with the keys of NAME.json: `design.solve().lqr.K`. Computed once.

@@ -30,7 +30,9 @@ def figure_of(Figure):
 def response(figure, design, scenario=None, seed=1):
     """Outputs with their references, inputs with their limits, estimates within ±3σ."""
     run = design.simulate(scenario, seed)
-    parts = [draw for draw, there in ((draw_outputs, run.outputs), (draw_inputs, run.u), (draw_states, run.x)) if has(there)]
+    parts = [
+        draw for draw, there in ((draw_outputs, run.outputs), (draw_inputs, run.u), (draw_states, run.x)) if has(there)
+    ]
     axes = figure.subplots(len(parts), 1, sharex=True, squeeze=False)[:, 0]
     figure.set_size_inches(8, 2.4 * len(parts))
     figure.suptitle(f"{design.name}: {run.name}")
@@ -115,7 +117,9 @@ def bode(figure, design):
 
 def margins_in_words(margins):
     units = {"gain_margin_dB": "dB", "phase_margin_deg": "°", "delay_margin_s": "s"}
-    known = [f"{key.split('_')[0]} {margins[key]:.3g} {unit}" for key, unit in units.items() if margins.get(key) is not None]
+    known = [
+        f"{key.split('_')[0]} {margins[key]:.3g} {unit}" for key, unit in units.items() if margins.get(key) is not None
+    ]
     return "margins: " + (", ".join(known) or "none")
 
 
