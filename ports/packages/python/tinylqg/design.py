@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A design in memory: from arrays, a system or a design file to gains, runs, plots and the controller itself."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from functools import cached_property
@@ -143,7 +141,7 @@ class Design:
         )
 
     @classmethod
-    def load(cls, path: Union[str, Path]) -> Design:
+    def load(cls, path: Union[str, Path]) -> "Design":
         """The design in the file `path`, whose text is kept with its comments. CSV files of scenarios are looked for
         beside it. Raises DesignError where it is no TOML or has no name, OSError where it cannot be read."""
         data = Path(path).read_bytes()
@@ -152,7 +150,7 @@ class Design:
         return cls.from_text(text, folder=Path(path).resolve().parent, where=str(path))
 
     @classmethod
-    def from_text(cls, text: str, *, folder: Union[str, Path, None] = None, where: str = "") -> Design:
+    def from_text(cls, text: str, *, folder: Union[str, Path, None] = None, where: str = "") -> "Design":
         """The design that the text of a design file says. `folder`: where CSV files of scenarios are looked for;
         `where`: what messages call the text."""
         with refusing(where or "design", "a design file"):
@@ -200,7 +198,7 @@ class Design:
         """The names of the scenarios of the design file."""
         return [scenario.get("name") for scenario in self.tables.get("scenario", [])]
 
-    def replace(self, values: Optional[Words] = None, **more: Any) -> Design:
+    def replace(self, values: Optional[Words] = None, **more: Any) -> "Design":
         """The same design with other values, by their places in the design file.
 
         design.replace(Q=[1, 2], rho=0.1), design.replace({"lqr.Q[1]": 3, "kalman.form": "predictor"}). A letter of the
@@ -208,9 +206,7 @@ class Design:
         rule. None takes a key away. Comments of a design file are not kept.
         """
         tables = with_values(self.tables, {**(values or {}), **more})
-        top = {key: value for key, value in tables.items() if not is_table(value)}
-        text = toml.document(top, {key: value for key, value in tables.items() if is_table(value)})
-        return Design.from_text(text, folder=self.folder)
+        return Design.from_text(toml.whole_document(tables), folder=self.folder)
 
     def lqgen(self, *arguments: str):
         """lqgen with this design as its standard input: what it printed on standard output and on standard error."""
@@ -274,7 +270,7 @@ class Design:
         path.write_bytes(data)
         return generate(path, folder, *options)
 
-    def simulate(self, scenario: Union[str, Words, None] = None, seed: int = 1) -> Run:
+    def simulate(self, scenario: Union[str, Words, None] = None, seed: int = 1) -> "Run":
         """The emitted controller, bit for bit, around the plant in a scenario.
 
         scenario : a name in the design file; a dictionary with the keys of [[scenario]]; or None, the first one of the
@@ -294,7 +290,7 @@ class Design:
         scenario: Union[str, Words, None] = None,
         executor: Any = None,
         progress: Optional[bool] = None,
-    ) -> MonteCarlo:
+    ) -> "MonteCarlo":
         """Many runs of a scenario over its noises and its `spread`: percentiles of every number, the share that failed,
         NEES and NIS against their bounds.
 
@@ -313,7 +309,7 @@ class Design:
         executor: Any = None,
         progress: Optional[bool] = None,
         **more: Iterable,
-    ) -> Sweep:
+    ) -> "Sweep":
         """The design for each combination of values: design.sweep(rho=[0.1, 1, 10], **{"lqr.Q[1]": [1, 2]}).
 
         Keys are those of `replace`, values anything to go through. `executor` and `progress` are those of
@@ -323,7 +319,7 @@ class Design:
 
         return sweep(self, {**(values or {}), **more}, executor, progress)
 
-    def controller(self, compiled: Optional[bool] = None) -> Controller:
+    def controller(self, compiled: Optional[bool] = None) -> "Controller":
         """The emitted controller, to be run sample by sample: `u = controller.step(y)`.
 
         compiled : True: the emitted header, compiled by this machine's C compiler (CC, else cc). False: `lqgen run`,
@@ -349,7 +345,3 @@ class Design:
     def to_scipy(self, part: str = "plant", references: bool = False):
         """A discrete StateSpace of scipy.signal; `part` and `references` as in `Result.state_space`."""
         return self.solve().to_scipy(part, references)
-
-
-def is_table(value):
-    return isinstance(value, dict) or (isinstance(value, list) and len(value) > 0 and isinstance(value[0], dict))
