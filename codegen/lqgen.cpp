@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
-// `check` designs and writes nothing; `new` writes a design file to begin with.
+// `check` designs and writes nothing; `new` writes a design file to begin with; `run` runs the controller by a pipe.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "commands/new.hpp"
+#include "commands/run.hpp"
 #include "emit/c/header.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/report/json.hpp"
@@ -89,12 +90,12 @@ void show_summary(const Arguments& arguments, const emit::Controller& controller
   if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(controller);
 }
 
-int generate(const Arguments& arguments) {
-  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+// The controller of the design file; none where the findings, which are printed, say why not: then `status` is set.
+std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status) {
   const input::DesignFile file = input::read_design_file(arguments.design_file);
   report(arguments, file, file.findings);
-  if (!file.readable) return unreadable;
-  if (!file.problem || design::has_error(file.findings)) return wrong;
+  status = !file.readable ? unreadable : wrong;
+  if (!file.problem || design::has_error(file.findings)) return std::nullopt;
 
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
@@ -112,7 +113,15 @@ int generate(const Arguments& arguments) {
   watch.clear();
   input::sort_by_place(file, findings);
   report(arguments, file, findings);
-  if (!controller) return impossible;
+  status = controller ? written : impossible;
+  return controller;
+}
+
+int generate(const Arguments& arguments) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  int status = written;
+  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status);
+  if (!controller) return status;
 
   watch.show("code, test and report");
   const std::vector<emit::File> outputs = files(arguments, *controller, findings);
@@ -133,6 +142,26 @@ int generate(const Arguments& arguments) {
   }
   show_summary(arguments, *controller);
   return written;
+}
+
+// `lqgen run`: samples come by standard input, which the design file can thus not come by.
+int run_controller(const Arguments& arguments) {
+  if (arguments.design_file == "-") {
+    std::cerr << "lqgen run: expected the path of a design file, found -: standard input has the samples\n";
+    return wrong;
+  }
+  int status = written;
+  std::optional<emit::Controller> controller;
+  {
+    Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+    controller = design_controller(arguments, watch, status);
+    watch.end();
+  }
+  if (!controller) return status;
+  const std::string why = commands::run(*controller, std::cin, std::cout);
+  if (!why.empty()) std::cerr << "standard input: " << why << "\n";
+  if (!std::cout) std::cerr << "standard output: cannot be written\n";
+  return !why.empty() ? wrong : std::cout ? written : unreadable;
 }
 
 struct NewArguments {
@@ -240,6 +269,8 @@ int main(int argc, char** argv) {
 
   CLI::App* const check = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
   add_design_options(*check, arguments);
+  CLI::App* const runner = app.add_subcommand("run", "Runs the controller: y on standard input, u on standard output.");
+  add_design_options(*runner, arguments);
   CLI::App* const beginning = app.add_subcommand("new", "Writes a commented design file to begin with, NAME.toml.");
   beginning->add_option("NAME", new_arguments.name, "name of the design")->option_text("NAME");
   beginning->add_option("--from", new_arguments.starter, "what to begin with; `lqgen new` lists what there is")
@@ -255,7 +286,8 @@ int main(int argc, char** argv) {
   }
   arguments.only_checks = static_cast<bool>(*check);
   try {
-    return *beginning ? make_new(new_arguments) : generate(arguments);
+    if (*beginning) return make_new(new_arguments);
+    return *runner ? run_controller(arguments) : generate(arguments);
   } catch (const std::exception& error) {
     const std::string what = *beginning ? "lqgen new" : shown_path(arguments);
     std::cerr << input::printable(what) << ": lqgen failed: " << input::printable(error.what()) << "\n";
