@@ -91,7 +91,8 @@ void show_summary(const Arguments& arguments, const emit::Controller& controller
 }
 
 // The controller of the design file; none where the findings, which are printed, say why not: then `status` is set.
-std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status) {
+std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status,
+                                                  design::Findings& findings) {
   const input::DesignFile file = input::read_design_file(arguments.design_file);
   report(arguments, file, file.findings);
   status = !file.readable ? unreadable : wrong;
@@ -99,7 +100,6 @@ std::optional<emit::Controller> design_controller(const Arguments& arguments, Wa
 
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
-  design::Findings findings;
   std::optional<design::Solution> solution =
       design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
   std::optional<emit::Controller> controller;
@@ -120,7 +120,8 @@ std::optional<emit::Controller> design_controller(const Arguments& arguments, Wa
 int generate(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   int status = written;
-  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status);
+  design::Findings findings;
+  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status, findings);
   if (!controller) return status;
 
   watch.show("code, test and report");
@@ -154,7 +155,8 @@ int run_controller(const Arguments& arguments) {
   std::optional<emit::Controller> controller;
   {
     Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-    controller = design_controller(arguments, watch, status);
+    design::Findings findings;
+    controller = design_controller(arguments, watch, status, findings);
     watch.end();
   }
   if (!controller) return status;
