@@ -194,7 +194,7 @@ PageView scenario_view(const Controller& controller, const ShownRun& shown) {
   view.charts = ScenarioCharts(controller, shown).all();
   if (shown.run.numbers.has_diverged) view.text = "A state left all bounds: the rest is not shown.";
   view.caption = shown.scenario.noise ? "With the noises of the design." : "Without noise.";
-  view.tables = scenario_tables(controller, shown.run);
+  view.tables = number_tables(controller, shown.run);
   return view;
 }
 

@@ -22,6 +22,6 @@ std::vector<ShownRun> runs_to_show(const Controller& controller);
 PageView scenario_view(const Controller& controller, const ShownRun& shown);
 
 // The numbers alone.
-std::vector<PageTable> scenario_tables(const Controller& controller, const simulate::ScenarioRun& run);
+std::vector<PageTable> number_tables(const Controller& controller, const simulate::ScenarioRun& run);
 
 }  // namespace lqg::emit

@@ -9,32 +9,32 @@ namespace {
 
 using Signals = std::vector<design::Signal>;
 
-std::string percent(double share) { return decimal(100 * share) + " %"; }
+std::string as_percent(double share) { return decimal(100 * share) + " %"; }
 
-std::string seconds(const std::optional<double>& time) { return time ? with_unit(*time, "s") : "not reached"; }
+std::string in_seconds(const std::optional<double>& time) { return time ? with_unit(*time, "s") : "not reached"; }
 
 PageTable answers_to_steps(const Controller& controller, const simulate::ScenarioNumbers& numbers) {
   PageTable table = {"Answers to steps", {"output", "step", "rise time", "settling time", "overshoot"}, {}};
   for (const simulate::StepAnswer& answer : numbers.answers) {
     const design::Signal& output = controller.problem.plant.outputs[static_cast<std::size_t>(answer.output)];
     table.rows.push_back({output.name, decimal(answer.from) + " to " + with_unit(answer.to, output.unit),
-                          seconds(answer.rise_time), seconds(answer.settling_time), percent(answer.overshoot)});
+                          in_seconds(answer.rise_time), in_seconds(answer.settling_time), as_percent(answer.overshoot)});
   }
   return table;
 }
 
-void add_signals(const Signals& signals, const std::vector<double>& rms, const std::vector<double>& peak,
+void add_sizes(const Signals& signals, const std::vector<double>& rms, const std::vector<double>& peak,
                  PageTable& table) {
   for (std::size_t i = 0; i < rms.size() && i < signals.size(); ++i)
     table.rows.push_back({signals[i].name, with_unit(rms[i], signals[i].unit), with_unit(peak[i], signals[i].unit)});
 }
 
-PageTable sizes(const Controller& controller, const simulate::ScenarioNumbers& numbers) {
+PageTable sizes_of_signals(const Controller& controller, const simulate::ScenarioNumbers& numbers) {
   const design::Plant& plant = controller.problem.plant;
   PageTable table = {"Sizes", {"signal", "rms", "peak"}, {}};
-  add_signals(plant.outputs, numbers.rms_y, numbers.peak_y, table);
-  add_signals(plant.inputs, numbers.rms_u, numbers.peak_u, table);
-  add_signals(plant.states, numbers.rms_x, numbers.peak_x, table);
+  add_sizes(plant.outputs, numbers.rms_y, numbers.peak_y, table);
+  add_sizes(plant.inputs, numbers.rms_u, numbers.peak_u, table);
+  add_sizes(plant.states, numbers.rms_x, numbers.peak_x, table);
   return table;
 }
 
@@ -44,7 +44,7 @@ PageTable incidents(const Controller& controller, const simulate::ScenarioRun& r
   PageTable table = {"Incidents", {}, {}};
   if (controller.problem.limits)
     for (std::size_t i = 0; i < numbers.share_at_limits.size(); ++i)
-      table.rows.push_back({plant.inputs[i].name + " at a limit", percent(numbers.share_at_limits[i])});
+      table.rows.push_back({plant.inputs[i].name + " at a limit", as_percent(numbers.share_at_limits[i])});
   for (std::size_t i = 0; i < numbers.left_out.size(); ++i)
     if (numbers.left_out[i])
       table.rows.push_back({plant.outputs[i].name + " left out", std::to_string(numbers.left_out[i]) + " of " +
@@ -58,8 +58,8 @@ PageTable incidents(const Controller& controller, const simulate::ScenarioRun& r
 
 }  // namespace
 
-std::vector<PageTable> scenario_tables(const Controller& controller, const simulate::ScenarioRun& run) {
-  return {answers_to_steps(controller, run.numbers), incidents(controller, run), sizes(controller, run.numbers)};
+std::vector<PageTable> number_tables(const Controller& controller, const simulate::ScenarioRun& run) {
+  return {answers_to_steps(controller, run.numbers), incidents(controller, run), sizes_of_signals(controller, run.numbers)};
 }
 
 }  // namespace lqg::emit
