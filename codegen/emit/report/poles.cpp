@@ -43,8 +43,7 @@ PageTable pole_table(const Controller& controller) {
   for (const auto& [owner, poles] : poles_to_show(controller))
     for (const std::complex<double>& pole : poles) {
       if (pole.imag() < 0) continue;  // stands with its conjugate
-      table.rows.push_back({owner,
-                            decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : ""),
+      table.rows.push_back({owner, decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : ""),
                             decimal(std::abs(pole)), continuous_of(pole, T), damping_of(pole, T),
                             time_constant_of(pole, T), frequency_of(pole, T)});
     }
@@ -70,8 +69,8 @@ Curve curve_of_poles(const std::string& owner, const design::Poles& poles, doubl
     curve.x.push_back(pole.real());
     curve.y.push_back(pole.imag());
     const std::string damping = damping_of(pole, sample_time), f = frequency_of(pole, sample_time);
-    curve.texts.push_back((damping.empty() ? "" : "damping " + damping + ", ") +
-                          time_constant_of(pole, sample_time) + (f.empty() ? "" : ", " + f));
+    curve.texts.push_back((damping.empty() ? "" : "damping " + damping + ", ") + time_constant_of(pole, sample_time) +
+                          (f.empty() ? "" : ", " + f));
   }
   return curve;
 }

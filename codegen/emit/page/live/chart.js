@@ -184,7 +184,7 @@ class Painter {
       context.fillStyle = this.palette.ink;
       context.fill();
     }
-    const isRight = x > this.area.right - 70;
+    const isRight = x + 8 + context.measureText(note.text).width > this.area.right;
     this.word(note.text, x + (isRight ? -8 : 8), y - 5, isRight ? "end" : "start");
   }
 
