@@ -68,14 +68,15 @@ void override_code(const Arguments& arguments, design::Code& code) {
   if (arguments.real == "double") code.real = design::Scalar::float64;
 }
 
-std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller) {
+std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller,
+                              const design::Findings& findings) {
   const std::string& name = controller.problem.name;
   std::vector<emit::File> out;
   if (wants(arguments, "h")) out.push_back({name + ".h", emit::header(controller)});
   if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
   if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
   if (wants(arguments, "proof")) out.push_back({name + "_proof.h", emit::proof(controller)});
-  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller)});
+  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller, findings)});
   return out;
 }
 
@@ -124,10 +125,10 @@ std::optional<emit::Controller> controller_of(const Arguments& arguments, const 
   return controller;
 }
 
-std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status) {
-  design::Findings findings;
-  const input::DesignFile file = input::read_design_file(arguments.design_file);
-  return controller_of(arguments, file, Requires::all, watch, status, findings);
+std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status,
+                                                  design::Findings& findings) {
+  return controller_of(arguments, input::read_design_file(arguments.design_file), Requires::all, watch, status,
+                       findings);
 }
 
 // `lqgen check`: nothing is written but to the terminal.
@@ -151,11 +152,12 @@ int check(const Arguments& arguments) {
 int generate(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   int status = written;
-  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status);
+  design::Findings findings;
+  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status, findings);
   if (!controller) return status;
 
   watch.show("code, test and report");
-  const std::vector<emit::File> outputs = files(arguments, *controller);
+  const std::vector<emit::File> outputs = files(arguments, *controller, findings);
   watch.end();
   if (overwrites_design(arguments, outputs)) {
     std::cerr << input::printable(arguments.design_file)
@@ -181,7 +183,8 @@ int run_controller(const Arguments& arguments) {
   std::optional<emit::Controller> controller;
   {
     Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-    controller = design_controller(arguments, watch, status);
+    design::Findings findings;
+    controller = design_controller(arguments, watch, status, findings);
     watch.end();
   }
   if (!controller) return status;
