@@ -86,7 +86,8 @@ void test_a_logarithmic_axis_has_decades_and_equal_ratios_are_equally_wide() {
   chart.x.is_logarithmic = true;
   chart.curves.push_back({"", Mark::line, 0, {0.01, 1, 100}, {0, 0.5, 1}});
   const std::string picture = svg(chart);
-  for (const char* tick : {">0.01<", ">0.1<", ">1<", ">10<", ">100<"}) TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
+  for (const char* tick : {">0.01<", ">0.1<", ">1<", ">10<", ">100<"})
+    TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
   TEST_ASSERT_TRUE(has(path_of(picture), "L255.0 91.0"));  // 1 lies in the middle
 }
 

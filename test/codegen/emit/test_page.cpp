@@ -90,7 +90,8 @@ void test_the_licence_of_the_library_stands_in_the_page() {
 }
 
 void test_a_list_of_numbers_that_two_charts_have_stands_there_once() {
-  const Json data = Json::parse(page_json(page_of({chart_of("a", {1, 2}), chart_of("b", {1, 2}), chart_of("c", {3, 4})})));
+  const Json data =
+      Json::parse(page_json(page_of({chart_of("a", {1, 2}), chart_of("b", {1, 2}), chart_of("c", {3, 4})})));
   TEST_ASSERT_EQUAL_size_t(3, data["lists"].size());  // x, and two of y
   TEST_ASSERT_EQUAL_INT(data["charts"][0]["curves"][0]["y"].get<int>(), data["charts"][1]["curves"][0]["y"].get<int>());
 }
@@ -115,7 +116,9 @@ void test_a_page_for_a_script_has_no_pictures_and_one_for_people_has_all() {
 }
 
 void test_thirteen_charts_are_an_overview_and_twelve_are_not() {
-  const auto body = [](std::size_t charts) { return page_html(page_of(std::vector<Chart>(charts, chart_of("", {1, 2})))); };
+  const auto body = [](std::size_t charts) {
+    return page_html(page_of(std::vector<Chart>(charts, chart_of("", {1, 2}))));
+  };
   TEST_ASSERT_FALSE(has(body(12), "\"charts many\""));
   TEST_ASSERT_TRUE(has(body(13), "\"charts many\""));
 }
