@@ -62,7 +62,7 @@ check(codegen/design ${any_room} ${digits} "^design/")
 
 check(codegen/step  ${any_room} "^step/")
 check(codegen/trace ${any_room} "^trace/")
-check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/")
+check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/" "^csv\\.h$")
 check(codegen/controller ${any_room} "^controller/" "^design/" "^step/")
 check(codegen/simulate   ${any_room} "^simulate/" "^controller/" "^design/" "^step/")
 
