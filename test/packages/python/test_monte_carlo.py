@@ -11,6 +11,7 @@ import tinylqg
 from designs import SOURCE, InFolder
 from tinylqg import monte_carlo as module
 from tinylqg.quantile import chi_squared_quantile
+from tinylqg.simulation import simulated
 
 SERVO = SOURCE / "codegen" / "designs" / "servo.toml"
 STEP = {
@@ -36,6 +37,35 @@ class Many(InFolder):
             self.assert_same(whole, design.monte_carlo(600, seed=3, scenario=STEP, executor=executor))
         self.assertEqual(whole.runs, 600)
         self.assertEqual(len(whole.numbers), 600)
+
+    def test_what_is_joined_here_is_what_lqgen_says(self):
+        for name in ("servo", "two_mass", "range_tracker"):
+            design = tinylqg.Design.load(SERVO.with_name(name + ".toml"))
+            many = design.monte_carlo(60, progress=False)
+            words = ("--seed", "1", "--runs", "60")
+            if design.scenarios:
+                words += ("--scenario", design.scenarios[0])
+            said = simulated(design, *words)["monte_carlo"][0]
+            self.assertEqual((many.name, many.failed), (said["name"], said["failed"]))
+            for key in ("nees", "nis"):
+                ours, theirs = getattr(many, key), said.get(key)
+                self.assertEqual(ours is None, theirs is None, name)
+                if ours:
+                    numpy.testing.assert_allclose(list(ours.values()), list(theirs.values()), rtol=1e-12)
+            for percent, theirs in said["percentiles"].items():
+                self.assert_same_numbers(many.percentiles[int(percent)], theirs, name)
+
+    def assert_same_numbers(self, ours, theirs, where):
+        if isinstance(theirs, dict):
+            self.assertEqual(list(ours), list(theirs), where)
+            for key in theirs:
+                self.assert_same_numbers(ours[key], theirs[key], f"{where}.{key}")
+        elif isinstance(theirs, list):
+            self.assertEqual(len(ours), len(theirs), where)
+            for one, other in zip(ours, theirs):
+                self.assert_same_numbers(one, other, where)
+        else:
+            self.assertEqual(ours, float("inf") if theirs is None else theirs, where)
 
     def test_a_seed_makes_the_runs(self):
         design = tinylqg.Design.load(SERVO)
@@ -79,8 +109,8 @@ class Parts(unittest.TestCase):
     """Without lqgen: what is joined of parts."""
 
     def test_sums_of_parts_are_the_sum_of_all(self):
-        parts = [{"nees_sums": [2**60, 1]}, {"nees_sums": [1, 2, 3]}, {}]
-        self.assertEqual(module.joined("nees_sums", parts), [2**60 + 1, 3, 3])
+        parts = [{"sums": {"nees": sums}} for sums in ([2**60, 1], [1, 2, 3], [])]
+        self.assertEqual(module.joined("nees", parts), [2**60 + 1, 3, 3])
 
     def test_what_is_not_reached_is_infinite(self):
         tables = [{"settling_time": value, "names": "x"} for value in (0.1, None, 0.2, None)]

@@ -61,7 +61,7 @@ class Run:
         for key in SERIES:
             setattr(self, key, series(scenario.get(key)))
         for key in SIGNALS:
-            setattr(self, key, rows(scenario.get(key)))
+            setattr(self, key, rows(scenario.get(key), len(scenario["t"])))
         self.events = [frozenset() for _ in scenario["t"]]
         for sample in scenario.get("events", []):
             self.events[sample["k"]] = frozenset(sample["events"])
@@ -99,11 +99,12 @@ def series(values):
     return None if values is None else array([float("nan") if value is None else value for value in values])
 
 
-def rows(signals):
-    """Signals as columns."""
+def rows(signals, count):
+    """Signals as columns of `count` rows."""
     if signals is None:
         return None
-    return array([[float("nan") if value is None else value for value in row] for row in zip(*signals)])
+    columns = [[float("nan") if value is None else value for value in signal] for signal in signals]
+    return array([[column[k] for column in columns] for k in range(count)])
 
 
 def with_scenario(design, scenario):
