@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
-// `check` designs and writes nothing; `new` writes a design file to begin with; `run` runs the controller by a pipe.
+// `check` designs and writes nothing; `new` writes a design file to begin with; `simulate` runs its scenarios; `run`
+// runs the controller by a pipe.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 
 #include "commands/new.hpp"
 #include "commands/run.hpp"
+#include "commands/simulate.hpp"
 #include "emit/c/header.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/report/json.hpp"
@@ -89,15 +91,19 @@ void show_summary(const Arguments& arguments, const emit::Controller& controller
   if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(controller);
 }
 
-// The controller of the design file; none where the findings, which are printed, say why not: then `status` is set.
-std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status) {
-  const input::DesignFile file = input::read_design_file(arguments.design_file);
+// What the design is held against.
+enum class Requires { all, nothing };
+
+// The controller of the file; none where the findings, which are printed, say why not: then `status` is set.
+std::optional<emit::Controller> controller_of(const Arguments& arguments, const input::DesignFile& file,
+                                              Requires wanted, Watch& watch, int& status) {
   report(arguments, file, file.findings);
   status = !file.readable ? unreadable : wrong;
   if (!file.problem || design::has_error(file.findings)) return std::nullopt;
 
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
+  if (wanted == Requires::nothing) problem.requirements = {};
   design::Findings findings;
   std::optional<design::Solution> solution =
       design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
@@ -113,7 +119,12 @@ std::optional<emit::Controller> design_controller(const Arguments& arguments, Wa
   input::sort_by_place(file, findings);
   report(arguments, file, findings);
   status = controller ? written : impossible;
+  if (controller) controller->problem.requirements = file.problem->requirements;
   return controller;
+}
+
+std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status) {
+  return controller_of(arguments, input::read_design_file(arguments.design_file), Requires::all, watch, status);
 }
 
 int generate(const Arguments& arguments) {
@@ -161,6 +172,44 @@ int run_controller(const Arguments& arguments) {
   if (!why.empty()) std::cerr << "standard input: " << why << "\n";
   if (!std::cout) std::cerr << "standard output: cannot be written\n";
   return !why.empty() ? wrong : std::cout ? written : unreadable;
+}
+
+// False where it could not be written.
+bool write_simulations(const Arguments& arguments, const commands::SimulateArguments& wanted,
+                       const emit::Controller& controller, const emit::Simulations& simulations) {
+  if (wanted.wants_json) {
+    std::cout << emit::simulations_json(controller, simulations);
+    return static_cast<bool>(std::cout.flush());
+  }
+  if (const auto failure = emit::write_all(arguments.folder, commands::simulation_files(controller, simulations))) {
+    std::cerr << input::printable(*failure) << "\n";
+    return false;
+  }
+  if (!arguments.quiet) std::cout << commands::simulation_lines(controller, simulations);
+  return true;
+}
+
+// `lqgen simulate`: numbers on standard output, samples in files. A design that misses what [require] asks for is shown,
+// too: then the status tells.
+int simulate_design(const Arguments& arguments, const commands::SimulateArguments& wanted) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  int status = written;
+  const std::optional<emit::Controller> controller = controller_of(arguments, file, Requires::nothing, watch, status);
+  if (!controller) return status;
+  std::string why;
+  const auto simulations = commands::run_simulations(
+      *controller, wanted, [&](const std::string& work, double share) { watch.show(work, share); }, why);
+  watch.end();
+  if (!simulations) {
+    std::cerr << "lqgen simulate: " << input::printable(why) << "\n";
+    return wrong;
+  }
+  if (!write_simulations(arguments, wanted, *controller, *simulations)) return unreadable;
+  design::Findings missed = commands::missed_requirements(*controller, *simulations);
+  input::sort_by_place(file, missed);
+  report(arguments, file, missed);
+  return missed.empty() ? written : impossible;
 }
 
 struct NewArguments {
@@ -248,6 +297,28 @@ void add_folder(CLI::App& app, std::string& folder) {
   app.add_option("-o", folder, "folder for what is written")->option_text("DIR [.]");
 }
 
+CLI::App* add_simulate(CLI::App& app, Arguments& arguments, commands::SimulateArguments& wanted) {
+  CLI::App* const command =
+      app.add_subcommand("simulate", "Runs the scenarios of a design: NAME_SCENARIO.csv, and the numbers that decide.");
+  add_design_options(*command, arguments);
+  add_folder(*command, arguments.folder);
+  command->add_option("--scenario", wanted.scenarios, "only the scenario of this name; again for more")
+      ->option_text("NAME");
+  const auto runs = command->add_option("--runs", wanted.runs, "a Monte Carlo of so many runs of each scenario")
+                        ->check(CLI::Range(1, 10000000))
+                        ->option_text("N");
+  command->add_option("--first", wanted.first, "number of the first run, to share the runs among machines")
+      ->check(CLI::Range(0, 1000000000))
+      ->option_text("K [0]")
+      ->needs(runs);
+  command->add_option("--seed", wanted.seed, "of the noises")->option_text("S [1]");
+  command->add_option("--replay", wanted.log, "run the filter over a log of outputs and inputs instead")
+      ->option_text("LOG.csv")
+      ->excludes(runs);
+  command->add_flag("--json", wanted.wants_json, "print all as JSON, write no file");
+  return command;
+}
+
 }  // namespace
 
 // Setting up the command line throws only where two options have one name.
@@ -268,6 +339,8 @@ int main(int argc, char** argv) {
 
   CLI::App* const check = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
   add_design_options(*check, arguments);
+  commands::SimulateArguments simulate_arguments;
+  const CLI::App* const simulation = add_simulate(app, arguments, simulate_arguments);
   CLI::App* const runner = app.add_subcommand("run", "Runs the controller: y on standard input, u on standard output.");
   add_design_options(*runner, arguments);
   CLI::App* const beginning = app.add_subcommand("new", "Writes a commented design file to begin with, NAME.toml.");
@@ -286,7 +359,8 @@ int main(int argc, char** argv) {
   arguments.only_checks = static_cast<bool>(*check);
   try {
     if (*beginning) return make_new(new_arguments);
-    return *runner ? run_controller(arguments) : generate(arguments);
+    if (*runner) return run_controller(arguments);
+    return *simulation ? simulate_design(arguments, simulate_arguments) : generate(arguments);
   } catch (const std::exception& error) {
     const std::string what = *beginning ? "lqgen new" : shown_path(arguments);
     std::cerr << input::printable(what) << ": lqgen failed: " << input::printable(error.what()) << "\n";

@@ -6,10 +6,12 @@
 #include <set>
 #include <thread>
 
+#include "design/checks/requirements.hpp"
 #include "emit/report/scenario_tables.hpp"
 #include "input/csv.hpp"
 #include "input/keys.hpp"
 #include "input/text.hpp"
+#include "simulate/scenario_requirements.hpp"
 
 namespace lqg::commands {
 namespace {
@@ -128,8 +130,8 @@ unsigned processors() { return std::max(1u, std::thread::hardware_concurrency())
 
 }  // namespace
 
-std::optional<emit::Simulations> simulate(const Controller& controller, const SimulateArguments& arguments,
-                                          const SimulateProgress& progress, std::string& why) {
+std::optional<emit::Simulations> run_simulations(const Controller& controller, const SimulateArguments& arguments,
+                                                 const SimulateProgress& progress, std::string& why) {
   emit::Simulations out;
   out.seed = arguments.seed;
   out.wants_each_run = arguments.first > 0 || arguments.wants_json;
@@ -156,6 +158,17 @@ std::optional<emit::Simulations> simulate(const Controller& controller, const Si
     out.monte_carlo.push_back(simulate::monte_carlo(controller, scenario, options));
   }
   return out;
+}
+
+design::Findings missed_requirements(const Controller& controller, const emit::Simulations& simulations) {
+  design::Findings findings;
+  design::check_requirements(controller.problem, controller.solution, findings);
+  const design::Requirements& require = controller.problem.requirements;
+  for (const simulate::ScenarioRun& run : simulations.runs)
+    for (const Scenario& scenario : controller.problem.scenarios)
+      if (scenario.name == run.name && simulate::is_required_in(require, scenario))
+        simulate::check_run(controller, run, findings);
+  return findings;
 }
 
 std::vector<emit::File> simulation_files(const Controller& controller, const emit::Simulations& simulations) {

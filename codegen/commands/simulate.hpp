@@ -25,8 +25,12 @@ struct SimulateArguments {
 using SimulateProgress = std::function<void(const std::string& work, double share)>;
 
 // What the arguments ask for, or in `why` what is wrong with them.
-std::optional<emit::Simulations> simulate(const controller::Controller& controller, const SimulateArguments& arguments,
-                                          const SimulateProgress& progress, std::string& why);
+std::optional<emit::Simulations> run_simulations(const controller::Controller& controller,
+                                                 const SimulateArguments& arguments,
+                                                 const SimulateProgress& progress, std::string& why);
+
+// What [require] asks for and the loop, or a single run, misses.
+design::Findings missed_requirements(const controller::Controller& controller, const emit::Simulations& simulations);
 
 // NAME_SCENARIO.csv, NAME_SCENARIO_runs.csv, NAME_replay.csv.
 std::vector<emit::File> simulation_files(const controller::Controller& controller,

@@ -72,7 +72,8 @@ check_floors(emit "^emit/controller\\.hpp$" "text;recorded;vectors;plan;c;proof;
              ${any_room} ${digits} ${below_emit} "^nlohmann/" "^mbedtls/")
 check(codegen/emit ${any_room} "^controller/" "^design/")
 check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.hpp$" "^nlohmann/")
-check(codegen/commands ${any_room} "^commands/" "^input/" "^controller/" "^simulate/" "^step/" "^lqg/status\\.h$")
+check(codegen/commands ${any_room} "^commands/" "^input/" "^emit/" "^controller/" "^simulate/" "^design/" "^step/"
+      "^lqg/status\\.h$")
 check(codegen ${any_room} "^commands/" "^input/" "^reference/documents\\.hpp$" "^emit/" "^design/solve\\.hpp$"
       "^CLI/" "^watch\\.hpp$")
 
