@@ -68,11 +68,11 @@ class Plots(InFolder):
         scenario = {"duration": 0.2, "reference": [{"output": "angle", "value": 0.05, "at": 0.01}]}
         run = design.simulate(scenario, seed=3)
         figure = design.plot("response", scenario=scenario, seed=3)
-        outputs, inputs, states = figure.axes
+        outputs, inputs, angle, speed = figure.axes
         numpy.testing.assert_array_equal(outputs.lines[0].get_ydata(), run.outputs[:, 0])
         numpy.testing.assert_array_equal(inputs.lines[0].get_ydata(), run.u[:, 0])
         self.assertEqual([line.get_ydata()[0] for line in inputs.lines[1:]], [-12, 12])
-        numpy.testing.assert_array_equal(states.lines[3].get_ydata(), run.estimate[:, 1])
+        numpy.testing.assert_array_equal(speed.lines[1].get_ydata(), run.estimate[:, 1])
         figure.savefig("response.png")
 
     def test_what_cannot_be_drawn(self):

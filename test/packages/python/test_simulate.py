@@ -56,7 +56,7 @@ class Runs(InFolder):
     def test_it_is_where_it_was_told_to_be(self):
         run = load("servo").simulate({**STEP, "noise": False})
         self.assertAlmostEqual(run.outputs[-1, 0], 0.05, places=3)
-        numpy.testing.assert_array_equal(run.r[:, 0], numpy.where(run.t < 0.02 - 1e-9, 0, numpy.float32(0.05)))
+        numpy.testing.assert_array_equal(run.r[:, 0], numpy.where(run.t < 0.02 - 1e-9, 0, 0.05))
         (step,) = run.numbers.steps
         self.assertEqual((step.output, step["to"]), ("angle", 0.05))
         self.assertAlmostEqual(step.overshoot, max(0, run.outputs.max() / 0.05 - 1), delta=0.01)
