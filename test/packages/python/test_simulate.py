@@ -99,7 +99,7 @@ class Runs(InFolder):
         )
         self.assertEqual(len(again.simulate().t), 5)
         self.assertIsNone(again.simulate().sigma)
-        with self.refused("scenario", "'a', 'b b'", "'c'"):
+        with self.refused("--scenario", '"a", "b b"', '"c"'):
             design.simulate("c")
         with self.refused("scenario", "a name or a dictionary"):
             design.simulate(1)
