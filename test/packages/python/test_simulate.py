@@ -88,6 +88,10 @@ class Runs(InFolder):
         design = load("servo").replace(scenario=[{"name": "a", "duration": 0.01}, {"name": "b b", "duration": 0.02}])
         self.assertEqual(design.scenarios, ["a", "b b"])
         self.assertEqual([len(design.simulate(name).t) for name in (None, "a", "b b")], [10, 10, 20])
+        step = {"name": "a", "duration": 0.2, "noise": False, "reference": STEP["reference"]}
+        design = design.replace({"scenario[0]": step, "require.scenario": "a", "require.overshoot": 0.5})
+        self.assertEqual(len(design.simulate({"name": "c", "duration": 0.03}).t), 30)
+        self.assertEqual(len(design.simulate({**step, "duration": 0.25}).t), 250)
         again = tinylqg.Design(
             A=[[0.9]],
             B=[[1]],

@@ -108,8 +108,8 @@ def rows(signals, count):
 
 
 def with_scenario(design, scenario):
-    """The design whose scenario `scenario` is, and that scenario's name, which lqgen checks; None: the first one there
-    is."""
+    """The design that has `scenario`, and that scenario's name, which lqgen checks; None: the first one there is. A
+    dictionary takes the place of a scenario of its name."""
     if scenario is None:
         return design, design.scenarios[0] if design.scenarios else None
     if isinstance(scenario, str):
@@ -117,7 +117,8 @@ def with_scenario(design, scenario):
     if not isinstance(scenario, Mapping):
         raise expected("scenario", "a name or a dictionary", f"{type(scenario).__name__} {scenario!r}")
     scenario = {"name": "scenario", **scenario}
-    return design.replace(scenario=[scenario]), scenario["name"]
+    others = [other for other in design.tables.get("scenario", []) if other.get("name") != scenario["name"]]
+    return design.replace(scenario=[*others, scenario]), scenario["name"]  # [require] may name one of the others
 
 
 def simulated(design, *arguments):
