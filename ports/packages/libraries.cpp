@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prints what lqgen has inside: one library a line, its name in the SBOM and its version. MPFR and GMP say it
-// themselves.
+// themselves; a library without versions has the hash of its header, which CMake tells.
 #include <gmp.h>
 #include <mbedtls/version.h>
 #include <mpfr.h>
@@ -17,6 +17,7 @@ int main() {
             << '\n'
             << "cli11 " << CLI11_VERSION << '\n'
             << "eigen " << EIGEN_WORLD_VERSION << '.' << EIGEN_MAJOR_VERSION << '.' << EIGEN_MINOR_VERSION << '\n'
+            << "fast-cpp-csv-parser " << LQG_CSV_VERSION << '\n'
             << "gmp " << gmp_version << '\n'
             << "mbedtls " << MBEDTLS_VERSION_STRING << '\n'
             << "mpfr " << mpfr_get_version() << '\n'

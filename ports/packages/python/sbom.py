@@ -26,6 +26,7 @@ LIBRARIES = {
     "boost": ("Boost", "BSL-1.0", "headers, compiled in"),
     "cli11": ("CLI11", "BSD-3-Clause", "headers, compiled in"),
     "eigen": ("Eigen", "MPL-2.0", "headers, compiled in"),
+    "fast-cpp-csv-parser": ("Fast C++ CSV Parser", "BSD-3-Clause", "headers, compiled in"),
     "gmp": ("GMP", "LGPL-3.0-or-later OR GPL-2.0-or-later", "linked statically"),
     "mbedtls": ("Mbed TLS", "Apache-2.0", "linked statically"),
     "mpfr": ("MPFR", "LGPL-3.0-or-later", "linked statically"),
