@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "commands/check.hpp"
 #include "commands/new.hpp"
 #include "commands/run.hpp"
 #include "commands/simulate.hpp"
@@ -36,7 +37,7 @@ enum Exit { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 
 struct Arguments {
   std::string design_file;
-  bool only_checks = false;
+  bool wants_json = false;  // of `check`
   std::string folder = ".";
   std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
@@ -67,14 +68,15 @@ void override_code(const Arguments& arguments, design::Code& code) {
   if (arguments.real == "double") code.real = design::Scalar::float64;
 }
 
-std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller) {
+std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller,
+                              const design::Findings& findings) {
   const std::string& name = controller.problem.name;
   std::vector<emit::File> out;
   if (wants(arguments, "h")) out.push_back({name + ".h", emit::header(controller)});
   if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
   if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
   if (wants(arguments, "proof")) out.push_back({name + "_proof.h", emit::proof(controller)});
-  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller)});
+  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller, findings)});
   return out;
 }
 
@@ -94,9 +96,10 @@ void show_summary(const Arguments& arguments, const emit::Controller& controller
 // What the design is held against.
 enum class Requires { all, nothing };
 
-// The controller of the file; none where the findings, which are printed, say why not: then `status` is set.
+// The controller of the file; none where the findings, which are printed, say why not: then `status` is set. `findings`
+// are those of the design.
 std::optional<emit::Controller> controller_of(const Arguments& arguments, const input::DesignFile& file,
-                                              Requires wanted, Watch& watch, int& status) {
+                                              Requires wanted, Watch& watch, int& status, design::Findings& findings) {
   report(arguments, file, file.findings);
   status = !file.readable ? unreadable : wrong;
   if (!file.problem || design::has_error(file.findings)) return std::nullopt;
@@ -104,7 +107,6 @@ std::optional<emit::Controller> controller_of(const Arguments& arguments, const 
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
   if (wanted == Requires::nothing) problem.requirements = {};
-  design::Findings findings;
   std::optional<design::Solution> solution =
       design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
   std::optional<emit::Controller> controller;
@@ -123,23 +125,40 @@ std::optional<emit::Controller> controller_of(const Arguments& arguments, const 
   return controller;
 }
 
-std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status) {
-  return controller_of(arguments, input::read_design_file(arguments.design_file), Requires::all, watch, status);
+std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status,
+                                                  design::Findings& findings) {
+  return controller_of(arguments, input::read_design_file(arguments.design_file), Requires::all, watch, status,
+                       findings);
+}
+
+// `lqgen check`: nothing is written but to the terminal.
+int check(const Arguments& arguments) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  design::Findings findings;
+  int status = written;
+  const std::optional<emit::Controller> controller =
+      controller_of(arguments, file, Requires::all, watch, status, findings);
+  watch.end();
+  if (arguments.wants_json) {
+    findings.insert(findings.begin(), file.findings.begin(), file.findings.end());
+    std::cout << commands::check_json(status, file, findings, controller ? &*controller : nullptr);
+  } else if (controller) {
+    show_summary(arguments, *controller);
+  }
+  return status;
 }
 
 int generate(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   int status = written;
-  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status);
+  design::Findings findings;
+  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status, findings);
   if (!controller) return status;
 
   watch.show("code, test and report");
-  const std::vector<emit::File> outputs = files(arguments, *controller);
+  const std::vector<emit::File> outputs = files(arguments, *controller, findings);
   watch.end();
-  if (arguments.only_checks) {
-    show_summary(arguments, *controller);
-    return written;
-  }
   if (overwrites_design(arguments, outputs)) {
     std::cerr << input::printable(arguments.design_file)
               << ": expected a design file that is not one of the outputs; rename it, or choose another folder "
@@ -164,7 +183,8 @@ int run_controller(const Arguments& arguments) {
   std::optional<emit::Controller> controller;
   {
     Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-    controller = design_controller(arguments, watch, status);
+    design::Findings findings;
+    controller = design_controller(arguments, watch, status, findings);
     watch.end();
   }
   if (!controller) return status;
@@ -194,8 +214,10 @@ bool write_simulations(const Arguments& arguments, const commands::SimulateArgum
 int simulate_design(const Arguments& arguments, const commands::SimulateArguments& wanted) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   const input::DesignFile file = input::read_design_file(arguments.design_file);
+  design::Findings findings;
   int status = written;
-  const std::optional<emit::Controller> controller = controller_of(arguments, file, Requires::nothing, watch, status);
+  const std::optional<emit::Controller> controller =
+      controller_of(arguments, file, Requires::nothing, watch, status, findings);
   if (!controller) return status;
   std::string why;
   const auto simulations = commands::run_simulations(
@@ -337,8 +359,9 @@ int main(int argc, char** argv) {
   add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
   add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");
 
-  CLI::App* const check = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
-  add_design_options(*check, arguments);
+  CLI::App* const checking = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
+  add_design_options(*checking, arguments);
+  checking->add_flag("--json", arguments.wants_json, "print what there is to say, and the design, as JSON");
   commands::SimulateArguments simulate_arguments;
   const CLI::App* const simulation = add_simulate(app, arguments, simulate_arguments);
   CLI::App* const runner = app.add_subcommand("run", "Runs the controller: y on standard input, u on standard output.");
@@ -356,9 +379,9 @@ int main(int argc, char** argv) {
     if (error.get_exit_code() != 0 && explain_unknown_options(app)) return wrong;
     return app.exit(error) == 0 ? written : wrong;
   }
-  arguments.only_checks = static_cast<bool>(*check);
   try {
     if (*beginning) return make_new(new_arguments);
+    if (*checking) return check(arguments);
     if (*runner) return run_controller(arguments);
     return *simulation ? simulate_design(arguments, simulate_arguments) : generate(arguments);
   } catch (const std::exception& error) {
