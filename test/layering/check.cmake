@@ -68,7 +68,7 @@ check(codegen/simulate   ${any_room} "^simulate/" "^controller/" "^design/" "^st
 
 set(room_folder codegen/emit)
 set(below_emit "^controller/" "^simulate/" "^design/" "^step/" "^trace/")
-check_floors(emit "^emit/controller\\.hpp$" "text;recorded;vectors;plan;c;proof;unit_test;report"
+check_floors(emit "^emit/controller\\.hpp$" "text;page;recorded;vectors;plan;c;proof;unit_test;report"
              ${any_room} ${digits} ${below_emit} "^nlohmann/" "^mbedtls/")
 check(codegen/emit ${any_room} "^controller/" "^design/")
 check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.hpp$" "^nlohmann/")
