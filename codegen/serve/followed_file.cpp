@@ -107,7 +107,7 @@ std::optional<FollowedFile::Look> FollowedFile::look() const {
               static_cast<std::int64_t>(status.st_size), modified_at(status), changed_at(status)};
 }
 
-bool FollowedFile::is_there() const { return content_of(path_).has_value(); }
+bool FollowedFile::is_there() const { return look().has_value(); }
 
 std::optional<std::string> FollowedFile::changed() {
   const std::optional<Look> now = look();

@@ -16,7 +16,7 @@ class FollowedFile {
   // enough for every 50 ms. Nothing, too, where the file is gone or cannot be read: editors take it away for a moment.
   std::optional<std::string> changed();
 
-  // Is there a regular file that can be read?
+  // Is there a regular file?
   bool is_there() const;
 
   enum class Written { yes, changed_meanwhile, failed };

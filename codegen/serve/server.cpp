@@ -17,10 +17,10 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 
 struct Server::Inside {
+  Service service;  // outlives the connections, which end with the context
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
   asio::signal_set signals{context, SIGINT, SIGTERM, SIGHUP};
-  Service service;
 
   void listen(unsigned port) {
     const tcp::endpoint place(asio::ip::address_v4::loopback(), static_cast<unsigned short>(port));
