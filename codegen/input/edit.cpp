@@ -139,6 +139,12 @@ std::vector<PlacedNumber> numbers_of(const std::string& text) {
   return numbers;
 }
 
+std::string word_at(const std::string& text, Location where) {
+  const Places places(text);
+  const std::size_t begin = places.byte(where);
+  return text.substr(begin, places.length(begin));
+}
+
 std::variant<std::string, EditFailure> set_numbers(const std::string& text, const std::vector<Change>& changes) {
   const std::vector<PlacedNumber> numbers = numbers_of(text);
   std::map<std::string, double> wanted;

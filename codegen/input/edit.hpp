@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "input/location.hpp"
+
 namespace lqg::input {
 
 // A number as it stands in the file. `key` is that of findings: "plant.sample_time", "lqr.Q[1]", "stage[0].A[2][0]".
@@ -24,6 +26,9 @@ struct Change {
 // All numbers of `text` in the order of the file; none where it is not TOML. Keys that need quotes are left out: no key
 // of a design file does.
 std::vector<PlacedNumber> numbers_of(const std::string& text);
+
+// The number, boolean or date that begins at `where`, as it is written.
+std::string word_at(const std::string& text, Location where);
 
 // Why a number was not set: the key ("" where it is the text as a whole), and "expected …, found …".
 struct EditFailure {
