@@ -67,14 +67,15 @@ void override_code(const Arguments& arguments, design::Code& code) {
   if (arguments.real == "double") code.real = design::Scalar::float64;
 }
 
-std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller) {
+std::vector<emit::File> files(const Arguments& arguments, const emit::Controller& controller,
+                              const design::Findings& findings) {
   const std::string& name = controller.problem.name;
   std::vector<emit::File> out;
   if (wants(arguments, "h")) out.push_back({name + ".h", emit::header(controller)});
   if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
   if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
   if (wants(arguments, "proof")) out.push_back({name + "_proof.h", emit::proof(controller)});
-  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller)});
+  if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller, findings)});
   return out;
 }
 
@@ -117,7 +118,7 @@ int generate(const Arguments& arguments) {
   if (!controller) return impossible;
 
   watch.show("code, test and report");
-  const std::vector<emit::File> outputs = files(arguments, *controller);
+  const std::vector<emit::File> outputs = files(arguments, *controller, findings);
   watch.end();
   if (arguments.only_checks) {
     show_summary(arguments, *controller);

@@ -28,8 +28,9 @@ struct PageTable {
 struct PageMatrix {
   std::string name;    // "K": how it is called where it is copied to
   std::string words;   // what it is: "gain of the regulator"; may be empty
-  std::vector<std::string> rows, columns;
+  std::vector<std::string> rows, columns;  // names; may be empty
   std::vector<std::vector<std::string>> values;
+  bool is_double = true;  // of C: double, else float
 };
 
 // What is shown of a section at a time. Where a section has several, a person chooses one of them by its name, and
@@ -51,8 +52,8 @@ struct PageSection {
 
 // A number beside what is required of it.
 struct PageFigure {
-  std::string name, value;  // "Phase margin", "41.2°"
-  std::string requirement;  // "at least 30°"; empty: none
+  std::string name, value = {};  // "Phase margin", "41.2°"
+  std::string requirement = {};  // "at least 30°"; empty: none
   bool is_met = true;
 };
 

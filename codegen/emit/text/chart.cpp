@@ -6,15 +6,16 @@
 #include <cmath>
 
 #include "design/finding.hpp"
+#include "emit/text/chart_axis.hpp"
 #include "emit/text/html.hpp"
 
 namespace lqg::emit {
 
 namespace {
 
-constexpr double width = 460, height = 190;
-constexpr double left = 62, right = 12, top = 26, bottom = 34;
-constexpr double square_height = width - left - right + top + bottom;
+constexpr double width = 460, plot_height = 130;
+constexpr double left = 62, right = 12, plot_width = width - left - right;
+constexpr double legend_row = 14;  // a line of the legend
 
 // One decimal of a unit of the picture.
 std::string coordinate(double value) {
@@ -23,141 +24,218 @@ std::string coordinate(double value) {
   return std::string(text, end.ptr);
 }
 
-struct Range {
-  double low = 0, high = 0;
-  double size() const { return high - low; }
+// What CSS calls a line's style.
+const char* style_of(Mark mark) {
+  switch (mark) {
+    case Mark::dashes: return " dashes";
+    case Mark::dash_dots: return " dash-dots";
+    case Mark::dotted: return " dotted";
+    case Mark::dots: return " dots";
+    default: return "";
+  }
+}
+
+bool is_points(Mark mark) { return mark > Mark::steps; }
+
+// A point of 8 units as the part of a path that begins in its middle.
+std::string point_at(Mark mark, double x, double y) {
+  const auto from = [&](double dx, double dy) { return "M" + coordinate(x + dx) + " " + coordinate(y + dy); };
+  switch (mark) {
+    case Mark::dots: return from(0, 0) + "h0";
+    case Mark::pluses: return from(-5, 0) + "h10m-5 -5v10";
+    case Mark::rings: return from(-4, 0) + "a4 4 0 1 0 8 0a4 4 0 1 0 -8 0";
+    case Mark::squares: return from(-4, -4) + "h8v8h-8z";
+    default: return from(-4, -4) + "l8 8m0 -8l-8 8";
+  }
+}
+
+struct LegendEntry {
+  std::string label, sample;  // the sample: a path about (0, 0), with its class
 };
 
-// Around all finite values; something even where they are all the same.
-Range range_of(const std::vector<Curve>& curves, std::vector<double> Curve::* values) {
-  Range range = {INFINITY, -INFINITY};
-  for (const Curve& curve : curves)
-    for (const double value : curve.*values) {
-      if (!std::isfinite(value)) continue;
-      range = {std::min(range.low, value), std::max(range.high, value)};
-    }
-  if (!(range.low <= range.high)) return {0, 1};
-  const double least = std::max(1e-12 * std::max(std::abs(range.low), std::abs(range.high)), 1e-300);
-  if (range.size() < least)
-    return {range.low - std::max(least, std::abs(range.low)), range.high + std::max(least, std::abs(range.high))};
-  return range;
-}
-
-// 1, 2 or 5 times a power of ten: four to nine of it fill the range.
-double tick_distance(const Range& range) {
-  const double power = std::pow(10, std::floor(std::log10(range.size() / 4)));
-  for (const double step : {5.0, 2.0})
-    if (range.size() / (step * power) >= 4) return step * power;
-  return power;
-}
+std::string colour_class(int colour) { return "s" + std::to_string(colour % 7); }
 
 class Picture {
  public:
   explicit Picture(const Chart& chart)
-      : chart_(chart), height_(chart.is_square ? square_height : height),
-        x_(chart.is_square ? Range{chart.x_low, chart.x_high} : range_of(chart.curves, &Curve::x)),
-        y_(chart.is_square ? Range{chart.y_low, chart.y_high} : range_of(chart.curves, &Curve::y)) {}
+      : chart_(chart), window_(window_of(chart)), x_{window_.x_low, window_.x_high}, y_{window_.y_low, window_.y_high},
+        top_(chart.y.label.empty() ? 26 : 36), bottom_(top_ + (chart.is_square ? plot_width : plot_height)) {}
 
   std::string draw() const {
-    std::string out = "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height_) +
+    double height = bottom_ + 34;
+    const std::string legend_lines = legend(height);
+    std::string out = "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height) +
                       "\" role=\"img\" aria-label=\"" + escaped(chart_.title) + "\">\n<text class=\"title\" x=\"" +
-                      coordinate(left) + "\" y=\"15\">" + escaped(chart_.title) + "</text>\n" + grid() + labels();
+                      coordinate(left) + "\" y=\"15\">" + escaped(chart_.title) + "</text>\n";
+    for (const Band& band : chart_.bands) out += draw(band);
+    out += grid() + labels();
     for (const Circle& circle : chart_.circles) out += draw(circle);
-    for (const Curve& curve : chart_.curves) out += draw(curve);
-    return out + legend() + "</svg>\n";
+    for (const Role role : {Role::grid, Role::ghost, Role::data})
+      for (const Curve& curve : chart_.curves)
+        if (curve.role == role) out += draw(curve);
+    for (const Guide& guide : chart_.guides) out += draw(guide);
+    for (const Note& note : chart_.notes) out += draw(note);
+    return out + events() + legend_lines + "</svg>\n";
   }
 
  private:
-  double at_x(double value) const { return left + (value - x_.low) / x_.size() * (width - left - right); }
-  double at_y(double value) const { return height_ - bottom - (value - y_.low) / y_.size() * (height_ - top - bottom); }
+  double at_x(double value) const { return left + share_of(x_, chart_.x.is_logarithmic, value) * plot_width; }
+  double at_y(double value) const {
+    return bottom_ - share_of(y_, chart_.y.is_logarithmic, value) * (bottom_ - top_);
+  }
+  bool shows(double x, double y) const {
+    if (!std::isfinite(x) || !std::isfinite(y)) return false;
+    return x_.low <= x && x <= x_.high && y_.low <= y && y <= y_.high;
+  }
 
-  std::string line(const char* kind, double x1, double y1, double x2, double y2) const {
+  static std::string line(const char* kind, double x1, double y1, double x2, double y2) {
     return std::string("<line class=\"") + kind + "\" x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) +
            "\" x2=\"" + coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>\n";
+  }
+  static std::string text(const char* kind, const char* anchor, double x, double y, const std::string& words) {
+    if (words.empty()) return "";
+    return std::string("<text class=\"") + kind + "\" text-anchor=\"" + anchor + "\" x=\"" + coordinate(x) +
+           "\" y=\"" + coordinate(y) + "\">" + escaped(words) + "</text>\n";
   }
 
   // Numbers at both axes; the lines through 0 are drawn stronger.
   std::string grid() const {
     std::string out;
-    const auto each_tick = [](const Range& range, auto visit) {
-      const double step = tick_distance(range);
-      for (double k = std::ceil(range.low / step - 1e-9); k * step <= range.high + 1e-9 * step; ++k)
-        visit(k == 0 ? 0 : k * step, k == 0);  // not −0
-    };
-    each_tick(x_, [&](double x, bool is_zero) {
-      out += line(is_zero && chart_.is_square ? "zero" : "grid", at_x(x), top, at_x(x), height_ - bottom);
-      out += "<text class=\"tick\" text-anchor=\"middle\" x=\"" + coordinate(at_x(x)) + "\" y=\"" +
-             coordinate(height_ - bottom + 13) + "\">" + design::decimal(x) + "</text>\n";
-    });
-    each_tick(y_, [&](double y, bool is_zero) {
-      out += line(is_zero ? "zero" : "grid", left, at_y(y), width - right, at_y(y));
-      out += "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(left - 5) + "\" y=\"" +
-             coordinate(at_y(y) + 4) + "\">" + design::decimal(y) + "</text>\n";
-    });
+    for (const double x : ticks(x_, chart_.x.is_logarithmic)) {
+      out += line(x == 0 && chart_.is_square ? "zero" : "grid", at_x(x), top_, at_x(x), bottom_);
+      out += text("tick", "middle", at_x(x), bottom_ + 13, design::decimal(x));
+    }
+    for (const double y : ticks(y_, chart_.y.is_logarithmic)) {
+      out += line(y == 0 ? "zero" : "grid", left, at_y(y), width - right, at_y(y));
+      out += text("tick", "end", left - 5, at_y(y) + 4, design::decimal(y));
+    }
     return out;
   }
 
   std::string labels() const {
-    return "<text class=\"tick\" text-anchor=\"end\" x=\"" + coordinate(width - right) + "\" y=\"" +
-           coordinate(height_ - 6) + "\">" + escaped(chart_.x_label) + "</text>\n<text class=\"tick\" x=\"4\" y=\"" +
-           coordinate(top - 6) + "\">" + escaped(chart_.y_label) + "</text>\n";
+    return text("tick", "end", width - right, bottom_ + 28, chart_.x.label) +
+           text("tick", "start", left, top_ - 6, chart_.y.label);
   }
 
-  std::string legend() const {
-    std::string out;
-    double at = width - right;
-    for (auto curve = chart_.curves.rbegin(); curve != chart_.curves.rend(); ++curve) {
-      if (curve->label.empty()) continue;
-      out += "<text class=\"legend c" + std::to_string(curve->colour) + "\" text-anchor=\"end\" x=\"" + coordinate(at) +
-             "\" y=\"15\">" + escaped(curve->label) + "</text>\n";
-      at -= 7.0 * static_cast<double>(letters(curve->label)) + 12;
-    }
-    return out;
+  std::string draw(const Band& band) const {
+    const auto held = [&](double y) { return coordinate(at_y(std::clamp(y, y_.low, y_.high))); };
+    const auto across = [&](double x) { return coordinate(at_x(std::clamp(x, x_.low, x_.high))); };
+    std::string path;
+    for (std::size_t i = 0; i < band.x.size(); ++i)
+      path += (i ? "L" : "M") + across(band.x[i]) + " " + held(band.high[i]);
+    for (std::size_t i = band.x.size(); i-- > 0;) path += "L" + across(band.x[i]) + " " + held(band.low[i]);
+    return "<path class=\"band b" + std::to_string(band.colour % 7) + "\" d=\"" + path + "z\"/>\n";
   }
 
   std::string draw(const Circle& circle) const {
     return "<ellipse class=\"circle\" cx=\"" + coordinate(at_x(circle.x)) + "\" cy=\"" + coordinate(at_y(circle.y)) +
-           "\" rx=\"" + coordinate(circle.radius / x_.size() * (width - left - right)) + "\" ry=\"" +
-           coordinate(circle.radius / y_.size() * (height_ - top - bottom)) + "\"/>\n";
+           "\" rx=\"" + coordinate(circle.radius / x_.size() * plot_width) + "\" ry=\"" +
+           coordinate(circle.radius / y_.size() * (bottom_ - top_)) + "\"/>\n";
   }
 
-  bool shows(double x, double y) const {
-    if (!std::isfinite(x) || !std::isfinite(y)) return false;
-    return !chart_.is_square || (x_.low <= x && x <= x_.high && y_.low <= y && y <= y_.high);
+  std::string draw(const Guide& guide) const {
+    const Range& range = guide.axis == Guide::Axis::x ? x_ : y_;
+    if (!(range.low <= guide.at && guide.at <= range.high)) return "";
+    if (guide.axis == Guide::Axis::y)
+      return line("guide", left, at_y(guide.at), width - right, at_y(guide.at)) +
+             text("note", "end", width - right - 2, at_y(guide.at) - 3, guide.label);
+    const bool is_right = at_x(guide.at) > width / 2;
+    return line("guide", at_x(guide.at), top_, at_x(guide.at), bottom_) +
+           text("note", is_right ? "end" : "start", at_x(guide.at) + (is_right ? -3 : 3), top_ + 10, guide.label);
+  }
+
+  std::string draw(const Note& note) const {
+    if (!shows(note.x, note.y)) return "";
+    const double x = at_x(note.x), y = at_y(note.y), length = std::hypot(note.dx, note.dy);
+    std::string arrow;
+    if (length > 0) {
+      const double c = 6 * note.dx / length, s = -6 * note.dy / length;
+      arrow = "<path class=\"arrow\" d=\"M" + coordinate(x + c) + " " + coordinate(y + s) + "L" +
+              coordinate(x - c / 2 - s / 2) + " " + coordinate(y - s / 2 + c / 2) + "L" +
+              coordinate(x - c / 2 + s / 2) + " " + coordinate(y - s / 2 - c / 2) + "z\"/>\n";
+    }
+    const bool is_right = x > width - 70;
+    return arrow + text("note", is_right ? "end" : "start", x + (is_right ? -7 : 7), y - 5, note.text);
+  }
+
+  std::string events() const {
+    std::string path;
+    for (const EventMark& event : chart_.events)
+      if (x_.low <= event.at && event.at <= x_.high)
+        path += "M" + coordinate(at_x(event.at)) + " " + coordinate(bottom_ - 7) + "l-3 6h6z";
+    return path.empty() ? "" : "<path class=\"event\" d=\"" + path + "\"/>\n";
+  }
+
+  std::vector<LegendEntry> entries() const {
+    std::vector<LegendEntry> out;
+    const auto add = [&](const std::string& label, const std::string& sample) {
+      for (const LegendEntry& entry : out)
+        if (entry.label == label) return;
+      if (!label.empty()) out.push_back({label, sample});
+    };
+    for (const Curve& curve : chart_.curves)
+      add(curve.label, "class=\"" + class_of(curve) + "\" d=\"" +
+                           (is_points(curve.mark) ? point_at(curve.mark, 8, 0) : std::string("M0 0h16")) + "\"");
+    for (const Band& band : chart_.bands)
+      add(band.label, "class=\"band b" + std::to_string(band.colour % 7) + "\" d=\"M0 -4h16v8h-16z\"");
+    for (const EventMark& event : chart_.events) add(event.label, "class=\"event\" d=\"M8 -3l-3 6h6z\"");
+    return out;
+  }
+
+  // Lines below the chart; each makes the picture higher.
+  std::string legend(double& height) const {
+    std::string out;
+    double at = width;
+    for (const LegendEntry& entry : entries()) {
+      const double needed = 6.2 * static_cast<double>(letters(entry.label)) + 34;
+      if (at + needed > width) at = left, height += legend_row;
+      out += "<g transform=\"translate(" + coordinate(at) + " " + coordinate(height - 8) + ")\"><path " +
+             entry.sample + "/><text x=\"20\" y=\"4\">" + escaped(entry.label) + "</text></g>\n";
+      at += needed;
+    }
+    return out;
+  }
+
+  static std::string class_of(const Curve& curve) {
+    const std::string colour = curve.role == Role::data    ? colour_class(curve.colour)
+                               : curve.role == Role::ghost ? "ghost"
+                                                           : "grid-curve";
+    return colour + style_of(curve.mark);
   }
 
   std::string draw(const Curve& curve) const {
-    if (curve.mark == Mark::dots || curve.mark == Mark::crosses) return points(curve);
+    const std::string path = is_points(curve.mark) ? points(curve) : line_of(curve);
+    return "<path class=\"" + class_of(curve) + "\" d=\"" + path + "\"/>\n";
+  }
+
+  std::string line_of(const Curve& curve) const {
     std::string path;
     bool pen_is_down = false;
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       const bool shown = shows(curve.x[i], curve.y[i]);
-      const std::string x = coordinate(at_x(curve.x[i])), y = coordinate(at_y(curve.y[i]));
-      if (shown && pen_is_down && curve.mark == Mark::steps)
-        path += "H" + x + "V" + y;
-      else if (shown)
-        path += (pen_is_down ? "L" : "M") + x + " " + y;
+      if (shown) {
+        const std::string x = coordinate(at_x(curve.x[i])), y = coordinate(at_y(curve.y[i]));
+        if (pen_is_down && curve.mark == Mark::steps)
+          path += "H" + x + "V" + y;
+        else
+          path += (pen_is_down ? "L" : "M") + x + " " + y;
+      }
       pen_is_down = shown;
     }
-    return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dashes ? " dashes" : "") +
-           "\" d=\"" + path + "\"/>\n";
+    return path;
   }
 
   std::string points(const Curve& curve) const {
     std::string path;
-    for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      if (!shows(curve.x[i], curve.y[i])) continue;
-      const double x = at_x(curve.x[i]), y = at_y(curve.y[i]);
-      path += curve.mark == Mark::dots ? "M" + coordinate(x) + " " + coordinate(y) + "h0"
-                                       : "M" + coordinate(x - 4) + " " + coordinate(y - 4) + "l8 8m0 -8l-8 8";
-    }
-    return "<path class=\"s" + std::to_string(curve.colour) + (curve.mark == Mark::dots ? " dots" : "") + "\" d=\"" +
-           path + "\"/>\n";
+    for (std::size_t i = 0; i < curve.x.size(); ++i)
+      if (shows(curve.x[i], curve.y[i])) path += point_at(curve.mark, at_x(curve.x[i]), at_y(curve.y[i]));
+    return path;
   }
 
   const Chart& chart_;
-  double height_;
+  Window window_;
   Range x_, y_;
+  double top_, bottom_;
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ struct Curve {
   std::vector<double> x, y;
   Role role = Role::data;
   std::string owner = {};  // the design that it is of, where several are in one page; empty: the only one
+  std::vector<std::string> texts = {};  // point by point what a reader of the live page is told of it; or empty
 };
 
 // An area between two curves, behind them: limits, ±3σ around an estimate. Two points are enough for a band of constant
@@ -59,7 +60,7 @@ struct Circle {
 };
 
 struct Axis {
-  std::string label;  // with its unit: "t [s]"
+  std::string label = {};  // with its unit: "t [s]"
   bool is_logarithmic = false;
 };
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The sections of the page, one file each. A section without views is left out.
+#pragma once
+
+#include "design/finding.hpp"
+#include "emit/controller.hpp"
+#include "emit/page/page.hpp"
+
+namespace lqg::emit {
+
+// Name, verdict, the six figures.
+void add_head(const Controller& controller, const design::Findings& findings, PageData& page);
+
+PageSection at_work(const Controller& controller);             // what does it do?
+PageSection far_from_trouble(const Controller& controller);    // what may be wrong with the model?
+PageSection pole_section(const Controller& controller);        // how fast, how damped?
+PageSection estimator_section(const Controller& controller);   // does it know what it knows?
+PageSection target_section(const Controller& controller);      // what does it cost?
+PageSection number_section(const Controller& controller);
+
+// Whose poles a person wants to see: regulator and estimator, whose poles are those of the loop, else the loop itself;
+// and the plant.
+struct NamedPoles {
+  std::string owner;
+  design::Poles poles;
+};
+std::vector<NamedPoles> poles_to_show(const Controller& controller);
+
+// The poles as the weights on the inputs are scaled over decades; none where the regulator has no steady cost that the
+// samples are summed by.
+std::vector<Chart> root_locus(const Controller& controller);
+
+// Of a frequency, a time: "3.21 Hz".
+std::string with_unit(double value, const std::string& unit);
+
+Eigen::MatrixXd in_double(const design::RealMatrix& values);
+
+}  // namespace lqg::emit
