@@ -173,7 +173,7 @@ int make_new(const NewArguments& arguments) {
   return written;
 }
 
-int compare(const view::CompareArguments& arguments) {
+int compare_designs(const view::CompareArguments& arguments) {
   Watch watch("lqgen compare", arguments.quiet, std::nullopt);
   return view::compare(arguments, [&](const std::string& work) { watch.show(work); });
 }
@@ -295,7 +295,7 @@ int main(int argc, char** argv) {
   try {
     if (*beginning) return make_new(new_arguments);
     if (*watching) return view::watch(watch_arguments);
-    if (*comparison) return compare(compare_arguments);
+    if (*comparison) return compare_designs(compare_arguments);
     return generate(arguments);
   } catch (const std::exception& error) {
     const std::string what = command.empty() || *check ? shown_path(arguments) : "lqgen " + command;

@@ -16,14 +16,14 @@ using emit::PageSection;
 using emit::PageTable;
 using emit::PageView;
 
-const char* const nothing = "–";
+const char* const no_value = "–";
 
 // The place of `name` among rows, a new one where it is not there yet.
 std::vector<std::string>& row_of(PageTable& table, const std::string& name, std::size_t columns) {
   const auto is_it = [&](const std::vector<std::string>& row) { return row.front() == name; };
   const auto found = std::find_if(table.rows.begin(), table.rows.end(), is_it);
   if (found != table.rows.end()) return *found;
-  table.rows.emplace_back(columns + 1, nothing);
+  table.rows.emplace_back(columns + 1, no_value);
   table.rows.back().front() = name;
   return table.rows.back();
 }
