@@ -50,6 +50,7 @@ void Session::follow() {
 
 void Session::load(const std::string& text) {
   text_ = text;
+  is_shown_ = false;
   Worker::Job job;
   job.text = text;
   job.path = path_;
@@ -63,6 +64,7 @@ void Session::take(Picture picture) {
   if (misses_ > misses_of_a_moment) return;  // it is of a file that has gone meanwhile
   if (picture.page) last_good_ = picture.page;
   picture_ = std::move(picture);
+  is_shown_ = true;
   publish();
 }
 
@@ -108,7 +110,7 @@ void Session::send_state(const serve::Request& request, const serve::Answer& ans
 void Session::try_numbers(const serve::Request& request, const serve::Answer& answer) {
   const std::optional<Numbers> numbers = numbers_in(request.body);
   if (!numbers) return answer(json(400, error_message("expected {revision, changes: [{key, value}]}")));
-  if (numbers->revision != revision_) return answer(json(409, error_message(has_changed)));
+  if (numbers->revision != revision_ || !is_shown_) return answer(json(409, error_message(has_changed)));
   const auto text = input::set_numbers(text_, numbers->changes);
   if (const auto* failure = std::get_if<input::EditFailure>(&text))
     return answer(json(400, error_message(failure->key + ": " + failure->message)));

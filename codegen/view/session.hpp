@@ -45,7 +45,8 @@ class Session {
   Worker& worker_;
   serve::Server* server_ = nullptr;
   serve::FollowedFile file_;
-  std::string text_;  // of the file, as it was last seen
+  std::string text_;       // of the file, as it was last seen
+  bool is_shown_ = false;  // the newest revision is that of the text
   int misses_ = 0;    // how often in a row it was not there
   Picture picture_;
   std::optional<emit::PageData> last_good_;
