@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
-// `check` designs and writes nothing; `new` writes a design file to begin with; `watch` serves a live page of a design,
-// and `compare` writes a page of several.
+// `check` designs and writes nothing; `new` writes a design file to begin with; `simulate` runs its scenarios; `run`
+// runs the controller by a pipe; `watch` serves a live page of a design; `compare` writes a page of several.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,8 @@
 #include <iostream>
 
 #include "commands/new.hpp"
+#include "commands/run.hpp"
+#include "commands/simulate.hpp"
 #include "emit/c/header.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/report/json.hpp"
@@ -92,16 +94,20 @@ void show_summary(const Arguments& arguments, const emit::Controller& controller
   if (!arguments.quiet && ::isatty(STDOUT_FILENO)) std::cout << emit::summary(controller);
 }
 
-int generate(const Arguments& arguments) {
-  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-  const input::DesignFile file = input::read_design_file(arguments.design_file);
+// What the design is held against.
+enum class Requires { all, nothing };
+
+// The controller of the file; none where the findings, which are printed, say why not: then `status` is set.
+std::optional<emit::Controller> controller_of(const Arguments& arguments, const input::DesignFile& file,
+                                              Requires wanted, Watch& watch, int& status,
+                                              design::Findings& findings) {
   report(arguments, file, file.findings);
-  if (!file.readable) return unreadable;
-  if (!file.problem || design::has_error(file.findings)) return wrong;
+  status = !file.readable ? unreadable : wrong;
+  if (!file.problem || design::has_error(file.findings)) return std::nullopt;
 
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
-  design::Findings findings;
+  if (wanted == Requires::nothing) problem.requirements = {};
   std::optional<design::Solution> solution =
       design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
   std::optional<emit::Controller> controller;
@@ -115,7 +121,23 @@ int generate(const Arguments& arguments) {
   watch.clear();
   input::sort_by_place(file, findings);
   report(arguments, file, findings);
-  if (!controller) return impossible;
+  status = controller ? written : impossible;
+  if (controller) controller->problem.requirements = file.problem->requirements;
+  return controller;
+}
+
+std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status,
+                                                  design::Findings& findings) {
+  return controller_of(arguments, input::read_design_file(arguments.design_file), Requires::all, watch, status,
+                       findings);
+}
+
+int generate(const Arguments& arguments) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  int status = written;
+  design::Findings findings;
+  const std::optional<emit::Controller> controller = design_controller(arguments, watch, status, findings);
+  if (!controller) return status;
 
   watch.show("code, test and report");
   const std::vector<emit::File> outputs = files(arguments, *controller, findings);
@@ -136,6 +158,67 @@ int generate(const Arguments& arguments) {
   }
   show_summary(arguments, *controller);
   return written;
+}
+
+// `lqgen run`: samples come by standard input, which the design file can thus not come by.
+int run_controller(const Arguments& arguments) {
+  if (arguments.design_file == "-") {
+    std::cerr << "lqgen run: expected the path of a design file, found -: standard input has the samples\n";
+    return wrong;
+  }
+  int status = written;
+  std::optional<emit::Controller> controller;
+  {
+    Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+    design::Findings findings;
+    controller = design_controller(arguments, watch, status, findings);
+    watch.end();
+  }
+  if (!controller) return status;
+  const std::string why = commands::run(*controller, std::cin, std::cout);
+  if (!why.empty()) std::cerr << "standard input: " << why << "\n";
+  if (!std::cout) std::cerr << "standard output: cannot be written\n";
+  return !why.empty() ? wrong : std::cout ? written : unreadable;
+}
+
+// False where it could not be written.
+bool write_simulations(const Arguments& arguments, const commands::SimulateArguments& wanted,
+                       const emit::Controller& controller, const emit::Simulations& simulations) {
+  if (wanted.wants_json) {
+    std::cout << emit::simulations_json(controller, simulations);
+    return static_cast<bool>(std::cout.flush());
+  }
+  if (const auto failure = emit::write_all(arguments.folder, commands::simulation_files(controller, simulations))) {
+    std::cerr << input::printable(*failure) << "\n";
+    return false;
+  }
+  if (!arguments.quiet) std::cout << commands::simulation_lines(controller, simulations);
+  return true;
+}
+
+// `lqgen simulate`: numbers on standard output, samples in files. A design that misses what [require] asks for is shown,
+// too: then the status tells.
+int simulate_design(const Arguments& arguments, const commands::SimulateArguments& wanted) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  int status = written;
+  design::Findings findings;
+  const std::optional<emit::Controller> controller =
+      controller_of(arguments, file, Requires::nothing, watch, status, findings);
+  if (!controller) return status;
+  std::string why;
+  const auto simulations = commands::run_simulations(
+      *controller, wanted, [&](const std::string& work, double share) { watch.show(work, share); }, why);
+  watch.end();
+  if (!simulations) {
+    std::cerr << "lqgen simulate: " << input::printable(why) << "\n";
+    return wrong;
+  }
+  if (!write_simulations(arguments, wanted, *controller, *simulations)) return unreadable;
+  design::Findings missed = commands::missed_requirements(*controller, *simulations);
+  input::sort_by_place(file, missed);
+  report(arguments, file, missed);
+  return missed.empty() ? written : impossible;
 }
 
 struct NewArguments {
@@ -252,6 +335,28 @@ CLI::App* add_compare(CLI::App& app, view::CompareArguments& arguments) {
   return comparison;
 }
 
+CLI::App* add_simulate(CLI::App& app, Arguments& arguments, commands::SimulateArguments& wanted) {
+  CLI::App* const command =
+      app.add_subcommand("simulate", "Runs the scenarios of a design: NAME_SCENARIO.csv, and the numbers that decide.");
+  add_design_options(*command, arguments);
+  add_folder(*command, arguments.folder);
+  command->add_option("--scenario", wanted.scenarios, "only the scenario of this name; again for more")
+      ->option_text("NAME");
+  const auto runs = command->add_option("--runs", wanted.runs, "a Monte Carlo of so many runs of each scenario")
+                        ->check(CLI::Range(1, 10000000))
+                        ->option_text("N");
+  command->add_option("--first", wanted.first, "number of the first run, to share the runs among machines")
+      ->check(CLI::Range(0, 1000000000))
+      ->option_text("K [0]")
+      ->needs(runs);
+  command->add_option("--seed", wanted.seed, "of the noises")->option_text("S [1]");
+  command->add_option("--replay", wanted.log, "run the filter over a log of outputs and inputs instead")
+      ->option_text("LOG.csv")
+      ->excludes(runs);
+  command->add_flag("--json", wanted.wants_json, "print all as JSON, write no file");
+  return command;
+}
+
 }  // namespace
 
 // Setting up the command line throws only where two options have one name.
@@ -272,6 +377,10 @@ int main(int argc, char** argv) {
 
   CLI::App* const check = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
   add_design_options(*check, arguments);
+  commands::SimulateArguments simulate_arguments;
+  const CLI::App* const simulation = add_simulate(app, arguments, simulate_arguments);
+  CLI::App* const runner = app.add_subcommand("run", "Runs the controller: y on standard input, u on standard output.");
+  add_design_options(*runner, arguments);
   CLI::App* const beginning = app.add_subcommand("new", "Writes a commented design file to begin with, NAME.toml.");
   beginning->add_option("NAME", new_arguments.name, "name of the design")->option_text("NAME");
   beginning->add_option("--from", new_arguments.starter, "what to begin with; `lqgen new` lists what there is")
@@ -282,10 +391,11 @@ int main(int argc, char** argv) {
   view::CompareArguments compare_arguments;
   const CLI::App* const comparison = add_compare(app, compare_arguments);
   app.require_subcommand(0, 1);
+  bool has_design = true;  // one, in arguments
   try {
     app.parse(argc, argv);
-    const bool designs = app.get_subcommands().empty() || *check;
-    if (designs && arguments.design_file.empty()) throw CLI::RequiredError("DESIGN");
+    has_design = !*beginning && !*watching && !*comparison;
+    if (has_design && arguments.design_file.empty()) throw CLI::RequiredError("DESIGN");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0 && explain_unknown_options(app)) return wrong;
     return app.exit(error) == 0 ? written : wrong;
@@ -296,9 +406,10 @@ int main(int argc, char** argv) {
     if (*beginning) return make_new(new_arguments);
     if (*watching) return view::watch(watch_arguments);
     if (*comparison) return compare_designs(compare_arguments);
-    return generate(arguments);
+    if (*runner) return run_controller(arguments);
+    return *simulation ? simulate_design(arguments, simulate_arguments) : generate(arguments);
   } catch (const std::exception& error) {
-    const std::string what = command.empty() || *check ? shown_path(arguments) : "lqgen " + command;
+    const std::string what = has_design ? shown_path(arguments) : "lqgen " + command;
     std::cerr << input::printable(what) << ": lqgen failed: " << input::printable(error.what()) << "\n";
     return impossible;
   }

@@ -69,6 +69,14 @@ void Watch::prepare_last_line(const std::string& work) const {
   last_line = line.str();
 }
 
+void Watch::show(const std::string& work, double share) {
+  constexpr int width = 30;
+  const int full = static_cast<int>(share * width), percent = static_cast<int>(share * 100);
+  std::string bar;
+  for (int i = 0; i < width; ++i) bar += i < full ? "█" : "░";
+  show(work + ", step " + (shows_ && is_terminal_ ? bar + " " : "") + std::to_string(percent) + " %");
+}
+
 void Watch::show(const std::string& work) {
   const auto elapsed = std::chrono::steady_clock::now() - begin_;
   const std::string stage = work.substr(0, work.find(", step"));

@@ -21,6 +21,8 @@ class Watch {
 
   // "eigenvalues in 50 digits, step 7 of 10": a stage, and how far it is.
   void show(const std::string& work);
+  // A stage of which so much is done, from 0 to 1: a bar on a terminal.
+  void show(const std::string& work, double share);
 
   // Takes the line off the terminal.
   void clear();

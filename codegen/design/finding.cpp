@@ -2,8 +2,19 @@
 #include "design/finding.hpp"
 
 #include <charconv>
+#include <cstdio>
 
 namespace lqg::design {
+
+namespace {
+
+std::string text_of(double value, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace
 
 void add_error(Findings& findings, const std::string& key, const std::string& message) {
   findings.push_back({Severity::error, key, message});
@@ -13,6 +24,12 @@ void add_note(Findings& findings, const std::string& key, const std::string& mes
   for (const Finding& finding : findings)
     if (finding.key == key && finding.message == message) return;
   findings.push_back({Severity::note, key, message});
+}
+
+std::string compared(const char* limit, double required, double found, const char* unit, const std::string& what) {
+  const char* format = text_of(required, "%.6g") != text_of(found, "%.6g") ? "%.6g" : "%.17g";
+  return std::string("requires ") + limit + " " + text_of(required, format) + unit + ", " + what + " " +
+         text_of(found, format) + unit;
 }
 
 std::string decimal(double value) {

@@ -28,6 +28,10 @@ void add_error(Findings& findings, const std::string& key, const std::string& me
 // A number in four significant digits, for people.
 std::string decimal(double value);
 
+// "requires at most 5, the loop has 7", with as many digits as it takes to tell the two apart.
+std::string compared(const char* limit, double required, double found, const char* unit,
+                     const std::string& what = "the loop has");
+
 // Said before, it is not said again.
 void add_note(Findings& findings, const std::string& key, const std::string& message);
 

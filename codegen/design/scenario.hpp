@@ -52,7 +52,7 @@ struct Actuator {
 };
 
 // One entry, a row (column −1), a column (row −1) or all of A, B or C, multiplied.
-struct Scaling {
+struct ScaledEntries {
   char matrix = 'A';
   int row = -1, column = -1;
   double factor = 1;
@@ -63,7 +63,7 @@ struct PlantChange {
   bool continuous = false;  // A and B are those of ẋ, in place of the samples of a discrete design
   Eigen::MatrixXd A, B, C;
   std::optional<double> delay;  // s, in place of plant.delay
-  std::vector<Scaling> scale;
+  std::vector<ScaledEntries> scale;
 };
 
 // Of a Monte Carlo run: what differs from run to run.

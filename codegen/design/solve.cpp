@@ -234,8 +234,7 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
   return std::nullopt;
 }
 
-std::optional<Solution> first_look(const Problem& problem, const Progress& progress) {
-  const ProgressScope reporting(progress);
+std::optional<Solution> first_look(const Problem& problem) {
   const Digits scope(runs.front());
   Findings findings;
   if (!is_well_posed(problem, findings)) return std::nullopt;

@@ -19,6 +19,6 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
 // the inputs and rms from one run with 50 digits. No second run has judged their roundings, loop.at_output and
 // loop.rounded are empty, and nothing that makes a design impossible or a note is looked for beyond what keeps this run
 // from its end: then it is empty, and solve() tells why. Not for code.
-std::optional<Solution> first_look(const Problem& problem, const Progress& progress = {});
+std::optional<Solution> first_look(const Problem& problem);
 
 }  // namespace lqg::design

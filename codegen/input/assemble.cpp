@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "input/scenarios.hpp"
+
 namespace lqg::input {
 namespace {
 
@@ -199,6 +201,18 @@ design::Requirements requirements(const Values& values) {
   result.phase_margin_deg = optional_number(values, "require.phase_margin_deg");
   result.disk_margin = optional_number(values, "require.disk_margin");
   result.max_pole = optional_number(values, "require.max_pole");
+  result.delay_margin = optional_number(values, "require.delay_margin");
+  result.scenario = values.text("require.scenario");
+  result.overshoot = optional_number(values, "require.overshoot");
+  result.settling_time = optional_number(values, "require.settling_time");
+  result.share_at_limits = optional_number(values, "require.share_at_limits");
+  for (const std::string& table : values.tables_of("require.rms")) {
+    using Of = design::RmsRequirement::Of;
+    const auto [key, of] = values.has(table + ".state")   ? std::pair(".state", Of::state)
+                           : values.has(table + ".input") ? std::pair(".input", Of::input)
+                                                          : std::pair(".output", Of::output);
+    result.rms.push_back({of, static_cast<int>(values.number(table + key, 0)), values.numbers.at(table + ".value")});
+  }
   return result;
 }
 
@@ -231,6 +245,7 @@ design::Problem assemble(const Values& values) {
   if (values.has("observer")) problem.estimator = observer(values, problem.plant);
   if (values.has("limits")) problem.limits = limits(values);
   problem.stages = stages(values);
+  problem.scenarios = scenarios(values);
   problem.requirements = requirements(values);
   problem.code = code(values);
   return problem;

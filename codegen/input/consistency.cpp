@@ -7,6 +7,7 @@
 
 #include "input/definite.hpp"
 #include "input/matrices.hpp"
+#include "input/scenarios.hpp"
 
 namespace lqg::input {
 namespace {
@@ -37,9 +38,8 @@ void check_tables(const Values& values, Report& report) {
 }
 
 // Nothing is said of a table that is not there.
-void check_one_of(const Values& values, const Alternatives& several, Report& report) {
-  const auto& [table, keys, need] = several;
-  if (values.tables.count(table) == 0) return;
+void check_one_of(const Values& values, const std::string& table, const Alternatives& several, Report& report) {
+  const auto& [rule, keys, need] = several;
   std::string first, list;
   for (const std::string& key : keys) {
     list += (list.empty() ? "" : key == keys.back() ? " or " : ", ") + key;
@@ -53,11 +53,14 @@ void check_one_of(const Values& values, const Alternatives& several, Report& rep
 }
 
 void check_alternatives(const Values& values, Report& report) {
-  for (const Alternatives& several : alternatives()) check_one_of(values, several, report);
+  const auto check_all = [&](const Alternatives& several) {
+    for (const std::string& table : values.tables_like(several.table)) check_one_of(values, table, several, report);
+  };
+  for (const Alternatives& several : alternatives()) check_all(several);
   if (values.has("lqr.bryson") && values.has("lqr.R"))
     report.error("lqr.R", "says again what lqr.bryson says: expected one of the two");
   else if (!values.has("lqr.bryson"))
-    check_one_of(values, {"lqr", {"R"}, Need::required}, report);
+    check_all({"lqr", {"R"}, Need::required});
 }
 
 // A key that means something only beside another one.
@@ -287,6 +290,7 @@ void check_consistency(Values& values, Report& report) {
   check_correlation_times(values, report);
   check_definiteness(values, report);
   check_limits(values, report);
+  check_scenarios(values, report);
   note_unused(values, report);
 }
 

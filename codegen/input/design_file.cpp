@@ -16,6 +16,7 @@
 #include "input/document.hpp"
 #include "input/names.hpp"
 #include "input/report.hpp"
+#include "input/scenarios.hpp"
 #include "input/text.hpp"
 #include "input/values.hpp"
 
@@ -42,12 +43,12 @@ DesignFile refused(const std::string& text, const std::vector<Fault>& faults) {
   return file;
 }
 
-DesignFile read_stream(std::istream& stream) {
+DesignFile read_stream(std::istream& stream, const std::filesystem::path& folder) {
   std::string text(largest_file + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) return unreadable("reading it failed");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_design(text);
+  return parse_design(text, folder);
 }
 
 // The key above: of "plant.A[2][0]" "plant.A[2]", of "plant.A" "plant", of "plant" "".
@@ -59,7 +60,7 @@ std::string above(const std::string& key) {
 }  // namespace
 
 DesignFile read_design_file(const std::string& path) {
-  if (path == "-") return read_stream(std::cin);
+  if (path == "-") return read_stream(std::cin, ".");
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return unreadable(error ? error.message() : "there is no such file");
@@ -67,7 +68,7 @@ DesignFile read_design_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(status)) return unreadable("it is not a regular file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return unreadable(std::generic_category().message(errno));
-  DesignFile file = read_stream(stream);
+  DesignFile file = read_stream(stream, std::filesystem::path(path).parent_path());
   if (!file.readable) return file;
   if (const Complaint complaint = check_file_name(std::filesystem::path(path).filename().string())) {
     Report(file).error("@", Location{0, 0}, *complaint);
@@ -77,7 +78,7 @@ DesignFile read_design_file(const std::string& path) {
   return file;
 }
 
-DesignFile parse_design(const std::string& text) {
+DesignFile parse_design(const std::string& text, const std::optional<std::filesystem::path>& folder) {
   if (text.size() > largest_file) return refused(text, {{{0, 0}, "expected at most 4 MiB"}});
   if (const auto faults = check_text(text); !faults.empty()) return refused(text, faults);
   const auto document = parse_toml(text);
@@ -87,7 +88,11 @@ DesignFile parse_design(const std::string& text) {
   Report report(file);
   Values values = read_values(std::get<Node>(document), report);
   check_consistency(values, report);
-  if (!design::has_error(file.findings)) file.problem = assemble(values);
+  if (!design::has_error(file.findings)) {
+    design::Problem problem = assemble(values);
+    load_columns(values, folder, problem.scenarios, report);
+    if (!design::has_error(file.findings)) file.problem = std::move(problem);
+  }
   sort_by_place(file, file.findings);
   return file;
 }

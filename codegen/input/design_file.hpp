@@ -5,6 +5,7 @@
 // "plant.A[2][0]". What belongs to no key, such as text that is not TOML, has its place as a key, "@3:5".
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,8 +28,8 @@ struct DesignFile {
 // bytes.
 DesignFile read_design_file(const std::string& path);
 
-// The same for a text already in memory.
-DesignFile parse_design(const std::string& text);
+// The same for a text already in memory. Files that it names are sought from `folder` on; without one it may name none.
+DesignFile parse_design(const std::string& text, const std::optional<std::filesystem::path>& folder = {});
 
 // Where `key` stands, or else the nearest key above it, or else the first character of the file.
 Location locate(const DesignFile& file, const std::string& key);

@@ -71,7 +71,10 @@ Node convert(const toml::node& node) {
       result.kind = Kind::number;
       result.number = node.as_floating_point()->get();
       break;
-    case toml::node_type::boolean: result.kind = Kind::boolean; break;
+    case toml::node_type::boolean:
+      result.kind = Kind::boolean;
+      result.number = node.as_boolean()->get() ? 1 : 0;
+      break;
     default: result.kind = Kind::date; break;
   }
   return result;

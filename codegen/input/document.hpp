@@ -21,7 +21,7 @@ struct Key {
 struct Node {
   Kind kind = Kind::table;
   Location where;
-  double number = 0;
+  double number = 0;  // 1 of true
   std::string text;
   std::vector<Key> keys;
   std::vector<Node> items;

@@ -16,6 +16,8 @@ enum class Type {
   word,        // one of `words`
   positive,    // a number > 0
   not_negative,
+  real,       // a finite number
+  flag,       // true or false
   threshold,  // a number > 0, or inf
   whole,      // a whole number ≥ 1
   steps,      // a number of samples that have gains of their own, 0 to most_steps
@@ -27,6 +29,8 @@ enum class Type {
   positives,  // the same, all > 0
   bounds,     // the same, infinite ones too
   indices,    // an array of different whole numbers from 0 to below `rows`
+  signal,     // one of the signals that `rows` counts: its name, or its number from 0
+  entry,      // the same of a row or column whose signals another key tells
   poles,      // an array of numbers and of [re, im], conjugates in pairs
   signals     // an array of "name [unit]"
 };

@@ -85,6 +85,20 @@ std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& no
   return indices;
 }
 
+std::optional<int> read_signal_index(const KeyRule& rule, const Node& node, const std::vector<std::string>& names,
+                                     Report& report) {
+  const Node item = with_name_as_index(node, names);
+  const double most = names.empty() ? most_signals : static_cast<double>(names.size());
+  if (item.kind == Kind::number && item.number >= 0 && item.number == std::floor(item.number) && item.number < most)
+    return static_cast<int>(item.number);
+  const std::string found = item.kind == Kind::number ? shown(item.number)
+                            : item.kind == Kind::text ? in_quotes(item.text)
+                                                      : describe(item);
+  const std::string numbers = names.empty() ? "≥ 0" : "from 0 to " + std::to_string(names.size() - 1);
+  report.error(rule.path, "expected a whole number " + numbers + names_too(names) + ", found " + found);
+  return {};
+}
+
 std::optional<std::vector<Pole>> read_poles(const std::string& key, const Node& node, Report& report) {
   if (node.kind != Kind::array || node.items.empty()) {
     report.error(key, "expected an array of poles, found " + describe(node));

@@ -18,6 +18,10 @@ namespace lqg::input {
 std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
                                              const std::vector<std::string>& names, Report& report);
 
+// One of them. Of a key whose signals are not known (`names` is empty) any whole number ≥ 0.
+std::optional<int> read_signal_index(const KeyRule& rule, const Node& node, const std::vector<std::string>& names,
+                                     Report& report);
+
 // Numbers, and [re, im] with their conjugates somewhere in the list; in the result these stand side by side,
 // the positive imaginary part first.
 std::optional<std::vector<std::complex<double>>> read_poles(const std::string& key, const Node& node, Report& report);

@@ -42,6 +42,7 @@ class Collector {
 
   void walk(const Node& table, const std::string& parent) {
     values_.tables.insert(parent);
+    values_.instances[rule_path(parent)].push_back(parent);
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
       const std::string path = joined(parent, table.keys[i].name);
       const KeyRule* rule = find_rule(rule_path(path));
@@ -117,6 +118,8 @@ class ValueReader {
       case Type::word: read_word(rule, node); break;
       case Type::positive: read_number(rule, node, "a number > 0", [](double x) { return x > 0; }); break;
       case Type::not_negative: read_number(rule, node, "a number ≥ 0", [](double x) { return x >= 0; }); break;
+      case Type::real: read_number(rule, node, "a finite number", [](double x) { return !std::isnan(x); }); break;
+      case Type::flag: read_flag(rule, node); break;
       case Type::threshold: read_threshold(rule, node); break;
       case Type::whole: read_whole(rule, node, 1, std::numeric_limits<int>::max()); break;
       case Type::steps: read_whole(rule, node, 0, design::most_steps); break;
@@ -126,6 +129,11 @@ class ValueReader {
         if (auto indices = read_indices(rule, node, values_.sizes, names_of(Size::ny), report_))
           values_.indices[rule.path] = *indices;
         break;
+      case Type::signal:
+        if (const auto index = read_signal_index(rule, node, names_of(rule.rows), report_))
+          values_.numbers[rule.path] = *index;
+        break;
+      case Type::entry: read_entry(rule, node); break;
       case Type::poles:
         if (auto poles = read_poles(rule.path, node, report_)) values_.poles[rule.path] = *poles;
         break;
@@ -147,17 +155,7 @@ class ValueReader {
   }
 
  private:
-  // Of the states or outputs: as the file has them, else "x0", "x1" …
-  std::vector<std::string> names_of(Size size) const {
-    const bool states = size == Size::nx;
-    std::vector<std::string> names;
-    const auto named = values_.signals.find(states ? "plant.states" : "plant.outputs");
-    if (named != values_.signals.end())
-      for (const design::Signal& signal : named->second) names.push_back(signal.name);
-    else
-      for (int i = 0; i < values_.sizes.at(size); ++i) names.push_back((states ? "x" : "y") + std::to_string(i));
-    return names;
-  }
+  std::vector<std::string> names_of(Size size) const { return signal_names(values_, size); }
 
   // A mask whose rows may be lists of names, [["angle", "rate"]]: as rows of 0 and 1.
   std::optional<Node> mask_of_names(const KeyRule& rule, const Node& node) {
@@ -226,6 +224,19 @@ class ValueReader {
     values_.numbers[rule.path] = node.number;
   }
 
+  void read_flag(const KeyRule& rule, const Node& node) {
+    if (node.kind != Kind::boolean)
+      return expected(rule, "true or false", node.kind == Kind::text ? in_quotes(node.text) : describe(node));
+    values_.numbers[rule.path] = node.number;
+  }
+
+  void read_entry(const KeyRule& rule, const Node& node) {
+    if (node.kind == Kind::text)
+      values_.texts[rule.path] = node.text;
+    else if (const auto index = read_signal_index(rule, node, {}, report_))
+      values_.numbers[rule.path] = *index;
+  }
+
   void read_whole(const KeyRule& rule, const Node& node, int least, int most) {
     const std::string wanted = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
@@ -279,9 +290,9 @@ class ValueReader {
 void report_missing(const Values& values, Report& report) {
   for (const KeyRule& rule : key_rules()) {
     if (rule.need == Need::optional) continue;
-    for (const std::string& table : values.tables) {
+    for (const std::string& table : values.tables_like(parent_of(rule.path))) {
       const std::string path = joined_rule(table, rule);
-      if (rule_path(table) == parent_of(rule.path) && !values.has(path)) report.error(path, "missing");
+      if (!values.has(path)) report.error(path, "missing");
     }
   }
 }
@@ -308,11 +319,30 @@ double Values::number(const std::string& key, double absent) const {
   return found == numbers.end() ? absent : found->second;
 }
 
+const std::vector<std::string>& Values::tables_like(const std::string& rule) const {
+  static const std::vector<std::string> none;
+  const auto found = instances.find(rule);
+  return found == instances.end() ? none : found->second;
+}
+
 std::vector<std::string> Values::tables_of(const std::string& key) const {
   std::vector<std::string> found;
   for (int i = 0; tables.count(key + "[" + std::to_string(i) + "]") != 0; ++i)
     found.push_back(key + "[" + std::to_string(i) + "]");
   return found;
+}
+
+std::vector<std::string> signal_names(const Values& values, Size size) {
+  const auto [key, letter] = size == Size::nx   ? std::pair("plant.states", "x")
+                             : size == Size::nu ? std::pair("plant.inputs", "u")
+                                                : std::pair("plant.outputs", "y");
+  std::vector<std::string> names;
+  const auto named = values.signals.find(key);
+  if (named != values.signals.end())
+    for (const design::Signal& signal : named->second) names.push_back(signal.name);
+  else
+    for (int i = 0; i < values.sizes.at(size); ++i) names.push_back(letter + std::to_string(i));
+  return names;
 }
 
 Values read_values(const Node& document, Report& report) {
@@ -322,8 +352,7 @@ Values read_values(const Node& document, Report& report) {
   values.sizes = measure(nodes);
   ValueReader reader(values, report);
   for (const KeyRule& rule : key_rules()) {
-    for (const std::string& table : values.tables) {
-      if (rule_path(table) != parent_of(rule.path)) continue;
+    for (const std::string& table : values.tables_like(parent_of(rule.path))) {
       KeyRule instance = rule;
       instance.path = joined_rule(table, rule);
       if (const auto node = nodes.find(instance.path); node != nodes.end()) reader.read(instance, *node->second);

@@ -28,16 +28,22 @@ struct Values {
   std::map<Size, int> sizes;      // 0: there are none; −1: not known, because what tells them is wrong
   std::set<std::string> present;  // keys in the file, right or wrong, and those that an unknown key seems to mean
   std::set<std::string> tables;   // those of them that are tables, and "", the file's top
+  std::map<std::string, std::vector<std::string>>
+      instances;  // the same by their rules: "stage": "stage[0]", "stage[1]"
 
   bool has(const std::string& key) const { return present.count(key) != 0; }
   const Eigen::MatrixXd* matrix(const std::string& key) const;  // nullptr: absent or wrong
   std::string text(const std::string& key) const;               // "": absent or wrong
   double number(const std::string& key, double absent) const;
-  std::vector<std::string> tables_of(const std::string& key) const;  // "stage[0]", "stage[1]", …
+  std::vector<std::string> tables_of(const std::string& key) const;            // "stage[0]", "stage[1]", …
+  const std::vector<std::string>& tables_like(const std::string& rule) const;  // of a rule's path: all there are
 };
 
 // Reads all that can be read and reports all that is wrong with single keys.
 Values read_values(const Node& document, Report& report);
+
+// Of the states, inputs or outputs: as the file has them, else "x0", "x1", …
+std::vector<std::string> signal_names(const Values& values, Size size);
 
 // "3 rows", "1 row".
 std::string counted(long count, const std::string& noun);

@@ -70,6 +70,8 @@ Json value_schema(const KeyRule& rule) {
     case Type::word: return {{"enum", rule.words}};
     case Type::positive: return number_above_0;
     case Type::not_negative: return {{"type", "number"}, {"minimum", 0}};
+    case Type::real: return number;
+    case Type::flag: return {{"type", "boolean"}};
     case Type::threshold: return threshold();
     case Type::whole: return {{"type", "integer"}, {"minimum", 1}};
     case Type::steps: return whole(0, design::most_steps);
@@ -81,6 +83,8 @@ Json value_schema(const KeyRule& rule) {
     case Type::positives: return array_of(number_above_0);
     case Type::bounds: return array_of(number_or_infinity());
     case Type::indices: return indices();
+    case Type::signal:
+    case Type::entry: return {{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}};
     case Type::poles: return array_of(pole());
     case Type::signals: return array_of(text(R"(^ *[A-Za-z][A-Za-z0-9_]* *(\[[^\[\]\\]*\] *)?$)"));
     case Type::table:

@@ -34,6 +34,8 @@ std::string values_of(const KeyRule& rule) {
     case Type::word: return words;
     case Type::positive: return "number > 0";
     case Type::not_negative: return "number ≥ 0";
+    case Type::real: return "number";
+    case Type::flag: return "`true`, `false`";
     case Type::threshold: return "number > 0, or inf";
     case Type::whole:
     case Type::step: return "whole number ≥ 1";
@@ -45,6 +47,8 @@ std::string values_of(const KeyRule& rule) {
     case Type::positives: return rows + " numbers > 0";
     case Type::bounds: return rows + " numbers, inf allowed";
     case Type::indices: return "names or numbers of outputs";
+    case Type::signal:
+    case Type::entry: return "name or number of a signal";
     case Type::poles: return "poles";
     case Type::signals: return rows + " names with units";
     case Type::table:

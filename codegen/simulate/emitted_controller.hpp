@@ -18,14 +18,26 @@ namespace lqg::simulate {
 using controller::Controller;
 using step::Vector;
 
-// A listener that counts what a gate leaves out, as the header does.
+// A listener that counts what a gate leaves out, as the header does, and keeps which outputs were left out at all.
 struct CountingListener : step::Listener {
-  explicit CountingListener(std::vector<unsigned long>& count) : gated(count) {}
+  CountingListener(std::vector<unsigned long>& count, std::vector<bool>& out) : gated(count), left_out(out) {
+    left_out.assign(left_out.size(), false);
+  }
+  bool accept(bool usable, int output) {
+    left_out[static_cast<std::size_t>(output)] = !usable;
+    return step::Listener::accept(usable, output);
+  }
+  bool accept(bool usable, bool believable, int output) {
+    left_out[static_cast<std::size_t>(output)] = !usable;
+    return step::Listener::accept(usable, believable, output);
+  }
   void gate(bool is_gated, int output) {
     step::Listener::gate(is_gated, output);
     gated[static_cast<std::size_t>(output)] += is_gated;
+    if (is_gated) left_out[static_cast<std::size_t>(output)] = true;
   }
   std::vector<unsigned long>& gated;
+  std::vector<bool>& left_out;
 };
 
 // A controller that keeps x̂. Each call is the one of that name in the header, limits, gate, faults and resets
@@ -37,7 +49,7 @@ class EmittedController {
 
   EmittedController(const Controller& controller, Constants constants)
       : controller_(controller), constants_(std::move(constants)),
-        gated_(static_cast<std::size_t>(controller.size.ny), 0) {
+        gated_(static_cast<std::size_t>(controller.size.ny), 0), left_out_(gated_.size(), false) {
     init();
   }
 
@@ -49,11 +61,11 @@ class EmittedController {
     state_ = step::initial_state(model_);
   }
   unsigned update(const Vector<S>& y) {
-    CountingListener listener(gated_);
+    CountingListener listener(gated_, left_out_);
     return end(step::update(model_, state_, y, listener), listener);
   }
   unsigned update_alone(int output, const S& y) {
-    CountingListener listener(gated_);
+    CountingListener listener(gated_, left_out_);
     return end(step::update_alone(model_, state_, y, output, listener), listener);
   }
   // `used` has a bit for each output.
@@ -95,7 +107,7 @@ class EmittedController {
     return listener.events;
   }
   unsigned predict(const Vector<S>& u) {
-    CountingListener listener(gated_);
+    step::Listener listener;
     const bool within = step::predict(model_, state_, u, listener);
     advance_counters();
     return end(within, listener);
@@ -115,6 +127,9 @@ class EmittedController {
   unsigned long resets() const { return resets_; }
   unsigned long covariance_resets() const { return covariance_resets_; }
   const std::vector<unsigned long>& gated() const { return gated_; }
+  const std::vector<bool>& left_out() const { return left_out_; }  // which outputs the last update did not use
+  std::size_t sample() const { return sample_; }                   // the one that is to come; the last one that changes
+  std::size_t gain_row() const { return gain_row_; }
 
  private:
   step::Model<S> outputs() const {
@@ -164,6 +179,7 @@ class EmittedController {
   std::size_t sample_ = 0, gain_row_ = 0;
   unsigned long resets_ = 0, covariance_resets_ = 0;
   std::vector<unsigned long> gated_;
+  std::vector<bool> left_out_;
 };
 
 }  // namespace lqg::simulate

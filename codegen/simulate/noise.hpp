@@ -18,4 +18,7 @@ class Noise {
   std::uint64_t state_;
 };
 
+// The seed of run `run` of many that belong to `seed`: streams of their own.
+std::uint64_t seed_of_run(std::uint64_t seed, std::uint64_t run);
+
 }  // namespace lqg::simulate

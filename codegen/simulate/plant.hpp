@@ -4,18 +4,10 @@
 
 #include <vector>
 
-#include "controller/controller.hpp"
+#include "simulate/designed.hpp"
 #include "simulate/noise.hpp"
 
 namespace lqg::simulate {
-
-using controller::Controller;
-
-enum class PlantNoise {
-  none,
-  designed,  // w and v as the design has them; none where it has no noise
-  assumed,   // the same; beside an observer, whose design says nothing of noise, a variance of 1e-4 everywhere
-};
 
 // x⁺ = A x + B u + G w, y = C x + D u + v, stage after stage. Every sum is in ascending order: the same bits on every
 // host.

@@ -48,6 +48,7 @@ struct ScenarioRun {
   Eigen::MatrixXd innovation;    // y − C x̂ − D u; empty without a filter that keeps x̂
   Eigen::VectorXd nis;           // νᵀ S⁻¹ ν of the outputs that were used; likewise
   Eigen::VectorXd nees;          // eᵀ P⁻¹ e; empty without sigma
+  int nees_degrees = 0;          // directions in which there is an error at all
   std::vector<unsigned> events;  // a bit for each step::Event that the status told
   // Between the samples, too (of a continuous plant; else empty): several instants in each period.
   Eigen::VectorXd fine_times;

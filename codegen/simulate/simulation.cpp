@@ -8,6 +8,7 @@
 #include "simulate/emitted_form.hpp"
 #include "simulate/numbers.hpp"
 #include "simulate/plant.hpp"
+#include "simulate/take_sample.hpp"
 
 namespace lqg::simulate {
 
@@ -23,86 +24,28 @@ VectorXd padded(const VectorXd& x, Index size) {
   return result;
 }
 
-// What one sample shows.
-struct Sample {
-  VectorXd y, u, estimate;
-  unsigned events = 0;
-};
+// The design's own plant.
+struct Surroundings : Unwatched {
+  Surroundings(const Controller& of, const SimulationOptions& how, Plant around)
+      : controller(of), options(how), plant(std::move(around)), applied(VectorXd::Zero(of.size.nu)) {}
 
-// Around a controller: what it is told, and what it is given to apply.
-struct Surroundings {
   const Controller& controller;
   const SimulationOptions& options;
   Plant plant;
   VectorXd applied;  // the last u
   int k = 0;
 
-  // y with the u that acts while it is sampled, as the controller is told of it.
   VectorXd measure(const VectorXd& u) {
     VectorXd y = plant.measure(u);
     if (options.sensor) options.sensor(k, y);
     return in_target(controller.target, y);
   }
-  // Of an estimator alone.
   VectorXd given_input() const {
     return in_target(controller.target,
                      options.input ? options.input(k) : VectorXd(VectorXd::Zero(controller.size.nu)));
   }
+  VectorXd state() const { return plant.state(); }
 };
-
-// Each samples `around` in the order of its form, as firmware does.
-template <class S>
-Sample take_sample(EmittedController<S>& emitted, Surroundings& around) {
-  const Controller& controller = around.controller;
-  Sample sample;
-  Vector<S> u;
-  const auto act = [&] {
-    sample.estimate = as_doubles(emitted.state().x);
-    if (controller.has.regulator)
-      sample.events |= emitted.control(u);
-    else
-      u = numbers_of<S>(around.given_input());
-  };
-  const auto hear = [&](const VectorXd& acting) {
-    sample.y = around.measure(acting);
-    sample.events |= emitted.update(numbers_of<S>(sample.y));
-  };
-  if (controller.is_predictor) {
-    act();
-    hear(as_doubles(u));
-  } else {
-    hear(around.applied);
-    act();
-  }
-  sample.events |= emitted.predict(u);
-  sample.u = as_doubles(u);
-  return sample;
-}
-
-// A regulator alone, of the state itself.
-template <class S>
-Sample take_sample_of_state(EmittedController<S>& emitted, Surroundings& around) {
-  Sample sample;
-  Vector<S> u;
-  sample.estimate = in_target(around.controller.target, around.plant.state());
-  sample.events = emitted.control(numbers_of<S>(sample.estimate), u);
-  sample.u = as_doubles(u);
-  sample.y = around.measure(sample.u);
-  return sample;
-}
-
-template <class S>
-Sample take_sample(EmittedForm<S>& emitted, Surroundings& around) {
-  Sample sample;
-  Vector<S> u;
-  if (!around.controller.is_predictor) sample.y = around.measure(around.applied);
-  sample.events = emitted.control(numbers_of<S>(sample.y), u);
-  sample.estimate = as_doubles(emitted.estimate());
-  sample.u = as_doubles(u);
-  if (around.controller.is_predictor) sample.y = around.measure(sample.u);
-  sample.events |= emitted.advance(numbers_of<S>(sample.y));
-  return sample;
-}
 
 Trajectory empty_trajectory(const design::SampledPlant& plant, int samples) {
   Trajectory result;
@@ -157,9 +100,8 @@ Trajectory run_form(const Controller& controller, Surroundings around) {
 
 Trajectory simulate(const Controller& controller, const SimulationOptions& options) {
   const PlantNoise noise = options.noise ? PlantNoise::designed : PlantNoise::none;
-  Surroundings around = {controller, options,
-                         Plant(controller, padded(options.x0, controller.size.nx), noise, options.seed),
-                         VectorXd::Zero(controller.size.nu)};
+  Surroundings around(controller, options,
+                      Plant(controller, padded(options.x0, controller.size.nx), noise, options.seed));
   return with_scalar_of(controller.target, [&](auto zero) {
     using S = decltype(zero);
     return controller.linear ? run_form<S>(controller, std::move(around))

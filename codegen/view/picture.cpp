@@ -28,9 +28,8 @@ controller::Source source_of(const std::string& text, const std::string& path) {
   return {std::filesystem::path(path).filename().string(), emit::sha256(text)};
 }
 
-std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path,
-                                         const design::Progress& progress) {
-  std::optional<design::Solution> solution = design::first_look(*file.problem, progress);
+std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
+  std::optional<design::Solution> solution = design::first_look(*file.problem);
   if (!solution) return std::nullopt;
   design::Findings ignored;
   const auto controller =
@@ -38,10 +37,9 @@ std::optional<emit::PageData> first_page(const input::DesignFile& file, const st
   return controller ? std::optional(emit::page_data(*controller)) : std::nullopt;
 }
 
-std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path,
-                                         const design::Progress& progress, Picture& picture) {
+std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, Picture& picture) {
   design::Findings findings;
-  std::optional<design::Solution> solution = design::solve(*file.problem, findings, progress);
+  std::optional<design::Solution> solution = design::solve(*file.problem, findings);
   std::optional<emit::Controller> controller;
   if (solution && !design::has_error(findings))
     controller = emit::make_controller(*file.problem, *std::move(solution), source_of(file.text, path), findings);
@@ -52,13 +50,13 @@ std::optional<emit::PageData> whole_page(const input::DesignFile& file, const st
 
 }  // namespace
 
-Picture picture_of(const std::string& text, const std::string& path, Depth depth, const design::Progress& progress) {
-  const input::DesignFile file = input::parse_design(text);
+Picture picture_of(const std::string& text, const std::string& path, Depth depth) {
+  const input::DesignFile file = input::parse_design(text, std::filesystem::path(path).parent_path());
   Picture picture;
   add_lines(picture, file, path, file.findings);
   if (!file.problem) return picture;
   picture.tunables = tunables(file);
-  picture.page = depth == Depth::whole ? whole_page(file, path, progress, picture) : first_page(file, path, progress);
+  picture.page = depth == Depth::whole ? whole_page(file, path, picture) : first_page(file, path);
   return picture;
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "design/progress.hpp"
 #include "emit/page/page.hpp"
 #include "view/tunables.hpp"
 
@@ -25,7 +24,7 @@ struct Picture {
 enum class Depth { first_look, whole };
 
 // `path`: how the messages call the file.
-Picture picture_of(const std::string& text, const std::string& path, Depth depth, const design::Progress& progress = {});
+Picture picture_of(const std::string& text, const std::string& path, Depth depth);
 
 // A page that says that there is nothing to see yet.
 emit::PageData empty_page(const std::string& path);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -36,7 +37,7 @@ std::optional<int> refuse_file(const std::string& path) {
     return wrong;
   }
   const input::DesignFile file = input::read_design_file(path);
-  const bool is_text_good = !design::has_error(input::parse_design(file.text).findings);
+  const bool is_text_good = !design::has_error(input::parse_design(file.text, std::filesystem::path(path).parent_path()).findings);
   const bool is_name_bad = file.readable && is_text_good && design::has_error(file.findings);
   if (file.readable && !is_name_bad) return std::nullopt;
   print_findings(path, file);

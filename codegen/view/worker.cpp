@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "design/progress.hpp"
+
 namespace lqg::view {
 
 namespace {
@@ -75,10 +77,12 @@ void Worker::run() {
 void Worker::work(Job& job) {
   const auto begin = std::chrono::steady_clock::now();
   std::optional<Picture> picture;
+  const std::function<void()> check = [this] {
+    if (is_superseded_) throw Superseded();
+  };
+  const design::InterruptionScope interruption(check);
   try {
-    picture = picture_of(job.text, job.path, job.depth, [this](const std::string&) {
-      if (is_superseded_) throw Superseded();
-    });
+    picture = picture_of(job.text, job.path, job.depth);
   } catch (const Superseded&) {
   } catch (const std::exception& error) {
     picture = failed_picture(job.path, error.what());

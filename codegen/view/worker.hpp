@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One thread that computes what the page shows: the state of the file before all trials, and the newest trial only.
+// One thread that computes what the page shows: the state of the file before all trials, and the newest trial only. It
+// is one alone, for the engine's number of digits is that of the whole process.
 #pragma once
 
 #include <atomic>
@@ -38,7 +39,7 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  // A trial takes the place of one that waits, and breaks off one at work as soon as that reports its progress. The
+  // A trial takes the place of one that waits, and breaks off one at work at its next step. The
   // state of the file does so with everything.
   void start(Job job);
 

@@ -62,7 +62,7 @@ check(codegen/design ${any_room} ${digits} "^design/")
 
 check(codegen/step  ${any_room} "^step/")
 check(codegen/trace ${any_room} "^trace/")
-check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/")
+check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/" "^csv\\.h$")
 check(codegen/controller ${any_room} "^controller/" "^design/" "^step/")
 check(codegen/simulate   ${any_room} "^simulate/" "^controller/" "^design/" "^step/")
 
@@ -72,10 +72,12 @@ check_floors(emit "^emit/controller\\.hpp$" "text;page;recorded;vectors;plan;c;p
              ${any_room} ${digits} ${below_emit} "^nlohmann/" "^mbedtls/")
 check(codegen/emit ${any_room} "^controller/" "^design/")
 check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.hpp$" "^nlohmann/")
-check(codegen/commands ${any_room} "^commands/" "^input/")
+check(codegen/commands ${any_room} "^commands/" "^input/" "^emit/" "^controller/" "^simulate/" "^design/" "^step/"
+      "^lqg/status\\.h$")
 check(codegen/serve ${any_room} "^serve/" "^boost/(asio|beast)/")
 check(codegen/view ${any_room} "^view/" "^serve/" "^emit/" "^controller/" "^input/" "^design/" "^nlohmann/")
-check(codegen ${any_room} "^commands/" "^view/(watch|compare)\\.hpp$" "^input/" "^reference/documents\\.hpp$" "^emit/" "^design/solve\\.hpp$"
+check(codegen ${any_room} "^commands/" "^view/(watch|compare)\\.hpp$" "^input/" "^reference/documents\\.hpp$" "^emit/"
+      "^design/solve\\.hpp$"
       "^CLI/" "^watch\\.hpp$")
 
 # A folder that nobody has given a place has to be given one.

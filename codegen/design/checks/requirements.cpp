@@ -2,24 +2,10 @@
 #include "design/checks/requirements.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace lqg::design {
 
 namespace {
-
-std::string text_of(double value, const char* format) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-// With as many digits as it takes to tell the two apart.
-std::string compared(const char* limit, double required, double found, const char* unit) {
-  const char* format = text_of(required, "%.6g") != text_of(found, "%.6g") ? "%.6g" : "%.17g";
-  return std::string("requires ") + limit + " " + text_of(required, format) + unit + ", the loop has " +
-         text_of(found, format) + unit;
-}
 
 void check_margin(const std::optional<double>& required, const std::optional<double>& found, bool has_loop,
                   const char* key, const char* unit, Findings& findings) {
@@ -39,6 +25,9 @@ void check_requirements(const Problem& problem, const Solution& solution, Findin
   check_margin(require.gain_margin_dB, margins.gain_dB, has_loop, "require.gain_margin_dB", " dB", findings);
   check_margin(require.phase_margin_deg, margins.phase_deg, has_loop, "require.phase_margin_deg", "°", findings);
   check_margin(require.disk_margin, margins.disk, has_loop, "require.disk_margin", "", findings);
+  const std::optional<double> delay =
+      margins.delay_samples ? std::optional(*margins.delay_samples * problem.plant.sample_time) : std::nullopt;
+  check_margin(require.delay_margin, delay, has_loop, "require.delay_margin", " s", findings);
   if (!require.max_pole) return;
   double largest = 0;
   for (const std::complex<double>& pole : solution.loop.poles) largest = std::max(largest, std::abs(pole));

@@ -17,14 +17,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-struct Equilibration {
+struct Scaling {
   VectorXd rows, columns;
 };
 
 // All rows and columns of diag(rows) E diag(columns) have 1 as their largest entry, or nearly (D. Ruiz, report
 // RAL-TR-2001-034).
-Equilibration equilibrated(const MatrixXd& E) {
-  Equilibration by = {VectorXd::Ones(E.rows()), VectorXd::Ones(E.cols())};
+Scaling equilibrated(const MatrixXd& E) {
+  Scaling by = {VectorXd::Ones(E.rows()), VectorXd::Ones(E.cols())};
   const auto divide = [](VectorXd& scale, const VectorXd& largest) {
     for (Index i = 0; i < scale.size(); ++i)
       if (largest(i) > 0) scale(i) /= std::sqrt(largest(i));
@@ -72,7 +72,7 @@ double largest_share(const VectorXd& residual, const VectorXd& sizes) {
 }  // namespace
 
 RoundingDistance rounding_distance(const MatrixXcd& M, const MatrixXd& E, double far) {
-  Equilibration by = equilibrated(M.cwiseAbs().cwiseMax(E));
+  Scaling by = equilibrated(M.cwiseAbs().cwiseMax(E));
   const VectorXd rows = by.rows;
   RoundingDistance best = {std::numeric_limits<double>::infinity(), VectorXd::Zero(M.rows())};
   for (int pass = 0; pass < 6; ++pass) {

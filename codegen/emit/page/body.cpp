@@ -83,12 +83,24 @@ std::string matrix_of(const PageMatrix& matrix) {
   return out + "</tbody></table></div></details>\n";
 }
 
+// Charts stand in rows of equal height: of charts in a row two by two, the last of an odd number over the whole width;
+// of squares three by three where there are three.
+const char* place_of(const std::vector<Chart>& charts, std::size_t i) {
+  std::size_t from = i, to = i + 1;
+  while (from > 0 && charts[from - 1].is_square == charts[i].is_square) --from;
+  while (to < charts.size() && charts[to].is_square == charts[i].is_square) ++to;
+  const std::size_t count = to - from, left = to - i;
+  if (count % 2 == 0) return "";
+  if (charts[i].is_square && count >= 3) return left <= 3 ? " third" : "";
+  return left == 1 ? " wide" : "";
+}
+
 std::string charts(const PageSection& section, std::size_t which, bool with_pictures) {
   const PageView& view = section.views[which];
   std::string out;
   for (std::size_t i = 0; i < view.charts.size(); ++i)
     out += std::string("<figure class=\"chart") + (view.charts[i].is_square ? " square" : "") +
-           (with_pictures ? " pictured" : "") + "\" data-chart=\"" + chart_id(section, which, i) + "\">\n" +
+           place_of(view.charts, i) + (with_pictures ? " pictured" : "") + "\" data-chart=\"" + chart_id(section, which, i) + "\">\n" +
            (with_pictures ? svg(view.charts[i]) : "") + "</figure>\n";
   if (out.empty()) return "";
   return std::string("<div class=\"charts") + (view.charts.size() > most_large ? " many" : "") + "\">\n" + out +

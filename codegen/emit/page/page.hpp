@@ -81,6 +81,10 @@ struct PageExtras {
   bool may_connect = false;  // scripts may talk to the server that the page came from
 };
 
+// Shortens curves and bands to at most 1500 points each, and to fewer, not below 150, where the page would have more than
+// so many points in all: least and largest values stay.
+void shorten(PageData& data, std::size_t points = 60000);
+
 std::string page_html(const PageData& data, const PageExtras& extras = {});
 std::string page_json(const PageData& data);
 

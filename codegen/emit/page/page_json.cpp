@@ -31,8 +31,8 @@ Json list_of(const std::vector<double>& values) {
   return out;
 }
 
-// Many curves have the same x: each stands there once.
-class Axes {
+// Many curves have the same x, or are there twice: each list of numbers stands there once.
+class Lists {
  public:
   std::size_t index_of(const std::vector<double>& values) {
     std::string text = list_of(values).dump();
@@ -40,7 +40,7 @@ class Axes {
     if (is_new) lists_.push_back(list_of(values));
     return place->second;
   }
-  Json lists() const { return lists_; }
+  Json all() const { return lists_; }
 
  private:
   std::map<std::string, std::size_t> index_;
@@ -68,7 +68,7 @@ const char* name_of(Role role) {
 
 Json json_of(const Axis& axis) { return {{"label", axis.label}, {"log", axis.is_logarithmic}}; }
 
-Json curves_of(const Chart& chart, Axes& axes) {
+Json curves_of(const Chart& chart, Lists& lists) {
   Json out = Json::array();
   for (const Curve& curve : chart.curves) {
     out.push_back({{"label", curve.label},
@@ -76,22 +76,22 @@ Json curves_of(const Chart& chart, Axes& axes) {
                    {"mark", name_of(curve.mark)},
                    {"colour", curve.colour},
                    {"role", name_of(curve.role)},
-                   {"x", axes.index_of(curve.x)},
-                   {"y", list_of(curve.y)}});
+                   {"x", lists.index_of(curve.x)},
+                   {"y", lists.index_of(curve.y)}});
     if (!curve.texts.empty()) out.back()["texts"] = curve.texts;
   }
   return out;
 }
 
-Json bands_of(const Chart& chart, Axes& axes) {
+Json bands_of(const Chart& chart, Lists& lists) {
   Json out = Json::array();
   for (const Band& band : chart.bands)
     out.push_back({{"label", band.label},
                    {"owner", band.owner},
                    {"colour", band.colour},
-                   {"x", axes.index_of(band.x)},
-                   {"low", list_of(band.low)},
-                   {"high", list_of(band.high)}});
+                   {"x", lists.index_of(band.x)},
+                   {"low", lists.index_of(band.low)},
+                   {"high", lists.index_of(band.high)}});
   return out;
 }
 
@@ -117,7 +117,7 @@ void add_marks(Json& out, const Chart& chart) {
     out["events"].push_back({{"at", six_digits(event.at)}, {"label", event.label}});
 }
 
-Json json_of(const Chart& chart, const std::string& id, Axes& axes) {
+Json json_of(const Chart& chart, const std::string& id, Lists& lists) {
   const Window view = window_of(chart);
   Json out = {{"id", id},
               {"title", chart.title},
@@ -126,8 +126,8 @@ Json json_of(const Chart& chart, const std::string& id, Axes& axes) {
               {"x", json_of(chart.x)},
               {"y", json_of(chart.y)},
               {"view", list_of({view.x_low, view.x_high, view.y_low, view.y_high})},
-              {"curves", curves_of(chart, axes)},
-              {"bands", bands_of(chart, axes)}};
+              {"curves", curves_of(chart, lists)},
+              {"bands", bands_of(chart, lists)}};
   add_marks(out, chart);
   return out;
 }
@@ -142,15 +142,15 @@ std::string without_tags(const std::string& text) {
 }  // namespace
 
 std::string json_of(const PageData& data, bool with_body) {
-  Axes axes;
+  Lists lists;
   Json charts = Json::array();
   for (const PageSection& section : data.sections)
     for (std::size_t view = 0; view < section.views.size(); ++view)
       for (std::size_t i = 0; i < section.views[view].charts.size(); ++i)
-        charts.push_back(json_of(section.views[view].charts[i], chart_id(section, view, i), axes));
+        charts.push_back(json_of(section.views[view].charts[i], chart_id(section, view, i), lists));
   Json out = {{"title", data.title}};
   if (with_body) out["body"] = body(data, false);
-  out["axes"] = axes.lists();
+  out["lists"] = lists.all();
   out["charts"] = std::move(charts);
   return without_tags(out.dump(-1, ' ', true, Json::error_handler_t::replace));
 }

@@ -4,6 +4,7 @@
 #include "emit/plan/code_cost.hpp"
 #include "emit/plan/realisation.hpp"
 #include "simulate/drop_outs.hpp"
+#include "simulate/scenario_requirements.hpp"
 
 namespace lqg::emit {
 
@@ -50,6 +51,7 @@ std::optional<Controller> make_controller(design::Problem problem, design::Solut
   choose_style(*chosen);
   check_flash(*chosen, findings);
   simulate::check_drop_outs(*chosen, findings);
+  simulate::check_scenario_requirements(*chosen, findings);
   if (design::has_error(findings)) return std::nullopt;
   return chosen;
 }

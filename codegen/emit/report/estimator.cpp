@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emit/report/innovations.hpp"
 #include "emit/report/sections.hpp"
 #include "emit/text/wording.hpp"
 
@@ -148,16 +149,19 @@ Chart gain_chart(const Controller& controller, const Beginning& found) {
 
 }  // namespace
 
-PageSection estimator_section(const Controller& controller) {
+PageSection estimator_section(const Controller& controller, const Runs& runs) {
   PageSection section = {"estimator", "The estimator", {}};
-  if (!is_known(controller)) return section;
-  const Beginning found = beginning(controller);
   PageView view;
-  view.text = "From the start, where the error has the covariance P0, to what it is for good.";
-  view.charts = deviation_charts(controller, found);
-  if (carries_covariance(controller) || controller.filters.size() > 1)
-    view.charts.push_back(gain_chart(controller, found));
-  section.views.push_back(std::move(view));
+  if (is_known(controller)) {
+    const Beginning found = beginning(controller);
+    view.text = "From the start, where the error has the covariance P0, to what it is for good; and what the "
+                "innovations of a run tell of it.";
+    view.charts = deviation_charts(controller, found);
+    if (carries_covariance(controller) || controller.filters.size() > 1)
+      view.charts.push_back(gain_chart(controller, found));
+  }
+  add_innovations(controller, runs, view);
+  if (!view.charts.empty()) section.views.push_back(std::move(view));
   return section;
 }
 

@@ -25,6 +25,14 @@ Chart over_frequency(const std::string& title, const std::string& id, const std:
   return chart;
 }
 
+// What lies far below or above 0 dB is outside at first.
+void look_about_0_dB(double lowest, double highest, Chart& chart) {
+  double low = 0, high = 0;
+  for (const Curve& curve : chart.curves)
+    for (const double y : curve.y) low = std::min(low, y), high = std::max(high, y);
+  chart.y_low = std::max(low, lowest) - 2, chart.y_high = std::min(high, highest) + 6;
+}
+
 std::vector<double> frequencies(const std::vector<double>& angles, double sample_time) {
   std::vector<double> out;
   for (const double angle : angles) out.push_back(hertz(angle, sample_time));
@@ -81,6 +89,7 @@ std::vector<Chart> bode(const LoopCurve& loop, double T, const std::string& id) 
   phase.curves = {{"phase of L", Mark::line, 0, f, phase_of(loop.L)}};
   gain.guides.push_back({Guide::Axis::y, 0, ""});
   phase.guides.push_back({Guide::Axis::y, -180, "−180°"});
+  look_about_0_dB(-60, 80, gain);
   mark_crossovers(loop, T, gain, phase);
   mark_gain_margins(loop, T, gain);
   return {gain, phase};
@@ -99,6 +108,7 @@ Chart sensitivities(const LoopCurve& loop, double T, const std::string& id) {
   chart.curves = {{"|S|", Mark::line, 0, f, decibels_of(loop.L, [](Complex l) { return 1.0 / (1.0 + l); })},
                   {"|T|", Mark::dashes, 1, f, decibels_of(loop.L, [](Complex l) { return l / (1.0 + l); })}};
   chart.guides.push_back({Guide::Axis::y, 0, ""});
+  look_about_0_dB(-40, 40, chart);
   mark_peak(chart.curves[0], chart);
   if (*std::max_element(chart.curves[1].y.begin(), chart.curves[1].y.end()) > 0.1) mark_peak(chart.curves[1], chart);
   return chart;
@@ -116,6 +126,7 @@ Chart singular_values(const LoopResponse& response, const std::vector<std::vecto
     chart.curves.push_back(std::move(curve));
   }
   chart.guides.push_back({Guide::Axis::y, 0, ""});
+  name == "L" ? look_about_0_dB(-60, 80, chart) : look_about_0_dB(-40, 40, chart);
   if (name != "L") mark_peak(chart.curves.front(), chart);
   return chart;
 }

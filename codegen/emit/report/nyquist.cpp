@@ -33,7 +33,7 @@ Curve curve_of(const LoopCurve& loop, double sample_time, bool is_mirrored) {
   for (std::size_t k = 0; k < loop.L.size(); ++k) {
     curve.x.push_back(loop.L[k].real());
     curve.y.push_back(is_mirrored ? -loop.L[k].imag() : loop.L[k].imag());
-    curve.texts.push_back((is_mirrored ? "−" : "") + with_unit(hertz(loop.angles[k], sample_time), "Hz"));
+    if (!is_mirrored) curve.texts.push_back(with_unit(hertz(loop.angles[k], sample_time), "Hz"));
   }
   return curve;
 }

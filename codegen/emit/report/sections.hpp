@@ -5,17 +5,19 @@
 #include "design/finding.hpp"
 #include "emit/controller.hpp"
 #include "emit/page/page.hpp"
+#include "emit/report/scenario_view.hpp"
 
 namespace lqg::emit {
 
 // Name, verdict, the six figures.
 void add_head(const Controller& controller, const design::Findings& findings, PageData& page);
 
-PageSection at_work(const Controller& controller);             // what does it do?
-PageSection far_from_trouble(const Controller& controller);    // what may be wrong with the model?
-PageSection pole_section(const Controller& controller);        // how fast, how damped?
-PageSection estimator_section(const Controller& controller);   // does it know what it knows?
-PageSection target_section(const Controller& controller);      // what does it cost?
+using Runs = std::vector<ShownRun>;
+PageSection at_work(const Controller& controller, const Runs& runs);            // what does it do?
+PageSection far_from_trouble(const Controller& controller);                     // what may be wrong with the model?
+PageSection pole_section(const Controller& controller);                         // how fast, how damped?
+PageSection estimator_section(const Controller& controller, const Runs& runs);  // does it know what it knows?
+PageSection target_section(const Controller& controller);                       // what does it cost?
 PageSection number_section(const Controller& controller);
 
 // Whose poles a person wants to see: regulator and estimator, whose poles are those of the loop, else the loop itself;

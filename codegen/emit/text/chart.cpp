@@ -204,7 +204,8 @@ class Picture {
   }
 
   std::string draw(const Curve& curve) const {
-    const std::string path = is_points(curve.mark) ? points(curve) : line_of(curve);
+    constexpr std::size_t visible = 400;
+    const std::string path = is_points(curve.mark) ? points(curve) : line_of(reduced(curve, visible));
     return "<path class=\"" + class_of(curve) + "\" d=\"" + path + "\"/>\n";
   }
 

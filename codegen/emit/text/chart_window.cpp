@@ -95,11 +95,11 @@ Curve reduced(const Curve& curve, std::size_t most) {
   for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
     const auto from = curve.y.begin() + static_cast<std::ptrdiff_t>(bucket * size / buckets);
     const auto to = curve.y.begin() + static_cast<std::ptrdiff_t>((bucket + 1) * size / buckets);
-    auto ends = std::minmax(std::min_element(from, to), std::max_element(from, to));
-    for (const auto& at : {ends.first, ends.second}) {
+    const auto least = std::min_element(from, to), largest = std::max_element(from, to);
+    for (const auto& at : {std::min(least, largest), std::max(least, largest)}) {
       out.x.push_back(curve.x[static_cast<std::size_t>(at - curve.y.begin())]);
       out.y.push_back(*at);
-      if (ends.first == ends.second) break;
+      if (least == largest) break;
     }
   }
   return out;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// test_commands LQGEN BASE.toml: `lqgen new` and `lqgen check`.
+// test_commands LQGEN BASE.toml: `lqgen new`, `lqgen check` and `lqgen run`.
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <sstream>
 #include <unity.h>
 
@@ -116,6 +117,39 @@ void test_check_refuses_what_lqgen_refuses() {
   TEST_ASSERT_EQUAL_INT(unreadable, run_lqgen({"check", "none.toml"}).status);
 }
 
+// `lqgen run` with these lines as its standard input; the file's name stands for the design's.
+Outcome run_lines(const std::string& lines, const std::string& design = "base.toml") {
+  write_file(folder / "lines", lines);
+  return run({"/bin/sh", "-c", "exec '" + lqgen + "' run --quiet \"$0\" < lines", design}, folder);
+}
+
+void test_run_answers_each_line_and_begins_anew_when_told() {
+  const Outcome outcome = run_lines("0.5 0\n0.25,0.1\nreset\n0.5 0\n");
+  TEST_ASSERT_EQUAL_INT_MESSAGE(written, outcome.status, outcome.err.c_str());
+  TEST_ASSERT_EQUAL_STRING("", outcome.err.c_str());
+  std::istringstream answers(outcome.out);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(answers, line);) lines.push_back(line);
+  TEST_ASSERT_EQUAL_UINT(3, lines.size());
+  TEST_ASSERT_EQUAL_STRING(lines[0].c_str(), lines[2].c_str());
+  TEST_ASSERT_TRUE(lines[0] != lines[1]);
+}
+
+void test_run_ends_at_a_line_that_is_wrong() {
+  const Outcome outcome = run_lines("0.5 0\n0.5 volt\n0.5 0\n");
+  TEST_ASSERT_EQUAL_INT(wrong, outcome.status);
+  TEST_ASSERT_EQUAL_UINT(1, std::count(outcome.out.begin(), outcome.out.end(), '\n'));
+  TEST_ASSERT_EQUAL_STRING("standard input: line 2: expected 2 numbers (y), or reset, found \"volt\"\n",
+                           outcome.err.c_str());
+}
+
+void test_run_refuses_what_lqgen_refuses_and_a_design_on_standard_input() {
+  write_file(folder / "bad.toml", "name = \"bad\"\n");
+  TEST_ASSERT_EQUAL_STRING(run_lqgen({"bad.toml"}).err.c_str(), run_lines("1\n", "bad.toml").err.c_str());
+  expect_refusal(wrong, "lqgen run: expected the path of a design file, found -: standard input has the samples",
+                 {"run", "-"});
+}
+
 void test_a_command_has_to_have_its_design() {
   TEST_ASSERT_EQUAL_INT(wrong, run_lqgen({"check"}).status);
   TEST_ASSERT_EQUAL_INT(wrong, run_lqgen({}).status);
@@ -148,6 +182,9 @@ int main(int, char** arguments) {
   RUN_TEST(test_misspelt_options_of_a_command_are_explained);
   RUN_TEST(test_check_says_what_lqgen_says_and_writes_nothing);
   RUN_TEST(test_check_refuses_what_lqgen_refuses);
+  RUN_TEST(test_run_answers_each_line_and_begins_anew_when_told);
+  RUN_TEST(test_run_ends_at_a_line_that_is_wrong);
+  RUN_TEST(test_run_refuses_what_lqgen_refuses_and_a_design_on_standard_input);
   RUN_TEST(test_a_command_has_to_have_its_design);
   RUN_TEST(test_a_design_file_may_be_called_like_a_command);
   return UNITY_END();

@@ -17,8 +17,10 @@ pip_install() {
   shift
   "$folder/$environment/bin/python" -m pip install --quiet --disable-pip-version-check "$@"
 }
-pip_install full numpy scipy control h5py hypothesis "cyclonedx-python-lib[json-validation]" || {
-  echo "Not found: numpy, scipy, control, h5py, hypothesis, cyclonedx-python-lib on PyPI"
+pip_install full numpy scipy control h5py hypothesis matplotlib tqdm joblib nbclient ipykernel \
+  "cyclonedx-python-lib[json-validation]" || {
+  echo "Not found: numpy, scipy, control, h5py, hypothesis, matplotlib, tqdm, joblib, nbclient, ipykernel," \
+    "cyclonedx-python-lib on PyPI"
   exit 0
 }
 for environment in full bare; do

@@ -13,7 +13,7 @@ from designs import SOURCE, InFolder, run
 
 class Bare(InFolder):
     def test_there_is_no_other_package(self):
-        for name in ("numpy", "scipy", "control", "h5py"):
+        for name in ("numpy", "scipy", "control", "h5py", "matplotlib", "tqdm"):
             self.assertIsNone(importlib.util.find_spec(name), name)
 
     def test_from_matrices_to_gains(self):
@@ -25,6 +25,30 @@ class Bare(InFolder):
         self.assertEqual(design.plant.A, [[1, 0.01], [0, 1]])
         self.assertTrue(all(abs(pole) < 1 for pole in design.lqr.poles))
         self.assertTrue(Path("mass.h").exists())
+
+    def test_design_in_memory_and_its_controller(self):
+        design = tinylqg.Design(
+            A=[[1, 0.01], [0, 1]],
+            B=[[5e-5], [0.01]],
+            C=[[1, 0]],
+            domain="discrete",
+            sample_time=0.01,
+            Q=[1, 1],
+            R=1,
+            W=[1e-4, 1e-2],
+            V=1e-3,
+        )
+        self.assertTrue(all(abs(pole) < 1 for pole in design.poles))
+        self.assertEqual(len(design.sweep(rho=[1, 10]).column("loop.disk_margin")), 2)
+        for compiled in (True, False):
+            with design.controller(compiled) as controller:
+                (u,) = controller.step([1])
+                self.assertLess(u, 0)
+                self.assertEqual([type(value) for value in controller.x], [float, float])
+        with self.assertRaisesRegex(ImportError, r"pip install 'tinylqg\[plot\]'"):
+            design.plot("poles")
+        with self.assertRaisesRegex(ImportError, r"pip install 'tinylqg\[progress\]'"):
+            design.sweep(rho=[1], progress=True)
 
     def test_what_is_missing_is_said(self):
         design = tinylqg.generate(SOURCE / "codegen" / "designs" / "two_mass.toml")

@@ -179,9 +179,9 @@ class Refusals(InFolder):
     def test_what_is_no_plant_or_no_section(self):
         with self.refused("plant", "builtins.str"):
             tinylqg.design_text("A", name="x")
-        with self.refused("TransferFunction"):
-            tinylqg.design_text(control.tf([1], [1, 1]), name="x", sample_time=0.1)
-        with self.refused("design", "kalmann", "kalman"):
+        with self.refused("FrequencyResponseData"):
+            tinylqg.design_text(control.frd([1, 2], [1, 2]), name="x", sample_time=0.1)
+        with self.refused("kalmann: unknown", "kalman="):
             tinylqg.design_text((A, B, C, D, 0.1), name="x", kalmann={})
 
     def test_what_is_no_number(self):

@@ -22,7 +22,7 @@ function colours() {
     rule: read("--rule"),
     ghost: read("--ghost"),
     paper: read("--paper"),
-    font: style.fontFamily,
+    font: getComputedStyle(document.body).fontFamily,
   };
 }
 
@@ -229,8 +229,9 @@ function drawOn(canvas, spec, isSmall) {
     animation: false,
     responsive: true,
     maintainAspectRatio: false,
-    parsing: false,
-    normalized: true,
+    // Rising x can be cut where it is outside of the window; a curve in a plane is in no order.
+    parsing: spec.square ? { xAxisKey: "x", yAxisKey: "y" } : false,
+    normalized: !spec.square,
     events: [],
     font: { family: palette.font },
     plugins: { legend: { display: false }, tooltip: { enabled: false } },

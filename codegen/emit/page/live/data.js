@@ -14,20 +14,15 @@ const page = {
 const keyOfCurve = (chart, curve) => [chart.id, curve.owner || "", curve.label].join("\n");
 const keyOfX = (chart) => chart.group || chart.id;
 
-// Replaces the index of each curve's x by the values, and null by NaN.
+// Puts the lists of numbers where their indices stand, and NaN in place of null.
 function expand(data) {
-  const numbers = (values) => values.map((value) => (value === null ? NaN : value));
-  const axes = data.axes.map(numbers);
+  const lists = data.lists.map((values) => values.map((value) => (value === null ? NaN : value)));
   for (const chart of data.charts) {
     for (const curve of chart.curves) {
-      curve.x = axes[curve.x];
-      curve.y = numbers(curve.y);
+      curve.x = lists[curve.x];
+      curve.y = lists[curve.y];
     }
-    for (const band of chart.bands) {
-      band.x = axes[band.x];
-      band.low = numbers(band.low);
-      band.high = numbers(band.high);
-    }
+    for (const band of chart.bands) for (const name of ["x", "low", "high"]) band[name] = lists[band[name]];
   }
   return data;
 }

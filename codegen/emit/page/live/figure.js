@@ -75,7 +75,7 @@ class Figure {
       `<svg viewBox="0 -6 18 12" aria-hidden="true"><path class="band b${band.colour % 7}" d="M0 -5h18v10h-18z"/></svg>`;
     for (const band of this.spec.bands) if (band.label) this.addEntry(legend, band, area(band));
     const unnamed = this.spec.curves.find((curve) => curve.role === "data" && !curve.label);
-    if (unnamed && !this.values.length) {
+    if (unnamed && !this.values.length && !this.spec.square) {
       this.values.push({ curve: unnamed, value: legend.appendChild(element("span", "value alone")) });
     }
     for (const label of new Set(this.spec.events.map((event) => event.label))) {
@@ -90,7 +90,7 @@ class Figure {
     const entry = legend.appendChild(element("button", "entry"));
     entry.innerHTML = sample;
     entry.append(curve.owner && curve.owner !== curve.label ? `${curve.label} ${curve.owner}`.trim() : curve.label);
-    const value = entry.appendChild(element("span", "value"));
+    const value = this.spec.square ? element("span") : entry.appendChild(element("span", "value"));
     const key = keyOfCurve(this.spec, curve);
     const say = () => entry.setAttribute("aria-pressed", String(!page.hidden.has(key)));
     say();

@@ -3,17 +3,21 @@
 
 from importlib.metadata import version
 
-from .design import design_text, write_design
+from .design import Design
+from .design_file import design_text, write_design
 from .errors import DesignError
+from .findings import Finding
 from .lqgen import generate, include_dir, lqgen_path, source_dir
 from .mat import read_mat
-from .result import Design, load
+from .result import Result, load
 
 __version__ = version("tinylqg")
 
 __all__ = [
     "Design",
     "DesignError",
+    "Finding",
+    "Result",
     "design_text",
     "generate",
     "include_dir",

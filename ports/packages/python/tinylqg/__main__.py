@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from . import __version__, include_dir, lqgen_path, source_dir
-from .design import design_text
+from .design_file import design_text
 from .errors import DesignError, expected
 from .mat import read_mat
 from .result import load

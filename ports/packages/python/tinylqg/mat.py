@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The variables of a .mat file as keys of a design file."""
 
-from .design import SECTIONS
+from .design_file import SECTIONS
 from .errors import DesignError, expected
 from .mat_file import variables_of
 from .plant import scalar, timed

@@ -6,6 +6,7 @@ import sys
 
 from .errors import DesignError, expected
 from .toml import LARGEST_INTEGER
+from .transfer import state_space
 
 NO_SAMPLE_TIME = "the plant is continuous: expected sample_time=…, the loop's period in s"
 
@@ -20,12 +21,14 @@ def plant_table(system, given):
         table = of_matrices(system, given.get("domain"))
     elif is_of_scipy(system):
         table = of_scipy(system)
-    elif all(hasattr(system, key) for key in ("A", "B", "C", "D", "dt")):
+    elif all(hasattr(system, key) for key in ("A", "B", "C", "D", "dt")) or all(
+        hasattr(system, key) for key in ("num", "den", "dt")
+    ):
         table = of_control(system)
     else:
         raise expected(
             "plant",
-            "a state space of python-control or scipy, (A, B, C, D), or a dictionary",
+            "a state space or transfer function of python-control or scipy, (A, B, C, D), or a dictionary",
             f"{type(system).__module__}.{type(system).__name__}",
         )
     return complete(table, given)
@@ -86,8 +89,10 @@ def of_matrices(system, domain):
 
 
 def two_dimensional(matrix):
-    """A matrix as it is, a number as 1 × 1."""
-    return [[matrix]] if isinstance(matrix, (int, float)) else matrix
+    """A matrix as it is, a number as 1 × 1, that of NumPy, too."""
+    if getattr(matrix, "ndim", None) == 0:
+        matrix = matrix.item()
+    return [[matrix]] if isinstance(matrix, (int, float)) and not isinstance(matrix, bool) else matrix
 
 
 def is_of_scipy(system):
@@ -96,17 +101,23 @@ def is_of_scipy(system):
 
 
 def of_scipy(system):
-    """lti and dlti; a transfer function by scipy's own to_ss()."""
-    space = system.to_ss()
-    matrices = {key: getattr(space, key) for key in "ABCD"}
-    return timed(matrices, 0 if space.dt is None else space.dt)
+    """lti and dlti; zeros, poles and gains, and transfer functions, in the states of `transfer.py`."""
+    dt = 0 if system.dt is None else system.dt
+    if not hasattr(system, "A"):
+        polynomials = system.to_tf()
+        return timed(state_space([[(polynomials.num, polynomials.den)]], is_discrete=dt != 0), dt)
+    return timed({key: getattr(system, key) for key in "ABCD"}, dt)
 
 
 def of_control(system):
-    """StateSpace of python-control, with its labels where somebody has given some."""
+    """StateSpace or TransferFunction of python-control, with its labels where somebody has given some."""
     if system.dt is None:
         raise expected("plant.dt", "0 (continuous) or the sample time in s", "None, which leaves it open")
-    matrices = {key: getattr(system, key) for key in "ABCD"}
+    if hasattr(system, "A"):
+        matrices = {key: getattr(system, key) for key in "ABCD"}
+    else:
+        entries = [list(zip(*row)) for row in zip(*polynomials_of(system))]
+        matrices = state_space(entries, is_discrete=system.dt != 0)
     for key, attribute in (("states", "state_labels"), ("inputs", "input_labels"), ("outputs", "output_labels")):
         labels = [label_of(text) for text in getattr(system, attribute, None) or []]
         if any(label != default for label, default in zip(labels, default_labels(key, len(labels)))):
@@ -122,3 +133,8 @@ def default_labels(key, count):
 def label_of(text):
     """python-control counts as in "sys[0]_x[1]", which C does not: sys_0_x_1."""
     return re.sub(r"\[(\d+)\]", r"_\1", text)
+
+
+def polynomials_of(system):
+    """Numerators and denominators, row by row; newer versions of python-control have lists by that name."""
+    return [getattr(system, f"{key}_list", None) or getattr(system, key) for key in ("num", "den")]

@@ -22,7 +22,7 @@ class Table(dict):
             raise AttributeError(f"this design has no {key}; it has {', '.join(self)}") from None
 
 
-class Design(Table):
+class Result(Table):
     """A design as lqgen solved it, with the keys of NAME.json. Matrices are arrays of NumPy where it is installed, else
     lists of rows; poles are complex. `plant` is the sampled one. K is lqr.K: u = −K x̂, and L is kalman.L:
     x̂ ← x̂ + L (y − C x̂ − D u)."""
@@ -98,15 +98,19 @@ def mat_variables(design):
 
 
 def load(path):
-    """The design in the file NAME.json that lqgen wrote."""
-    data = Path(path).read_bytes()
+    """The design in the file NAME.json that lqgen wrote, as a `Result`."""
+    return result_of(path, Path(path).read_bytes())
+
+
+def result_of(path, data):
+    """The same of the file's bytes; messages call it `path`."""
     with refusing(path, "the JSON file of a design"):
         tables = json.loads(data.decode("utf-8"))
         if not isinstance(tables, dict) or not {"lqgen", "name", "plant"} <= tables.keys():
             raise DesignError(f"{path}: expected a JSON file that lqgen wrote")
         design_name(tables["name"], f"{path}: name")
         check_tables(path, tables)
-        design = Design(converted(tables))
+        design = Result(converted(tables))
         for plant in (design.plant, *(stage.plant for stage in design.get("stages", []))):
             fix_empty(plant)
         return design

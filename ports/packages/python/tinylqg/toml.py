@@ -100,3 +100,13 @@ def document(top, tables):
         else:
             parts += [table(f"[[{key(name, name)}]]", item, f"{name}[{i}]") for i, item in enumerate(entries)]
     return "\n".join(parts)
+
+
+def whole_document(tables):
+    """The whole file of what a parser of TOML has made of one."""
+    top = {name: value for name, value in tables.items() if not is_table(value)}
+    return document(top, {name: value for name, value in tables.items() if is_table(value)})
+
+
+def is_table(value):
+    return isinstance(value, dict) or (isinstance(value, list) and len(value) > 0 and isinstance(value[0], dict))
