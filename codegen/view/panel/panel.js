@@ -14,8 +14,8 @@
   let asks = false; // a first look is under way
   let moved = false; // since it was asked for
   let settled = 0; // timer until the whole is asked for
-  let turn = 0; // counts moves and states: an answer to an older one is not drawn
-  let draggedIn = []; // ms from a move to the drawn page, of the last moves
+  let lastMove = 0; // when, in ms
+  let draggedIn = []; // ms from the last move before a question to its drawn answer, of the last questions
 
   function say(words, isBad = false) {
     status.textContent = words;
@@ -168,46 +168,57 @@
     else if (message.status !== 409) say(message.error, true); // 409: the new state is on its way
   }
 
-  async function ask(path, isWhole) {
-    const mine = turn;
-    const began = performance.now();
+  // First looks, one after the other as long as sliders move. While one is drawn lqgen computes the next.
+  async function look() {
+    if (asks) return;
+    asks = true;
+    let answer = null;
     try {
-      const message = await post(path);
-      if (mine === turn) show(message, isWhole);
-      if (!isWhole) draggedIn = [...draggedIn.slice(-99), performance.now() - began];
+      for (;;) {
+        const began = lastMove;
+        const coming = moved && changed().length ? post("look") : null;
+        moved = false;
+        if (answer && answer.state === state && changed().length) {
+          show(answer, false);
+          draggedIn = [...draggedIn.slice(-99), performance.now() - answer.began];
+        }
+        if (!coming) break;
+        const asked = state;
+        answer = { ...(await coming), state: asked, began };
+      }
+    } catch {
+      lost();
+    }
+    asks = false;
+  }
+
+  async function solve() {
+    const asked = state;
+    const move = lastMove;
+    try {
+      const answer = await post("solve");
+      if (asked !== state || move !== lastMove) return;
+      show(answer, true);
+      if (answer.superseded) settled = setTimeout(settle, rest); // by another page of this lqgen
     } catch {
       lost();
     }
   }
 
-  async function look() {
-    if (asks) return;
-    asks = true;
-    while (moved && changed().length) {
-      moved = false;
-      turn += 1;
-      await ask("look", false);
-    }
-    asks = false;
+  function settle() {
+    if (asks) settled = setTimeout(settle, rest);
+    else if (changed().length) solve();
   }
 
   function move() {
     moved = true;
-    turn += asks ? 0 : 1;
-    showButtons();
+    lastMove = performance.now();
     clearTimeout(settled);
-    if (!changed().length) {
-      turn += 1;
-      return showFile();
-    }
+    showButtons();
+    if (!changed().length) return showFile();
     say("Computing");
     look();
     settled = setTimeout(settle, rest);
-  }
-
-  function settle() {
-    if (asks) settled = setTimeout(settle, rest);
-    else if (changed().length) ask("solve", true);
   }
 
   byId("lqg-back").addEventListener("click", () => {
@@ -236,7 +247,6 @@
 
   function take(message) {
     state = message;
-    turn += 1;
     build(state.tunables);
     showButtons();
     if (changed().length) move();
