@@ -99,8 +99,7 @@ enum class Requires { all, nothing };
 
 // The controller of the file; none where the findings, which are printed, say why not: then `status` is set.
 std::optional<emit::Controller> controller_of(const Arguments& arguments, const input::DesignFile& file,
-                                              Requires wanted, Watch& watch, int& status,
-                                              design::Findings& findings) {
+                                              Requires wanted, Watch& watch, int& status, design::Findings& findings) {
   report(arguments, file, file.findings);
   status = !file.readable ? unreadable : wrong;
   if (!file.problem || design::has_error(file.findings)) return std::nullopt;

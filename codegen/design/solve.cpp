@@ -97,9 +97,9 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
   describe_loop(problem, run, digits);
   if (run.has_steady_loop) {
     if (solution.estimator)
-      solution.loop.at_output = margins(open_at_outputs(measured_plant(problem, final_plant(solution)),
-                                                        compensator(problem, solution)),
-                                        run.loop_poles);
+      solution.loop.at_output =
+          margins(open_at_outputs(measured_plant(problem, final_plant(solution)), compensator(problem, solution)),
+                  run.loop_poles);
     add_full_margins(problem, run);
   }
   check_representable(solution, problem.code.real, findings);

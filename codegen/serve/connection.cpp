@@ -40,10 +40,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     parser_->header_limit(largest_head);
     parser_->body_limit(largest_body);
     stream_.expires_after(patience);
-    http::async_read_header(stream_, buffer_, *parser_,
-                            [self = shared_from_this()](beast::error_code error, std::size_t) {
-                              self->on_head(error);
-                            });
+    http::async_read_header(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](beast::error_code error, std::size_t) { self->on_head(error); });
   }
 
  private:
@@ -60,9 +59,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     asked_.hosts = head.count(http::field::host);
     if (const auto refusal = refuse(asked_, service_.door))
       return write({refusal->status, "application/json", quoted(refusal->why)}, true);
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code failed, std::size_t) {
-      self->on_request(failed);
-    });
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](beast::error_code failed, std::size_t) { self->on_request(failed); });
   }
 
   void on_request(beast::error_code error) {
@@ -85,8 +83,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     response_ = {static_cast<http::status>(reply.status), 11, std::move(reply.body)};
     response_.set(http::field::content_type, reply.type);
     response_.set(http::field::cache_control, "no-store");
-    response_.set("Content-Security-Policy", reply.policy.empty() ? "default-src 'none'; frame-ancestors 'none'"
-                                                                  : reply.policy);
+    response_.set("Content-Security-Policy",
+                  reply.policy.empty() ? "default-src 'none'; frame-ancestors 'none'" : reply.policy);
     response_.set("X-Frame-Options", "DENY");
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("Referrer-Policy", "no-referrer");

@@ -35,9 +35,8 @@ std::int64_t changed_at(const struct stat& status) { return status.st_ctim.tv_se
 
 // Two changes within one tick of the file system's clock look like one: until it is past, the content decides.
 bool is_fresh(std::int64_t modified) {
-  const std::int64_t now = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                               std::chrono::system_clock::now().time_since_epoch())
-                               .count();
+  const std::int64_t now =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
   return now - modified < 2 * second;
 }
 

@@ -10,10 +10,10 @@ namespace lqg::serve {
 
 // What the rules look at in a request; headers that are not there are empty.
 struct Asked {
-  std::string method;  // "GET"
-  std::string target;  // "/TOKEN/state?since=1"
+  std::string method;                            // "GET"
+  std::string target;                            // "/TOKEN/state?since=1"
   std::string host, origin, content_type, site;  // site: Sec-Fetch-Site
-  std::size_t hosts = 1;  // how many Host headers there are
+  std::size_t hosts = 1;                         // how many Host headers there are
 };
 
 struct Door {

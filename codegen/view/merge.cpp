@@ -72,9 +72,9 @@ class Merger {
   }
 
   void add(const PageSection& section) {
-    PageSection& place =
-        found_or_added(merged_, [&](const PageSection& other) { return other.id == section.id; },
-                       PageSection{section.id, section.title, {}});
+    PageSection& place = found_or_added(
+        merged_, [&](const PageSection& other) { return other.id == section.id; },
+        PageSection{section.id, section.title, {}});
     for (const PageView& view : section.views) add(view, place);
   }
 
@@ -100,9 +100,9 @@ class Merger {
   }
 
   void add(const PageTable& table, PageView& view) {
-    PageTable& place =
-        found_or_added(view.tables, [&](const PageTable& other) { return other.caption == table.caption; },
-                       PageTable{table.caption, head_, {}});
+    PageTable& place = found_or_added(
+        view.tables, [&](const PageTable& other) { return other.caption == table.caption; },
+        PageTable{table.caption, head_, {}});
     add_table(place, table, owner_, pages_.size());
   }
 

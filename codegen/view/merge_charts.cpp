@@ -95,9 +95,8 @@ void lay_over(Chart& chart, const Chart& other) {
     if (is_data(curve)) chart.curves.push_back(curve);
   chart.bands.insert(chart.bands.end(), other.bands.begin(), other.bands.end());
   chart.events.insert(chart.events.end(), other.events.begin(), other.events.end());
-  add_new(chart.guides, other.guides, [](const emit::Guide& a, const emit::Guide& b) {
-    return a.axis == b.axis && a.at == b.at;
-  });
+  add_new(chart.guides, other.guides,
+          [](const emit::Guide& a, const emit::Guide& b) { return a.axis == b.axis && a.at == b.at; });
   add_new(chart.circles, other.circles, [](const emit::Circle& a, const emit::Circle& b) {
     return a.x == b.x && a.y == b.y && a.radius == b.radius;
   });

@@ -16,9 +16,9 @@ const char* word_of(Scale scale) {
 Json json_of(const Tunable& tunable) {
   Json targets = Json::array();
   for (const Target& target : tunable.targets) targets.push_back({{"key", target.key}, {"factor", target.factor}});
-  return {{"group", tunable.group}, {"name", tunable.name}, {"unit", tunable.unit},
-          {"targets", targets},     {"value", tunable.value}, {"low", tunable.low},
-          {"high", tunable.high},   {"scale", word_of(tunable.scale)}, {"step", tunable.step}};
+  return {{"group", tunable.group}, {"name", tunable.name}, {"unit", tunable.unit}, {"targets", targets},
+          {"value", tunable.value}, {"low", tunable.low},   {"high", tunable.high}, {"scale", word_of(tunable.scale)},
+          {"step", tunable.step}};
 }
 
 void add_lines(Json& message, const Picture& picture) {

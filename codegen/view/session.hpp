@@ -5,7 +5,8 @@
 //   GET  /state?since=N  the state of the file, at once if it is newer than revision N, else as soon as it is, or after
 //                       20 s: {revision, path, lines, line, has_error, tunables, page}
 //   POST /look, /solve  {revision, changes: [{key, value}]}: the design with these numbers, at a first look or whole:
-//                       {lines, line, has_error, milliseconds, page}; {superseded: true} where a newer question came first
+//                       {lines, line, has_error, milliseconds, page}; {superseded: true} where a newer question
+//                       came first
 //   POST /write         the same: puts the numbers into the file
 //
 // `page` is that of emit::page_json, or null. 400: a question that nobody asked for, or a key that is no number of the
@@ -47,7 +48,7 @@ class Session {
   serve::FollowedFile file_;
   std::string text_;       // of the file, as it was last seen
   bool is_shown_ = false;  // the newest revision is that of the text
-  int misses_ = 0;    // how often in a row it was not there
+  int misses_ = 0;         // how often in a row it was not there
   Picture picture_;
   std::optional<emit::PageData> last_good_;
   long revision_ = 0;

@@ -67,8 +67,8 @@ Tunable part(const Table& table, const std::string& name, double value, std::vec
 void add_pair(const Table& table, const PlacedPole& pole, const PlacedPole& other, const std::string& number,
               std::vector<Tunable>& result) {
   result.push_back(part(table, "real part of " + number, pole.real, {{pole.real_key, 1}, {other.real_key, 1}}));
-  Tunable imaginary = part(table, "imaginary part of " + number, pole.imaginary,
-                           {{pole.imaginary_key, 1}, {other.imaginary_key, -1}});
+  Tunable imaginary =
+      part(table, "imaginary part of " + number, pole.imaginary, {{pole.imaginary_key, 1}, {other.imaginary_key, -1}});
   imaginary.low = 0;
   result.push_back(imaginary);
 }

@@ -72,7 +72,8 @@ SplitKey split(const std::string& key) {
 }
 
 const Rule* rule_of(const std::string& base) {
-  const auto found = std::find_if(std::begin(rules), std::end(rules), [&](const Rule& rule) { return base == rule.key; });
+  const auto found =
+      std::find_if(std::begin(rules), std::end(rules), [&](const Rule& rule) { return base == rule.key; });
   return found == std::end(rules) ? nullptr : found;
 }
 
@@ -152,8 +153,7 @@ void span_delay(Tunable& tunable, const design::Plant& plant) {
 
 // α of a continuous cost is a rate from 0 on; of samples a factor from 1 on.
 void span_decay(Tunable& tunable, const design::Problem& problem) {
-  if (problem.regulator && problem.regulator->cost == design::Cost::continuous)
-    return span_from_zero(tunable, 1);
+  if (problem.regulator && problem.regulator->cost == design::Cost::continuous) return span_from_zero(tunable, 1);
   tunable.low = 1;
   tunable.high = std::max(1.05, 1 + 4 * (tunable.value - 1));
 }

@@ -37,7 +37,8 @@ std::optional<int> refuse_file(const std::string& path) {
     return wrong;
   }
   const input::DesignFile file = input::read_design_file(path);
-  const bool is_text_good = !design::has_error(input::parse_design(file.text, std::filesystem::path(path).parent_path()).findings);
+  const bool is_text_good =
+      !design::has_error(input::parse_design(file.text, std::filesystem::path(path).parent_path()).findings);
   const bool is_name_bad = file.readable && is_text_good && design::has_error(file.findings);
   if (file.readable && !is_name_bad) return std::nullopt;
   print_findings(path, file);
@@ -51,10 +52,9 @@ int watch(const WatchArguments& arguments) {
   std::optional<serve::Server> server;
   std::optional<Session> session;  // ends before the server, whose connections its answers hold
   try {
-    server.emplace(arguments.port, serve::random_token(),
-                   [&](const serve::Request& request, const serve::Answer& answer) {
-                     session->answer(request, answer);
-                   });
+    server.emplace(
+        arguments.port, serve::random_token(),
+        [&](const serve::Request& request, const serve::Answer& answer) { session->answer(request, answer); });
   } catch (const std::runtime_error& error) {
     std::cerr << "lqgen watch: " << input::printable(error.what()) << "\n";
     return unreadable;

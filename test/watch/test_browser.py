@@ -206,10 +206,12 @@ class LivePage(unittest.TestCase):
             page.locator("#lqg-back").focus()
             reached = set()
             for _ in range(controls):
-                reached.add(page.evaluate("""() => {
+                reached.add(
+                    page.evaluate("""() => {
                   const all = [...document.querySelectorAll("#lqg-panel input, #lqg-panel button")];
                   return all.indexOf(document.activeElement);
-                }"""))
+                }""")
+                )
                 page.keyboard.press("Tab")
             self.assertEqual(reached, set(range(controls)))
             page.close()

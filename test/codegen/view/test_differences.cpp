@@ -20,12 +20,13 @@ void expect(const std::vector<Difference>& found, std::size_t line, const char* 
 
 void test_comments_layout_order_and_spelling_are_no_difference() {
   TEST_ASSERT_EQUAL_UINT(
-      0, differences({"a = 1000 # x\n[t]\nb = [1, 2]\nc = \"x\"\n", "a = 1e3\n[t]\nc = 'x'\nb = [1.0,\n 0x2]\n"}).size());
+      0,
+      differences({"a = 1000 # x\n[t]\nb = [1, 2]\nc = \"x\"\n", "a = 1e3\n[t]\nc = 'x'\nb = [1.0,\n 0x2]\n"}).size());
 }
 
 void test_values_stand_as_they_are_written() {
-  const auto found = differences({"a = \"x\"\nb = 1e-5\nd = true\n[t]\nc = [1, 2.50]\n",
-                                  "a = \"y\"\nb = 0.1\nd = false\n[t]\nc = [1, 3]\n"});
+  const auto found = differences(
+      {"a = \"x\"\nb = 1e-5\nd = true\n[t]\nc = [1, 2.50]\n", "a = \"y\"\nb = 0.1\nd = false\n[t]\nc = [1, 3]\n"});
   TEST_ASSERT_EQUAL_UINT(4, found.size());
   expect(found, 0, "a", "\"x\"", "\"y\"");
   expect(found, 1, "b", "1e-5", "0.1");

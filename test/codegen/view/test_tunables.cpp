@@ -50,8 +50,9 @@ const Tunable& at(const std::vector<Tunable>& all, const std::string& key) {
 }
 
 void test_weights_and_noises_have_names_and_decades() {
-  const auto all = of(plant + "[lqr]\nQ = [4, 0]\nR = [[0.1]]\n[kalman]\nprocess_noise = [[1e-3, 0], [0, 2]]\n"
-                              "measurement_noise = [1e-6]\n");
+  const auto all = of(plant +
+                      "[lqr]\nQ = [4, 0]\nR = [[0.1]]\n[kalman]\nprocess_noise = [[1e-3, 0], [0, 2]]\n"
+                      "measurement_noise = [1e-6]\n");
   const Tunable& weight = at(all, "lqr.Q[0]");
   TEST_ASSERT_EQUAL_STRING("angle", weight.name.c_str());
   TEST_ASSERT_EQUAL_STRING("Weights of the states, lqr.Q", weight.group.c_str());
@@ -66,8 +67,9 @@ void test_weights_and_noises_have_names_and_decades() {
 }
 
 void test_acceptable_values_and_limits_have_the_units_of_their_signals() {
-  const auto all = of(plant + "[lqr]\nbryson = { states = [0.1, 2], inputs = [12], rho = 2 }\n"
-                              "[limits]\nu_min = [-12]\nu_max = [inf]\nu_rate = [100]\n");
+  const auto all = of(plant +
+                      "[lqr]\nbryson = { states = [0.1, 2], inputs = [12], rho = 2 }\n"
+                      "[limits]\nu_min = [-12]\nu_max = [inf]\nu_rate = [100]\n");
   TEST_ASSERT_EQUAL_STRING("rad/s", at(all, "lqr.bryson.states[1]").unit.c_str());
   TEST_ASSERT_EQUAL_STRING("V", at(all, "lqr.bryson.inputs[0]").unit.c_str());
   TEST_ASSERT_EQUAL_STRING("rho", at(all, "lqr.bryson.rho").name.c_str());
@@ -79,8 +81,9 @@ void test_acceptable_values_and_limits_have_the_units_of_their_signals() {
 }
 
 void test_times_steps_and_gates_have_fitting_scales() {
-  const auto all = of(plant + "delay = 0.02\n[lqr]\nQ = [1, 1]\nR = [1]\nhorizon = 30\n"
-                              "[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\ngate = 4\nspike = 300\n");
+  const auto all = of(plant +
+                      "delay = 0.02\n[lqr]\nQ = [1, 1]\nR = [1]\nhorizon = 30\n"
+                      "[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\ngate = 4\nspike = 300\n");
   TEST_ASSERT_TRUE(at(all, "plant.sample_time").scale == Scale::logarithmic);
   TEST_ASSERT_EQUAL_STRING("s", at(all, "plant.sample_time").unit.c_str());
   TEST_ASSERT_EQUAL_DOUBLE(0.05, at(all, "plant.delay").high);
@@ -92,14 +95,16 @@ void test_times_steps_and_gates_have_fitting_scales() {
 }
 
 void test_the_delay_of_samples_moves_by_whole_samples() {
-  const auto all = of("name = \"t\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\ndelay = 0.2\nA = [[0.5]]\n"
-                      "B = [[1]]\n[lqr]\nQ = [1]\nR = [1]\n");
+  const auto all =
+      of("name = \"t\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\ndelay = 0.2\nA = [[0.5]]\n"
+         "B = [[1]]\n[lqr]\nQ = [1]\nR = [1]\n");
   TEST_ASSERT_EQUAL_DOUBLE(0.1, at(all, "plant.delay").step);
 }
 
 void test_conjugate_poles_move_together() {
-  const auto all = of(plant + "[pole_placement]\npoles = [[0.9, -0.1], [0.9, 0.1]]\n"
-                              "[observer]\ncontinuous_poles = [-30, -40]\n");
+  const auto all = of(plant +
+                      "[pole_placement]\npoles = [[0.9, -0.1], [0.9, 0.1]]\n"
+                      "[observer]\ncontinuous_poles = [-30, -40]\n");
   const Tunable& real = at(all, "pole_placement.poles[0][0]");
   TEST_ASSERT_EQUAL_UINT(2, real.targets.size());
   TEST_ASSERT_EQUAL_DOUBLE(1, real.targets[0].factor * real.targets[1].factor);
