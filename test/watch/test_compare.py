@@ -9,16 +9,17 @@ import sys
 import tempfile
 import unittest
 
-LQGEN, DESIGNS = sys.argv[1], pathlib.Path(sys.argv[2])
+LQGEN, DESIGNS = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 
 
 def cells(page, title):
     """The rows of the first table behind a heading, as lists of text."""
     section = page[page.index(f">{title}<") :]
     table = section[section.index("<table") : section.index("</table>")]
-    rows = re.findall(r"<tr>(.*?)</tr>", table, re.S)
+    rows = re.findall(r"<tr>(.*?)</tr>", table, re.DOTALL)
     return [
-        [re.sub("<[^>]*>", "", cell) for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.S)] for row in rows
+        [re.sub("<[^>]*>", "", cell) for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL)]
+        for row in rows
     ]
 
 
@@ -36,7 +37,7 @@ class Compare(unittest.TestCase):
 
     def run_lqgen(self, *arguments):
         return subprocess.run(
-            [LQGEN, "compare", *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300
+            [LQGEN, "compare", *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300, check=False
         )
 
     def page(self):
@@ -65,14 +66,14 @@ class Compare(unittest.TestCase):
         rows = {row[0]: row[1:] for row in cells(self.page(), "In numbers")[1:]}
         for column, name in enumerate(("servo", "stiff")):
             subprocess.run([LQGEN, f"{name}.toml", "--only", "json", "--quiet"], cwd=self.folder, check=True)
-            margins = json.loads((self.folder / f"{name}.json").read_text())["loop"]["at_input"]
+            margins = json.loads((self.folder / f"{name}.json").read_text())["loop"]
             shown = float(re.match(r"[0-9.]+", rows["Phase margin"][column])[0])
             self.assertAlmostEqual(shown, margins["phase_margin_deg"], delta=0.01)
         self.assertNotEqual(*rows["Phase margin"])
 
     def test_curves_of_both_stand_in_one_chart(self):
         self.compare_two()
-        data = re.search(r'id="lqg-data">\n(.*?)\n</script>', self.page(), re.S)[1]
+        data = re.search(r'id="lqg-data">\n(.*?)\n</script>', self.page(), re.DOTALL)[1]
         charts = {chart["id"]: chart for chart in json.loads(data)["charts"]}
         nyquist = [chart for name, chart in charts.items() if "nyquist" in name]
         self.assertTrue(nyquist)

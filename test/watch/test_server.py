@@ -18,7 +18,7 @@ import unittest
 
 from watched import Watched
 
-LQGEN, DESIGNS = sys.argv[1], pathlib.Path(sys.argv[2])
+LQGEN, DESIGNS = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 SERVO = DESIGNS / "servo.toml"
 MOST_SECONDS = 3.0  # for what takes a quarter of a second; of a machine that does many other things
 
@@ -165,7 +165,9 @@ class Following(unittest.TestCase):
                 bad = watched.state(good["revision"])
                 self.assertTrue(bad["has_error"])
                 self.assertEqual(bad["page"], good["page"])
-                said = subprocess.run([LQGEN, "check", watched.path.name], cwd=watched.folder, capture_output=True)
+                said = subprocess.run(
+                    [LQGEN, "check", watched.path.name], cwd=watched.folder, capture_output=True, check=False
+                )
                 self.assertEqual(bad["lines"], said.stderr.decode().splitlines())
                 self.assertIn(f":{bad['line']}:", bad["lines"][0])
                 watched.save(text)
@@ -265,7 +267,7 @@ class Trials(unittest.TestCase):
         for name, key in (("servo", "lqr.bryson.states[0]"), ("quadrotor", "lqr.Q[0]")):
             with Watched(LQGEN, DESIGNS / f"{name}.toml") as watched:
                 state = watched.state()
-                value = [t["value"] for t in state["tunables"] if t["targets"][0]["key"] == key][0]
+                value = next(t["value"] for t in state["tunables"] if t["targets"][0]["key"] == key)
                 for path in ("/look", "/solve"):
                     times = []
                     for i in range(5):
@@ -367,7 +369,11 @@ class Ending(unittest.TestCase):
     def test_a_port_can_be_chosen_and_one_that_is_taken_is_an_error(self):
         with Watched(LQGEN, SERVO) as watched:
             done = subprocess.run(
-                [LQGEN, "watch", SERVO, "--port", str(watched.port)], capture_output=True, text=True, timeout=60
+                [LQGEN, "watch", SERVO, "--port", str(watched.port)],
+                capture_output=True,
+                text=True,
+                timeout=60,
+                check=False,
             )
             self.assertEqual(done.returncode, 3)
             self.assertIn(f"127.0.0.1:{watched.port}: ", done.stderr)
@@ -377,7 +383,7 @@ class Ending(unittest.TestCase):
 
     def test_what_cannot_be_followed_is_an_error(self):
         for arguments, status in (([], 2), (["-"], 2), (["nothing.toml"], 3), (["x.toml", "--port", "0"], 2)):
-            done = subprocess.run([LQGEN, "watch", *arguments], capture_output=True, text=True, timeout=60)
+            done = subprocess.run([LQGEN, "watch", *arguments], capture_output=True, text=True, timeout=60, check=False)
             self.assertEqual(done.returncode, status, arguments)
             self.assertTrue(done.stderr)
 
