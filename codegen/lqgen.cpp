@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "commands/check.hpp"
 #include "commands/new.hpp"
 #include "commands/run.hpp"
 #include "commands/simulate.hpp"
@@ -38,7 +39,7 @@ enum Exit { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 
 struct Arguments {
   std::string design_file;
-  bool only_checks = false;
+  bool wants_json = false;  // of `check`
   std::string folder = ".";
   std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
@@ -97,7 +98,8 @@ void show_summary(const Arguments& arguments, const emit::Controller& controller
 // What the design is held against.
 enum class Requires { all, nothing };
 
-// The controller of the file; none where the findings, which are printed, say why not: then `status` is set.
+// The controller of the file; none where the findings, which are printed, say why not: then `status` is set. `findings`
+// are those of the design.
 std::optional<emit::Controller> controller_of(const Arguments& arguments, const input::DesignFile& file,
                                               Requires wanted, Watch& watch, int& status, design::Findings& findings) {
   report(arguments, file, file.findings);
@@ -131,6 +133,24 @@ std::optional<emit::Controller> design_controller(const Arguments& arguments, Wa
                        findings);
 }
 
+// `lqgen check`: nothing is written but to the terminal.
+int check(const Arguments& arguments) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  design::Findings findings;
+  int status = written;
+  const std::optional<emit::Controller> controller =
+      controller_of(arguments, file, Requires::all, watch, status, findings);
+  watch.end();
+  if (arguments.wants_json) {
+    findings.insert(findings.begin(), file.findings.begin(), file.findings.end());
+    std::cout << commands::check_json(status, file, findings, controller ? &*controller : nullptr);
+  } else if (controller) {
+    show_summary(arguments, *controller);
+  }
+  return status;
+}
+
 int generate(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   int status = written;
@@ -141,10 +161,6 @@ int generate(const Arguments& arguments) {
   watch.show("code, test and report");
   const std::vector<emit::File> outputs = files(arguments, *controller, findings);
   watch.end();
-  if (arguments.only_checks) {
-    show_summary(arguments, *controller);
-    return written;
-  }
   if (overwrites_design(arguments, outputs)) {
     std::cerr << input::printable(arguments.design_file)
               << ": expected a design file that is not one of the outputs; rename it, or choose another folder "
@@ -200,8 +216,8 @@ bool write_simulations(const Arguments& arguments, const commands::SimulateArgum
 int simulate_design(const Arguments& arguments, const commands::SimulateArguments& wanted) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   const input::DesignFile file = input::read_design_file(arguments.design_file);
-  int status = written;
   design::Findings findings;
+  int status = written;
   const std::optional<emit::Controller> controller =
       controller_of(arguments, file, Requires::nothing, watch, status, findings);
   if (!controller) return status;
@@ -374,8 +390,9 @@ int main(int argc, char** argv) {
   add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
   add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");
 
-  CLI::App* const check = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
-  add_design_options(*check, arguments);
+  CLI::App* const checking = app.add_subcommand("check", "Designs and writes nothing: for editors and CI.");
+  add_design_options(*checking, arguments);
+  checking->add_flag("--json", arguments.wants_json, "print what there is to say, and the design, as JSON");
   commands::SimulateArguments simulate_arguments;
   const CLI::App* const simulation = add_simulate(app, arguments, simulate_arguments);
   CLI::App* const runner = app.add_subcommand("run", "Runs the controller: y on standard input, u on standard output.");
@@ -399,12 +416,12 @@ int main(int argc, char** argv) {
     if (error.get_exit_code() != 0 && explain_unknown_options(app)) return wrong;
     return app.exit(error) == 0 ? written : wrong;
   }
-  arguments.only_checks = static_cast<bool>(*check);
   const std::string command = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name();
   try {
     if (*beginning) return make_new(new_arguments);
     if (*watching) return view::watch(watch_arguments);
     if (*comparison) return compare_designs(compare_arguments);
+    if (*checking) return check(arguments);
     if (*runner) return run_controller(arguments);
     return *simulation ? simulate_design(arguments, simulate_arguments) : generate(arguments);
   } catch (const std::exception& error) {

@@ -25,10 +25,11 @@ Copyright: ${holder}
  and those whom libraries/NAME.copyright beside this file names
 License: Expat and Apache-2.0 and MPL-2.0 and BSL-1.0 and BSD-3-clause
 Comment: lqgen has parts of these libraries inside: Mbed TLS (Apache-2.0),
- Eigen (MPL-2.0), Boost (BSL-1.0), CLI11 (BSD-3-clause), toml++ and
- JSON for Modern C++ (Expat). It uses the shared libraries of MPFR and GMP
- (LGPL-3+), which are in packages of their own. What Debian says of each
- of them stands in libraries/NAME.copyright beside this file.
+ Eigen (MPL-2.0), Boost (BSL-1.0), CLI11 and Fast C++ CSV
+ Parser (BSD-3-clause), toml++, JSON for Modern C++ and Chart.js (Expat).
+ It uses the shared libraries of MPFR and GMP (LGPL-3+), which are in
+ packages of their own. What Debian says of each of them stands in
+ libraries/NAME.copyright beside this file.
 
 License: Expat
  ${license}
@@ -44,7 +45,8 @@ License: BSL-1.0
  The full text is in libraries/boost.copyright beside this file.
 
 License: BSD-3-clause
- The full text is in libraries/cli11.copyright beside this file.
+ The full texts are in libraries/cli11.copyright and
+ libraries/fast-cpp-csv-parser.copyright beside this file.
 ")
 include(${CMAKE_CURRENT_LIST_DIR}/licenses.cmake)
 lqg_copy_copyrights(${documents}/libraries)

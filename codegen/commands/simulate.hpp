@@ -26,8 +26,8 @@ using SimulateProgress = std::function<void(const std::string& work, double shar
 
 // What the arguments ask for, or in `why` what is wrong with them.
 std::optional<emit::Simulations> run_simulations(const controller::Controller& controller,
-                                                 const SimulateArguments& arguments,
-                                                 const SimulateProgress& progress, std::string& why);
+                                                 const SimulateArguments& arguments, const SimulateProgress& progress,
+                                                 std::string& why);
 
 // What [require] asks for and the loop, or a single run, misses.
 design::Findings missed_requirements(const controller::Controller& controller, const emit::Simulations& simulations);

@@ -52,10 +52,15 @@ const KeyRule* nearest(const std::string& parent, const std::string& name) {
   return best;
 }
 
-// The same name in another table.
+bool is_of_many_tables(const KeyRule& rule) {
+  const KeyRule* table = find_rule(parent_of(rule.path));
+  return table != nullptr && table->type == Type::tables;
+}
+
+// The same name in another table; those of which there may be many have names that belong to no one table.
 const KeyRule* elsewhere(const std::string& name) {
   for (const KeyRule& rule : key_rules())
-    if (name_of(rule.path) == name) return &rule;
+    if (name_of(rule.path) == name && !is_of_many_tables(rule)) return &rule;
   return nullptr;
 }
 

@@ -29,6 +29,9 @@ std::string joined(const std::string& parent, const std::string& name) {
   return parent.empty() ? segment : parent + "." + segment;
 }
 
+// "Q" of "lqr.Q"
+std::string name_in_table(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
 // The key itself, or the bracket before it in a table's header.
 Location start_of(const Key& key, const Node& node) {
   const auto order = [](const Location& where) { return std::pair(where.line, where.column); };
@@ -62,7 +65,8 @@ class Collector {
  private:
   void report_unknown(const Key& key, const Node& node, const std::string& parent, const std::string& path) {
     const Suggestion suggestion = suggest(rule_path(parent), key.name);
-    values_.present.insert(suggestion.path);
+    const bool is_here = parent_of(suggestion.path) == rule_path(parent);
+    values_.present.insert(is_here ? joined(parent, name_in_table(suggestion.path)) : suggestion.path);
     report_.error(path, start_of(key, node), suggestion.message);
   }
 

@@ -95,7 +95,8 @@ ScenarioRun empty_run(const PreparedScenario& prepared, const TruthModel& truth)
   run.name = prepared.scenario.name;
   run.times.resize(samples);
   for (Index k = 0; k < samples; ++k) run.times(k) = static_cast<double>(k) * truth.T;
-  run.x = run.estimate = MatrixXd::Zero(truth.nx, samples);
+  run.x = MatrixXd::Zero(truth.nx, samples);
+  run.estimate = MatrixXd::Zero(controller.size.nx, samples);
   run.y = run.outputs = MatrixXd::Zero(truth.ny, samples);
   run.u = MatrixXd::Zero(truth.nu, samples);
   run.r = prepared.courses.reference;
@@ -156,7 +157,7 @@ void run_samples(ScenarioSurroundings& around, ScenarioRun& run, TakeSample take
     }
     const Sample sample = take_sample_of();
     if (!around.controller.is_predictor && around.controller.has.filter) around.truth.ask(sample.u);
-    run.estimate.col(around.k) = sample.estimate.head(run.estimate.rows());
+    run.estimate.col(around.k) = sample.estimate;
     run.u.col(around.k) = sample.u;
     run.y.col(around.k) = sample.y;
     run.events[static_cast<std::size_t>(around.k)] = sample.events;

@@ -39,7 +39,8 @@ struct ScenarioRun {
   std::string name;
   Eigen::VectorXd times;     // s
   Eigen::MatrixXd x;         // of the plant's own states (without inputs on their way)
-  Eigen::MatrixXd estimate;  // the same states as u was made of them; x itself without a filter
+  Eigen::MatrixXd estimate;  // as u was made of it: of these states, and of the inputs on their way; x itself without
+                             // a filter
   Eigen::MatrixXd sigma;     // standard deviation of the estimate's error that the design promises; empty without noise
   Eigen::MatrixXd y;         // as the controller was told, numbers of the target
   Eigen::MatrixXd outputs;   // C x + D u without noise

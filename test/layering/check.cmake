@@ -64,7 +64,7 @@ check(codegen/step  ${any_room} "^step/")
 check(codegen/trace ${any_room} "^trace/")
 check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/" "^csv\\.h$")
 check(codegen/controller ${any_room} "^controller/" "^design/" "^step/")
-check(codegen/simulate   ${any_room} "^simulate/" "^controller/" "^design/" "^step/")
+check(codegen/simulate   ${any_room} "^boost/math/" "^simulate/" "^controller/" "^design/" "^step/")
 
 set(room_folder codegen/emit)
 set(below_emit "^controller/" "^simulate/" "^design/" "^step/" "^trace/")
@@ -73,7 +73,7 @@ check_floors(emit "^emit/controller\\.hpp$" "text;page;recorded;vectors;plan;c;p
 check(codegen/emit ${any_room} "^controller/" "^design/")
 check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.hpp$" "^nlohmann/")
 check(codegen/commands ${any_room} "^commands/" "^input/" "^emit/" "^controller/" "^simulate/" "^design/" "^step/"
-      "^lqg/status\\.h$")
+      "^nlohmann/" "^lqg/status\\.h$")
 check(codegen/serve ${any_room} "^serve/" "^boost/(asio|beast)/")
 check(codegen/view ${any_room} "^view/" "^serve/" "^emit/" "^controller/" "^input/" "^design/" "^nlohmann/")
 check(codegen ${any_room} "^commands/" "^view/(watch|compare)\\.hpp$" "^input/" "^reference/documents\\.hpp$" "^emit/"

@@ -16,6 +16,7 @@
 #include "emit/plan/plan.hpp"
 #include "input/design_file.hpp"
 #include "lqg/status.h"
+#include "simulate/scenario_run.hpp"
 #include "simulate/simulation.hpp"
 
 namespace {
@@ -94,17 +95,29 @@ void write(std::FILE* file, const Eigen::VectorXd& values) {
   for (const double value : values) write(file, value);
 }
 
-void record(const Controller& controller, const simulate::SimulationOptions& options, std::FILE* file) {
-  const simulate::Trajectory run = simulate::simulate(controller, options);
-  write(file, options.samples);
-  for (int k = 0; k < options.samples; ++k) {
-    write(file, options.r);
+template <class Run>
+void record(const Controller& controller, const Run& run, const Eigen::MatrixXd& r, unsigned long resets,
+            std::FILE* file) {
+  write(file, static_cast<double>(r.cols()));
+  for (Eigen::Index k = 0; k < r.cols(); ++k) {
+    write(file, Eigen::VectorXd(r.col(k)));
     write(file, controller.has.filter ? Eigen::VectorXd(run.y.col(k)) : Eigen::VectorXd(run.estimate.col(k)));
     write(file, Eigen::VectorXd(run.u.col(k)));
     write(file, Eigen::VectorXd(run.estimate.col(k)));
     write(file, status_of(run.events[static_cast<std::size_t>(k)]));
   }
-  write(file, static_cast<double>(run.resets));
+  write(file, static_cast<double>(resets));
+}
+
+void record(const Controller& controller, const simulate::SimulationOptions& options, std::FILE* file) {
+  const simulate::Trajectory run = simulate::simulate(controller, options);
+  record(controller, run, options.r.replicate(1, options.samples), run.resets, file);
+}
+
+// The scenarios of the design, or those that are shown without any.
+void record(const Controller& controller, const design::Scenario& scenario, std::FILE* file) {
+  const simulate::ScenarioRun run = simulate::run_scenario(controller, scenario);
+  record(controller, run, run.r, run.numbers.resets, file);
 }
 
 }  // namespace
@@ -115,7 +128,9 @@ int main(int count, char* arguments[]) {
   std::FILE* file = std::fopen(arguments[4], "wb");
   if (!file) stop(std::string(arguments[4]) + ": cannot be written");
   const std::vector<simulate::SimulationOptions> runs = runs_of(controller);
-  write(file, static_cast<double>(runs.size()));
+  const std::vector<design::Scenario> scenarios = simulate::scenarios_to_show(controller);
+  write(file, static_cast<double>(runs.size() + scenarios.size()));
   for (const simulate::SimulationOptions& options : runs) record(controller, options, file);
+  for (const design::Scenario& scenario : scenarios) record(controller, scenario, file);
   return std::fclose(file) == 0 ? 0 : 1;
 }

@@ -16,8 +16,8 @@ std::string paragraph(const std::string& name, const std::string& text) {
 std::string notes(const PageData& data) {
   std::string out;
   for (const PageNote& note : data.notes)
-    out += "<li>" + (note.key.empty() ? "" : "<code>" + escaped(note.key) + "</code>: ") + escaped(note.text) +
-           "</li>\n";
+    out +=
+        "<li>" + (note.key.empty() ? "" : "<code>" + escaped(note.key) + "</code>: ") + escaped(note.text) + "</li>\n";
   return out.empty() ? "" : "<ul class=\"notes\">\n" + out + "</ul>\n";
 }
 
@@ -66,8 +66,7 @@ std::string matrix_of(const PageMatrix& matrix) {
   std::string out = "<details data-name=\"" + escaped(matrix.name) + "\"><summary>" + escaped(matrix.name) + " <span>" +
                     escaped(matrix.words) + (matrix.words.empty() ? "" : ", ") + std::to_string(matrix.values.size()) +
                     " × " + std::to_string(columns) + "</span></summary>\n<div class=\"matrix\" data-matrix=\"" +
-                    escaped(matrix.name) + "\" data-real=\"" + (matrix.is_double ? "double" : "float") +
-                    "\"><table>\n";
+                    escaped(matrix.name) + "\" data-real=\"" + (matrix.is_double ? "double" : "float") + "\"><table>\n";
   if (!matrix.columns.empty()) {
     std::vector<std::string> names = matrix.columns;
     if (!matrix.rows.empty()) names.insert(names.begin(), "");
@@ -100,8 +99,8 @@ std::string charts(const PageSection& section, std::size_t which, bool with_pict
   std::string out;
   for (std::size_t i = 0; i < view.charts.size(); ++i)
     out += std::string("<figure class=\"chart") + (view.charts[i].is_square ? " square" : "") +
-           place_of(view.charts, i) + (with_pictures ? " pictured" : "") + "\" data-chart=\"" + chart_id(section, which, i) + "\">\n" +
-           (with_pictures ? svg(view.charts[i]) : "") + "</figure>\n";
+           place_of(view.charts, i) + (with_pictures ? " pictured" : "") + "\" data-chart=\"" +
+           chart_id(section, which, i) + "\">\n" + (with_pictures ? svg(view.charts[i]) : "") + "</figure>\n";
   if (out.empty()) return "";
   return std::string("<div class=\"charts") + (view.charts.size() > most_large ? " many" : "") + "\">\n" + out +
          "</div>\n";

@@ -26,8 +26,8 @@ struct PageTable {
 
 // Numbers with names of their rows and columns, as text that reads back exactly.
 struct PageMatrix {
-  std::string name;    // "K": how it is called where it is copied to
-  std::string words;   // what it is: "gain of the regulator"; may be empty
+  std::string name;                        // "K": how it is called where it is copied to
+  std::string words;                       // what it is: "gain of the regulator"; may be empty
   std::vector<std::string> rows, columns;  // names; may be empty
   std::vector<std::vector<std::string>> values;
   bool is_double = true;  // of C: double, else float
@@ -81,9 +81,9 @@ struct PageExtras {
   bool may_connect = false;  // scripts may talk to the server that the page came from
 };
 
-// Shortens curves and bands to at most 1500 points each, and to fewer, not below 150, where the page would have more than
-// so many points in all: least and largest values stay.
-void shorten(PageData& data, std::size_t points = 60000);
+// Shortens curves and bands to at most 1500 points each, and to fewer, not below 150, where the page would have more
+// than so many points in all: least and largest values stay.
+void shorten(PageData& data, std::size_t points = 40000);
 
 std::string page_html(const PageData& data, const PageExtras& extras = {});
 std::string page_json(const PageData& data);

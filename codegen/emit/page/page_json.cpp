@@ -62,9 +62,7 @@ const char* name_of(Mark mark) {
   }
 }
 
-const char* name_of(Role role) {
-  return role == Role::data ? "data" : role == Role::ghost ? "ghost" : "grid";
-}
+const char* name_of(Role role) { return role == Role::data ? "data" : role == Role::ghost ? "ghost" : "grid"; }
 
 Json json_of(const Axis& axis) { return {{"label", axis.label}, {"log", axis.is_logarithmic}}; }
 
@@ -104,9 +102,8 @@ void add_marks(Json& out, const Chart& chart) {
                               {"radius", six_digits(circle.radius)},
                               {"label", circle.label}});
   for (const Guide& guide : chart.guides)
-    out["guides"].push_back({{"axis", guide.axis == Guide::Axis::x ? "x" : "y"},
-                             {"at", six_digits(guide.at)},
-                             {"label", guide.label}});
+    out["guides"].push_back(
+        {{"axis", guide.axis == Guide::Axis::x ? "x" : "y"}, {"at", six_digits(guide.at)}, {"label", guide.label}});
   for (const Note& note : chart.notes)
     out["notes"].push_back({{"x", six_digits(note.x)},
                             {"y", six_digits(note.y)},

@@ -23,20 +23,6 @@ std::size_t points_with(PageData& data, std::size_t most) {
   return count;
 }
 
-// Bands are smooth: of each so many points the first, and the last of all.
-void shorten(Band& band, std::size_t most) {
-  const std::size_t size = band.x.size();
-  if (size <= most) return;
-  const Band whole = band;
-  band.x.clear(), band.low.clear(), band.high.clear();
-  for (std::size_t k = 0; k < most; ++k) {
-    const std::size_t at = k * (size - 1) / (most - 1);
-    band.x.push_back(whole.x[at]);
-    band.low.push_back(whole.low[at]);
-    band.high.push_back(whole.high[at]);
-  }
-}
-
 }  // namespace
 
 void shorten(PageData& data, std::size_t points) {
@@ -44,7 +30,7 @@ void shorten(PageData& data, std::size_t points) {
   while (most > 150 && points_with(data, most) > points) most = most * 4 / 5;
   each_chart(data, [&](Chart& chart) {
     for (Curve& curve : chart.curves) curve = reduced(curve, most);
-    for (Band& band : chart.bands) shorten(band, most);
+    for (Band& band : chart.bands) band = reduced(band, most);
   });
 }
 

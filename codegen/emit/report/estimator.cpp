@@ -72,8 +72,13 @@ int samples_to_settle(const Controller& controller) {
 Beginning beginning(const Controller& controller) {
   const design::Solution& solution = controller.solution;
   const bool is_on_line = carries_covariance(controller);
-  Covariances now = {in_double(solution.plant.A), in_double(solution.plant.C), in_double(solution.plant.G),
-                     in_double(solution.noise->W), in_double(solution.noise->V), in_double(solution.noise->Swv), {}};
+  Covariances now = {in_double(solution.plant.A),
+                     in_double(solution.plant.C),
+                     in_double(solution.plant.G),
+                     in_double(solution.noise->W),
+                     in_double(solution.noise->V),
+                     in_double(solution.noise->Swv),
+                     {}};
   now.P = first_covariance(controller, now.A.rows());
   Beginning out;
   const int samples = samples_to_settle(controller);
@@ -114,9 +119,8 @@ std::vector<Chart> deviation_charts(const Controller& controller, const Beginnin
   const std::vector<design::Signal>& states = controller.problem.plant.states;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const std::string& unit = states[i].unit;
-    auto same = std::find_if(charts.begin(), charts.end(), [&](const Chart& chart) {
-      return chart.y.label == unit && chart.curves.size() < 7;
-    });
+    auto same = std::find_if(charts.begin(), charts.end(),
+                             [&](const Chart& chart) { return chart.y.label == unit && chart.curves.size() < 7; });
     if (same == charts.end()) same = charts.insert(same, deviation_chart(unit, charts.size()));
     Chart& chart = *same;
     const int number = static_cast<int>(chart.curves.size());
@@ -139,8 +143,8 @@ Chart gain_chart(const Controller& controller, const Beginning& found) {
   for (int j = 0; j < controller.size.ny; ++j) {
     const double last = found.gain.back().col(j).norm();
     if (!(last > 0)) continue;
-    Curve curve = {controller.problem.plant.outputs[static_cast<std::size_t>(j)].name, line_marks[j % 4], j,
-                   found.times, {}};
+    Curve curve = {
+        controller.problem.plant.outputs[static_cast<std::size_t>(j)].name, line_marks[j % 4], j, found.times, {}};
     for (const MatrixXd& gain : found.gain) curve.y.push_back(gain.col(j).norm() / last);
     chart.curves.push_back(std::move(curve));
   }
@@ -154,8 +158,9 @@ PageSection estimator_section(const Controller& controller, const Runs& runs) {
   PageView view;
   if (is_known(controller)) {
     const Beginning found = beginning(controller);
-    view.text = "From the start, where the error has the covariance P0, to what it is for good; and what the "
-                "innovations of a run tell of it.";
+    view.text =
+        "From the start, where the error has the covariance P0, to what it is for good; and what the "
+        "innovations of a run tell of it.";
     view.charts = deviation_charts(controller, found);
     if (carries_covariance(controller) || controller.filters.size() > 1)
       view.charts.push_back(gain_chart(controller, found));

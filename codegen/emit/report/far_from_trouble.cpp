@@ -42,6 +42,13 @@ std::vector<double> frequencies(const std::vector<double>& angles, double sample
 // Curves of gains in dB are cut off far below what matters.
 double shown_decibels(double gain) { return std::max(decibels(gain), -200.0); }
 
+// Above the curve.
+void make_room_for_words(Chart& chart) {
+  const Window window = window_of(chart);
+  chart.y_low = window.y_low;
+  chart.y_high = window.y_high + 0.15 * (window.y_high - window.y_low);
+}
+
 template <class Value>
 std::vector<double> decibels_of(const std::vector<Complex>& L, Value value) {
   std::vector<double> out;
@@ -77,7 +84,8 @@ void mark_gain_margins(const LoopCurve& loop, double T, Chart& gain) {
     if (!(l.real() < 0) || std::abs(l.imag()) > 1e-3 * std::abs(l.real())) continue;
     const double margin = -decibels(std::abs(l));
     if (std::abs(margin) > 60) continue;
-    gain.notes.push_back({hertz(angle, T), -margin, (margin > 0 ? "+" : "−") + decimal(std::abs(margin)) + " dB", 0, 0});
+    gain.notes.push_back(
+        {hertz(angle, T), -margin, (margin > 0 ? "+" : "−") + decimal(std::abs(margin)) + " dB", 0, 0});
   }
 }
 
@@ -90,27 +98,24 @@ std::vector<Chart> bode(const LoopCurve& loop, double T, const std::string& id) 
   gain.guides.push_back({Guide::Axis::y, 0, ""});
   phase.guides.push_back({Guide::Axis::y, -180, "−180°"});
   look_about_0_dB(-60, 80, gain);
+  make_room_for_words(phase);
   mark_crossovers(loop, T, gain, phase);
   mark_gain_margins(loop, T, gain);
   return {gain, phase};
 }
 
-void mark_peak(const Curve& curve, Chart& chart) {
-  const auto top = std::max_element(curve.y.begin(), curve.y.end());
-  if (top == curve.y.end()) return;
-  chart.notes.push_back({curve.x[static_cast<std::size_t>(top - curve.y.begin())], *top,
-                         curve.label + " at most " + decimal(*top) + " dB", 0, 0});
+std::string peak_of(const std::string& name, const Curve& curve) {
+  return name + " at most " + decimal(*std::max_element(curve.y.begin(), curve.y.end())) + " dB";
 }
 
 Chart sensitivities(const LoopCurve& loop, double T, const std::string& id) {
-  Chart chart = over_frequency("Sensitivities |S| and |T|", id + "-sensitivity", "dB");
+  Chart chart = over_frequency("", id + "-sensitivity", "dB");
   const std::vector<double> f = frequencies(loop.angles, T);
   chart.curves = {{"|S|", Mark::line, 0, f, decibels_of(loop.L, [](Complex l) { return 1.0 / (1.0 + l); })},
                   {"|T|", Mark::dashes, 1, f, decibels_of(loop.L, [](Complex l) { return l / (1.0 + l); })}};
   chart.guides.push_back({Guide::Axis::y, 0, ""});
   look_about_0_dB(-40, 40, chart);
-  mark_peak(chart.curves[0], chart);
-  if (*std::max_element(chart.curves[1].y.begin(), chart.curves[1].y.end()) > 0.1) mark_peak(chart.curves[1], chart);
+  chart.title = peak_of("|S|", chart.curves[0]) + ", " + peak_of("|T|", chart.curves[1]);
   return chart;
 }
 
@@ -127,7 +132,7 @@ Chart singular_values(const LoopResponse& response, const std::vector<std::vecto
   }
   chart.guides.push_back({Guide::Axis::y, 0, ""});
   name == "L" ? look_about_0_dB(-60, 80, chart) : look_about_0_dB(-40, 40, chart);
-  if (name != "L") mark_peak(chart.curves.front(), chart);
+  if (name != "L") chart.title += ", " + peak_of("σ1", chart.curves.front());
   return chart;
 }
 
@@ -163,8 +168,7 @@ PageSection far_from_trouble(const Controller& controller) {
   const std::optional<LoopResponse> response = loop_response(controller);
   if (!response) return section;
   if (response->loops.size() > 1) section.views.push_back(all_loops(*response));
-  for (std::size_t i = 0; i < response->loops.size(); ++i)
-    section.views.push_back(one_loop(controller, *response, i));
+  for (std::size_t i = 0; i < response->loops.size(); ++i) section.views.push_back(one_loop(controller, *response, i));
   return section;
 }
 

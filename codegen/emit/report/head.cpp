@@ -163,8 +163,8 @@ void set_verdict(const Controller& controller, PageData& page) {
 void add_head(const Controller& controller, const design::Findings& findings, PageData& page) {
   page.title = controller.problem.name;
   page.brief = controller.problem.brief;
-  page.made = "Made by lqgen " + version() + " from " + controller.source.file + ", SHA-256 " +
-              controller.source.sha256;
+  page.made =
+      "Made by lqgen " + version() + " from " + controller.source.file + ", SHA-256 " + controller.source.sha256;
   page.figures = figures_of(controller);
   set_verdict(controller, page);
   for (const design::Finding& finding : findings)

@@ -70,16 +70,19 @@ PageTable shares(const Controller& controller, const simulate::ScenarioRun& run)
     double sum = 0;
     for (const double value : nis) sum += value;
     const std::string expected = std::to_string(controller.size.ny);
-    table.rows.push_back({"mean of NIS; " + expected + " where the filter is right",
-                          decimal(sum / static_cast<double>(nis.size()))});
+    table.rows.push_back(
+        {"mean of NIS; " + expected + " where the filter is right", decimal(sum / static_cast<double>(nis.size()))});
     table.rows.push_back({"share of NIS below its 95 % bound",
                           decimal(100 * share_below(nis, chi_squared(controller.size.ny, 0.05))) + " %"});
   }
-  for (std::size_t i = 0; i < run.numbers.left_out.size(); ++i)
-    table.rows.push_back({controller.problem.plant.outputs[i].name + " left out",
-                          decimal(100.0 * static_cast<double>(run.numbers.left_out[i]) /
-                                  static_cast<double>(run.times.size())) +
-                              " %"});
+  const auto& left_out = run.numbers.left_out;
+  if (std::all_of(left_out.begin(), left_out.end(), [](unsigned long count) { return count == 0; }))
+    table.rows.push_back({"outputs left out", "none"});
+  for (std::size_t i = 0; i < left_out.size(); ++i)
+    if (left_out[i])
+      table.rows.push_back(
+          {controller.problem.plant.outputs[i].name + " left out",
+           decimal(100.0 * static_cast<double>(left_out[i]) / static_cast<double>(run.times.size())) + " %"});
   return table;
 }
 

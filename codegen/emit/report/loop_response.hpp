@@ -22,9 +22,9 @@ struct LoopCurve {
 
 struct LoopResponse {
   double sample_time = 0;
-  std::vector<LoopCurve> loops;                        // input by input
-  std::vector<double> angles;                          // of what follows
-  std::vector<std::vector<double>> of_L, of_S, of_T;   // singular values, falling, at each angle; with several inputs
+  std::vector<LoopCurve> loops;                       // input by input
+  std::vector<double> angles;                         // of what follows
+  std::vector<std::vector<double>> of_L, of_S, of_T;  // singular values, falling, at each angle; with several inputs
 };
 
 // Empty for designs without a regulator, and where the loop has no steady margins because its gains change to the end.

@@ -49,8 +49,7 @@ class Matrices {
     PageMatrix matrix = {name, words, fitting(rows, values.rows()), fitting(columns, values.cols()), {}, is_double_};
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
       matrix.values.emplace_back();
-      for (Eigen::Index j = 0; j < values.cols(); ++j)
-        matrix.values.back().push_back(number(values(i, j), is_double_));
+      for (Eigen::Index j = 0; j < values.cols(); ++j) matrix.values.back().push_back(number(values(i, j), is_double_));
     }
     all_.push_back(std::move(matrix));
   }

@@ -15,8 +15,8 @@ void mark_frequencies(const LoopCurve& loop, double sample_time, Chart& chart) {
   const double apart = (chart.x_high - chart.x_low) / 5;
   for (std::size_t k = 1; k + 1 < loop.L.size(); ++k) {
     const Complex at = loop.L[k], along = loop.L[k + 1] - loop.L[k - 1];
-    const bool is_inside = at.real() > chart.x_low && at.real() < chart.x_high && at.imag() > chart.y_low &&
-                           at.imag() < chart.y_high;
+    const bool is_inside =
+        at.real() > chart.x_low && at.real() < chart.x_high && at.imag() > chart.y_low && at.imag() < chart.y_high;
     const bool is_free = std::none_of(chart.notes.begin(), chart.notes.end(), [&](const Note& note) {
       return std::hypot(note.x - at.real(), note.y - at.imag()) < apart;
     });
@@ -27,9 +27,8 @@ void mark_frequencies(const LoopCurve& loop, double sample_time, Chart& chart) {
 }
 
 Curve curve_of(const LoopCurve& loop, double sample_time, bool is_mirrored) {
-  Curve curve = {is_mirrored ? "f < 0" : "L, f > 0", is_mirrored ? Mark::dashes : Mark::line, is_mirrored ? 5 : 0,
-                 {},
-                 {}};
+  Curve curve = {
+      is_mirrored ? "f < 0" : "L, f > 0", is_mirrored ? Mark::dashes : Mark::line, is_mirrored ? 5 : 0, {}, {}};
   for (std::size_t k = 0; k < loop.L.size(); ++k) {
     curve.x.push_back(loop.L[k].real());
     curve.y.push_back(is_mirrored ? -loop.L[k].imag() : loop.L[k].imag());
@@ -52,8 +51,8 @@ Chart chart_of(const LoopCurve& loop, double sample_time, const std::optional<do
     const double far = (2 + *disk) / (2 - *disk), near = 1 / far;
     chart.circles.push_back({-(far + near) / 2, 0, (far - near) / 2, "disk margin"});
   }
-  chart.curves = {curve_of(loop, sample_time, true), curve_of(loop, sample_time, false),
-                  {"−1", Mark::crosses, 1, {-1}, {0}}};
+  chart.curves = {
+      curve_of(loop, sample_time, true), curve_of(loop, sample_time, false), {"−1", Mark::crosses, 1, {-1}, {0}}};
   mark_frequencies(loop, sample_time, chart);
   return chart;
 }
@@ -68,8 +67,7 @@ std::vector<Chart> nyquist(const LoopCurve& loop, double sample_time, const std:
   std::vector<Chart> charts = {chart_of(loop, sample_time, disk, "Nyquist curve about −1", -0.75, near)};
   charts.back().id = id + "-nyquist";
   if (largest < near) return charts;
-  charts.push_back(
-      chart_of(loop, sample_time, disk, "Nyquist curve, overview", 0, std::min(far, 1.1 * largest)));
+  charts.push_back(chart_of(loop, sample_time, disk, "Nyquist curve, overview", 0, std::min(far, 1.1 * largest)));
   charts.back().id = id + "-nyquist-all";
   return charts;
 }

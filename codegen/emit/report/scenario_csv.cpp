@@ -125,7 +125,7 @@ std::string csv(const Controller& controller, const ScenarioRun& run) {
   table.add("y_", plant.outputs, run.y);
   table.add("u_", plant.inputs, run.u);
   table.add("x_", plant.states, run.x);
-  if (controller.has.filter) table.add("estimate_", plant.states, run.estimate);
+  if (controller.has.filter) table.add("estimate_", plant.states, run.estimate.topRows(run.x.rows()));
   table.add("sigma_", plant.states, run.sigma);
   table.add("innovation_", plant.outputs, run.innovation);
   if (run.nis.size()) table.add("nis", run.nis), table.add("nees", run.nees);

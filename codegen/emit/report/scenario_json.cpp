@@ -78,7 +78,7 @@ void add_rows(Json& to, const char* name, const Eigen::MatrixXd& values) {
 Json run_json(const Controller& controller, const simulate::ScenarioRun& run, std::uint64_t seed) {
   Json out = {{"name", run.name}, {"seed", seed}, {"t", list_of(run.times)}};
   out["x"] = rows_of(run.x);
-  out["estimate"] = rows_of(run.estimate);
+  out["estimate"] = rows_of(run.estimate.topRows(run.x.rows()));
   add_rows(out, "sigma", run.sigma);
   out["y"] = rows_of(run.y);
   out["outputs"] = rows_of(run.outputs);

@@ -18,23 +18,27 @@ PageTable answers_to_steps(const Controller& controller, const simulate::Scenari
   for (const simulate::StepAnswer& answer : numbers.answers) {
     const design::Signal& output = controller.problem.plant.outputs[static_cast<std::size_t>(answer.output)];
     table.rows.push_back({output.name, decimal(answer.from) + " to " + with_unit(answer.to, output.unit),
-                          in_seconds(answer.rise_time), in_seconds(answer.settling_time), as_percent(answer.overshoot)});
+                          in_seconds(answer.rise_time), in_seconds(answer.settling_time),
+                          as_percent(answer.overshoot)});
   }
   return table;
 }
 
+// Of those that were not 0 all the time.
 void add_sizes(const Signals& signals, const std::vector<double>& rms, const std::vector<double>& peak,
-                 PageTable& table) {
+               const std::string& kind, PageTable& table) {
   for (std::size_t i = 0; i < rms.size() && i < signals.size(); ++i)
-    table.rows.push_back({signals[i].name, with_unit(rms[i], signals[i].unit), with_unit(peak[i], signals[i].unit)});
+    if (peak[i] != 0)
+      table.rows.push_back(
+          {signals[i].name + ", " + kind, with_unit(rms[i], signals[i].unit), with_unit(peak[i], signals[i].unit)});
 }
 
 PageTable sizes_of_signals(const Controller& controller, const simulate::ScenarioNumbers& numbers) {
   const design::Plant& plant = controller.problem.plant;
   PageTable table = {"Sizes", {"signal", "rms", "peak"}, {}};
-  add_sizes(plant.outputs, numbers.rms_y, numbers.peak_y, table);
-  add_sizes(plant.inputs, numbers.rms_u, numbers.peak_u, table);
-  add_sizes(plant.states, numbers.rms_x, numbers.peak_x, table);
+  add_sizes(plant.outputs, numbers.rms_y, numbers.peak_y, "output", table);
+  add_sizes(plant.inputs, numbers.rms_u, numbers.peak_u, "input", table);
+  add_sizes(plant.states, numbers.rms_x, numbers.peak_x, "state", table);
   return table;
 }
 
@@ -59,7 +63,8 @@ PageTable incidents(const Controller& controller, const simulate::ScenarioRun& r
 }  // namespace
 
 std::vector<PageTable> number_tables(const Controller& controller, const simulate::ScenarioRun& run) {
-  return {answers_to_steps(controller, run.numbers), incidents(controller, run), sizes_of_signals(controller, run.numbers)};
+  return {answers_to_steps(controller, run.numbers), incidents(controller, run),
+          sizes_of_signals(controller, run.numbers)};
 }
 
 }  // namespace lqg::emit

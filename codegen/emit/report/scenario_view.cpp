@@ -27,9 +27,12 @@ std::string slug(const std::string& name) {
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (is_plain) out += c;
-    else if (c == ' ') out += '-';
-    else (out += '_') += {digits[byte >> 4], digits[byte & 15]};
+    if (is_plain)
+      out += c;
+    else if (c == ' ')
+      out += '-';
+    else
+      (out += '_') += {digits[byte >> 4], digits[byte & 15]};
   }
   return out;
 }

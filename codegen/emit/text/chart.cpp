@@ -80,9 +80,7 @@ class Picture {
 
  private:
   double at_x(double value) const { return left + share_of(x_, chart_.x.is_logarithmic, value) * plot_width; }
-  double at_y(double value) const {
-    return bottom_ - share_of(y_, chart_.y.is_logarithmic, value) * (bottom_ - top_);
-  }
+  double at_y(double value) const { return bottom_ - share_of(y_, chart_.y.is_logarithmic, value) * (bottom_ - top_); }
   bool shows(double x, double y) const {
     if (!std::isfinite(x) || !std::isfinite(y)) return false;
     return x_.low <= x && x <= x_.high && y_.low <= y && y <= y_.high;
@@ -94,8 +92,8 @@ class Picture {
   }
   static std::string text(const char* kind, const char* anchor, double x, double y, const std::string& words) {
     if (words.empty()) return "";
-    return std::string("<text class=\"") + kind + "\" text-anchor=\"" + anchor + "\" x=\"" + coordinate(x) +
-           "\" y=\"" + coordinate(y) + "\">" + escaped(words) + "</text>\n";
+    return std::string("<text class=\"") + kind + "\" text-anchor=\"" + anchor + "\" x=\"" + coordinate(x) + "\" y=\"" +
+           coordinate(y) + "\">" + escaped(words) + "</text>\n";
   }
 
   // Numbers at both axes; the lines through 0 are drawn stronger.
@@ -120,10 +118,11 @@ class Picture {
   std::string draw(const Band& band) const {
     const auto held = [&](double y) { return coordinate(at_y(std::clamp(y, y_.low, y_.high))); };
     const auto across = [&](double x) { return coordinate(at_x(std::clamp(x, x_.low, x_.high))); };
+    const Band shown = reduced(band, 100);
     std::string path;
-    for (std::size_t i = 0; i < band.x.size(); ++i)
-      path += (i ? "L" : "M") + across(band.x[i]) + " " + held(band.high[i]);
-    for (std::size_t i = band.x.size(); i-- > 0;) path += "L" + across(band.x[i]) + " " + held(band.low[i]);
+    for (std::size_t i = 0; i < shown.x.size(); ++i)
+      path += (i ? "L" : "M") + across(shown.x[i]) + " " + held(shown.high[i]);
+    for (std::size_t i = shown.x.size(); i-- > 0;) path += "L" + across(shown.x[i]) + " " + held(shown.low[i]);
     return "<path class=\"band b" + std::to_string(band.colour % 7) + "\" d=\"" + path + "z\"/>\n";
   }
 
@@ -154,7 +153,7 @@ class Picture {
               coordinate(x - c / 2 - s / 2) + " " + coordinate(y - s / 2 + c / 2) + "L" +
               coordinate(x - c / 2 + s / 2) + " " + coordinate(y - s / 2 - c / 2) + "z\"/>\n";
     }
-    const bool is_right = x > width - 70;
+    const bool is_right = x + 5.5 * static_cast<double>(letters(note.text)) + 8 > width;
     return arrow + text("note", is_right ? "end" : "start", x + (is_right ? -7 : 7), y - 5, note.text);
   }
 
@@ -189,8 +188,8 @@ class Picture {
     for (const LegendEntry& entry : entries()) {
       const double needed = 6.2 * static_cast<double>(letters(entry.label)) + 34;
       if (at + needed > width) at = left, height += legend_row;
-      out += "<g transform=\"translate(" + coordinate(at) + " " + coordinate(height - 8) + ")\"><path " +
-             entry.sample + "/><text x=\"20\" y=\"4\">" + escaped(entry.label) + "</text></g>\n";
+      out += "<g transform=\"translate(" + coordinate(at) + " " + coordinate(height - 8) + ")\"><path " + entry.sample +
+             "/><text x=\"20\" y=\"4\">" + escaped(entry.label) + "</text></g>\n";
       at += needed;
     }
     return out;
@@ -204,7 +203,7 @@ class Picture {
   }
 
   std::string draw(const Curve& curve) const {
-    constexpr std::size_t visible = 400;
+    constexpr std::size_t visible = 200;  // half of the pixels that a narrow picture has
     const std::string path = is_points(curve.mark) ? points(curve) : line_of(reduced(curve, visible));
     return "<path class=\"" + class_of(curve) + "\" d=\"" + path + "\"/>\n";
   }

@@ -21,7 +21,7 @@ struct Curve {
   int colour = 0;  // of the page's palette, --curve-0 to --curve-6
   std::vector<double> x, y;
   Role role = Role::data;
-  std::string owner = {};  // the design that it is of, where several are in one page; empty: the only one
+  std::string owner = {};               // the design that it is of, where several are in one page; empty: the only one
   std::vector<std::string> texts = {};  // point by point what a reader of the live page is told of it; or empty
 };
 
@@ -93,5 +93,8 @@ std::string svg(const Chart& chart);
 // Shorter curves that look the same: of each of `most`/2 buckets the first point that is the least and the first that
 // is the largest, in their order. Not of points, and not of curves with fewer points than `most`.
 Curve reduced(const Curve& curve, std::size_t most);
+
+// Bands are smooth: `most` > 1 points of it, evenly, with both ends.
+Band reduced(const Band& band, std::size_t most);
 
 }  // namespace lqg::emit

@@ -50,8 +50,8 @@ void make_room(const Chart& chart, const Range& x, Range& range) {
     for (std::size_t i = 0; i < band.x.size(); ++i)
       if (is_inside(x, band.x[i]) || band.x.size() == 2) add(band.low[i], 1), add(band.high[i], 1);
   for (const Guide& guide : chart.guides)
-    if (guide.axis == Guide::Axis::y && (is_empty(curves) || (guide.at > curves.low - size / 2 &&
-                                                              guide.at < curves.high + size / 2)))
+    if (guide.axis == Guide::Axis::y &&
+        (is_empty(curves) || (guide.at > curves.low - size / 2 && guide.at < curves.high + size / 2)))
       add(guide.at, 0.5);
 }
 
@@ -101,6 +101,19 @@ Curve reduced(const Curve& curve, std::size_t most) {
       out.y.push_back(*at);
       if (least == largest) break;
     }
+  }
+  return out;
+}
+
+Band reduced(const Band& band, std::size_t most) {
+  const std::size_t size = band.x.size();
+  if (size <= most) return band;
+  Band out = {band.label, band.colour, {}, {}, {}, band.owner};
+  for (std::size_t k = 0; k < most; ++k) {
+    const std::size_t at = k * (size - 1) / (most - 1);
+    out.x.push_back(band.x[at]);
+    out.low.push_back(band.low[at]);
+    out.high.push_back(band.high[at]);
   }
   return out;
 }

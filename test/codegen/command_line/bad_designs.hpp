@@ -26,4 +26,6 @@ std::vector<BadDesign> wrong_keys();
 std::vector<BadDesign> wrong_values();
 std::vector<BadDesign> wrong_shapes();
 std::vector<BadDesign> wrong_together();
-std::vector<BadDesign> impossible();  // right as files, but no such controller exists
+std::vector<BadDesign> wrong_scenarios();
+std::vector<BadDesign> missed_in_scenarios();  // right as files, but their controller does not do what [require] asks
+std::vector<BadDesign> impossible();           // right as files, but no such controller exists

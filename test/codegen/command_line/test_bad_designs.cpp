@@ -105,6 +105,8 @@ int main(int count, char** arguments) {
   check_all(wrong_values(), 2);
   check_all(wrong_shapes(), 2);
   check_all(wrong_together(), 2);
+  check_all(wrong_scenarios(), 2);
+  check_all(missed_in_scenarios(), 1);
   check_all(impossible(), 1);
   return UNITY_END();
 }

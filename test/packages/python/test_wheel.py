@@ -19,7 +19,18 @@ import tinylqg
 from designs import SOURCE, InFolder
 
 FOLDER = Path(os.environ["TINYLQG_BUILD"]) / "test" / "packages" / "python" / "wheel"
-LIBRARIES = ("boost", "cli11", "eigen", "gmp", "mbedtls", "mpfr", "nlohmann-json", "tomlplusplus")
+LIBRARIES = (
+    "boost",
+    "chart-js",
+    "cli11",
+    "eigen",
+    "fast-cpp-csv-parser",
+    "gmp",
+    "mbedtls",
+    "mpfr",
+    "nlohmann-json",
+    "tomlplusplus",
+)
 MADE = Path(os.environ["TINYLQG_BUILD"]) / "codegen"
 
 

@@ -97,7 +97,7 @@ function decadeTicks(low, high, most) {
   const first = Math.floor(Math.log10(low) + 1e-9);
   const last = Math.ceil(Math.log10(high) - 1e-9);
   const stride = Math.max(1, Math.ceil((last - first + 1) / most));
-  const inDecade = (last - first) * 3 <= most ? [1, 2, 5] : [1];
+  const inDecade = last - first <= 2 || (last - first) * 3 <= most ? [1, 2, 5] : [1];
   const ticks = [];
   for (let decade = first; decade <= last; decade += stride) {
     ticks.push(...inDecade.map((factor) => factor * 10 ** decade));
