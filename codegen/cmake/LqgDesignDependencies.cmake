@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What tinylqg::design is built on: Eigen, Boost.Multiprecision, MPFR, GMP. Those that are not found stand in
+# What tinylqg::design is built on: Eigen, Boost.Multiprecision, MPFR, GMP, threads. Those that are not found stand in
 # LQG_DESIGN_MISSING. MPFR and GMP bring no targets: tinylqg_mpfr is theirs; a program with the property LQG_STATIC_MPFR
 # gets their static libraries, where there are any.
 if(POLICY CMP0167)
@@ -7,6 +7,7 @@ if(POLICY CMP0167)
 endif()
 find_package(Eigen3 3.4 QUIET NO_MODULE)
 find_package(Boost 1.74 QUIET)
+find_package(Threads QUIET)
 find_path(MPFR_INCLUDE_DIR mpfr.h)
 find_library(MPFR_LIBRARY mpfr)
 find_library(GMP_LIBRARY gmp)
@@ -14,7 +15,7 @@ find_library(MPFR_STATIC_LIBRARY libmpfr.a)
 find_library(GMP_STATIC_LIBRARY libgmp.a)
 
 set(LQG_DESIGN_MISSING)
-foreach(need IN ITEMS Eigen3_FOUND Boost_FOUND MPFR_INCLUDE_DIR MPFR_LIBRARY GMP_LIBRARY)
+foreach(need IN ITEMS Eigen3_FOUND Boost_FOUND Threads_FOUND MPFR_INCLUDE_DIR MPFR_LIBRARY GMP_LIBRARY)
   if(NOT ${need})
     string(REGEX REPLACE "_.*" "" package ${need})
     list(APPEND LQG_DESIGN_MISSING ${package})

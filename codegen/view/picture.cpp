@@ -3,11 +3,13 @@
 
 #include <filesystem>
 
+#include "design/checks/requirements.hpp"
 #include "design/solve.hpp"
 #include "emit/plan/plan.hpp"
 #include "emit/report/report.hpp"
 #include "emit/text/sha256.hpp"
 #include "input/design_file.hpp"
+#include "simulate/scenario_requirements.hpp"
 
 namespace lqg::view {
 
@@ -29,22 +31,31 @@ controller::Source source_of(const std::string& text, const std::string& path) {
 }
 
 std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
-  std::optional<design::Solution> solution = design::first_look(*file.problem);
+  design::Problem problem = *file.problem;
+  problem.requirements = {};
+  std::optional<design::Solution> solution = design::first_look(problem);
   if (!solution) return std::nullopt;
   design::Findings ignored;
   const auto controller =
-      emit::make_controller(*file.problem, *std::move(solution), source_of(file.text, path), ignored);
+      emit::make_controller(std::move(problem), *std::move(solution), source_of(file.text, path), ignored);
   return controller ? std::optional(emit::page_data(*controller)) : std::nullopt;
 }
 
 std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, Picture& picture) {
+  design::Problem problem = *file.problem;
+  problem.requirements = {};  // who misses one wants to see by how much
   design::Findings findings;
-  std::optional<design::Solution> solution = design::solve(*file.problem, findings);
+  std::optional<design::Solution> solution = design::solve(problem, findings);
   std::optional<emit::Controller> controller;
   if (solution && !design::has_error(findings))
-    controller = emit::make_controller(*file.problem, *std::move(solution), source_of(file.text, path), findings);
+    controller = emit::make_controller(std::move(problem), *std::move(solution), source_of(file.text, path), findings);
   input::sort_by_place(file, findings);
   add_lines(picture, file, path, findings);
+  if (controller) {
+    controller->problem.requirements = file.problem->requirements;
+    design::check_requirements(controller->problem, controller->solution, findings);
+    simulate::check_scenario_requirements(*controller, findings);
+  }
   return controller ? std::optional(emit::page_data(*controller, findings)) : std::nullopt;
 }
 

@@ -139,14 +139,35 @@ std::string verdict_of_loop(const design::Margins& margins) {
   return "The loop is stable";
 }
 
-void set_verdict(const Controller& controller, PageData& page) {
-  const design::Margins& margins = controller.solution.loop.at_input;
+// "settling time" of "require.settling_time", "rms" of "require.rms[0].value".
+std::string requirement_in_words(const std::string& key) {
+  const std::size_t dot = key.find('.');
+  std::string words = dot == key.npos ? "" : key.substr(dot + 1);
+  words = words.substr(0, words.find('['));
+  for (char& c : words)
+    if (c == '_') c = ' ';
+  return words;
+}
+
+// What [require] asks for and a finding, or else a figure, misses.
+std::vector<std::string> missed_requirements(const design::Findings& findings, const PageData& page) {
   std::vector<std::string> missed;
-  bool has_requirement = false;
-  for (const PageFigure& figure : page.figures) {
-    has_requirement |= !figure.requirement.empty();
-    if (!figure.is_met) missed.push_back(figure.name);
+  for (const design::Finding& finding : findings) {
+    if (finding.severity != design::Severity::error) continue;
+    const std::string words = requirement_in_words(finding.key);
+    if (std::find(missed.begin(), missed.end(), words) == missed.end()) missed.push_back(words);
   }
+  if (!missed.empty()) return missed;
+  for (const PageFigure& figure : page.figures)
+    if (!figure.is_met) missed.push_back(figure.name);
+  return missed;
+}
+
+void set_verdict(const Controller& controller, const design::Findings& findings, PageData& page) {
+  const design::Margins& margins = controller.solution.loop.at_input;
+  const std::vector<std::string> missed = missed_requirements(findings, page);
+  bool has_requirement = false;
+  for (const PageFigure& figure : page.figures) has_requirement |= !figure.requirement.empty();
   page.is_sound = missed.empty() && at_risk(margins).empty();
   if (!missed.empty())
     page.verdict = "What is required is not met: " + joined(missed) + ".";
@@ -166,9 +187,10 @@ void add_head(const Controller& controller, const design::Findings& findings, Pa
   page.made =
       "Made by lqgen " + version() + " from " + controller.source.file + ", SHA-256 " + controller.source.sha256;
   page.figures = figures_of(controller);
-  set_verdict(controller, page);
-  for (const design::Finding& finding : findings)
-    if (finding.severity == design::Severity::note) page.notes.push_back({finding.key, finding.message});
+  set_verdict(controller, findings, page);
+  for (const auto severity : {design::Severity::error, design::Severity::note})
+    for (const design::Finding& finding : findings)
+      if (finding.severity == severity) page.notes.push_back({finding.key, finding.message});
 }
 
 }  // namespace lqg::emit

@@ -9,7 +9,7 @@
 
 namespace lqg::emit {
 
-// Name, verdict, the six figures.
+// Name, verdict, the six figures; of the findings the notes, and as errors what [require] asks for and is missed.
 void add_head(const Controller& controller, const design::Findings& findings, PageData& page);
 
 using Runs = std::vector<ShownRun>;
