@@ -117,6 +117,24 @@ void test_check_refuses_what_lqgen_refuses() {
   TEST_ASSERT_EQUAL_INT(unreadable, run_lqgen({"check", "none.toml"}).status);
 }
 
+void test_check_as_json_has_findings_with_their_places_and_the_design() {
+  const Outcome good = run_lqgen({"check", "--json", "base.toml"});
+  TEST_ASSERT_EQUAL_INT(written, good.status);
+  TEST_ASSERT_EQUAL_UINT(0, good.out.find("{\n  \"status\": 0,\n  \"findings\": [],\n  \"design\": {"));
+  run_lqgen({"base.toml", "--only", "json", "-o", "out"});
+  const std::string K = read_file(folder / "out/base.json");
+  const std::size_t begin = K.find("\"stack\": ");
+  TEST_ASSERT_TRUE(good.out.find(K.substr(begin, K.find('\n', begin) - begin)) != std::string::npos);
+  std::string text = base;
+  write_file(folder / "bad.toml", text.replace(text.find("sample_time = 0.5"), 17, "sample_time = 0"));
+  const Outcome bad = run_lqgen({"check", "--json", "bad.toml"});
+  TEST_ASSERT_EQUAL_INT(wrong, bad.status);
+  TEST_ASSERT_TRUE(bad.out.find("\"severity\": \"error\",\n      \"line\": 6,\n      \"column\": 15,\n      \"key\": "
+                                "\"plant.sample_time\"") != std::string::npos);
+  TEST_ASSERT_TRUE(bad.out.find("\"status\": 2") != std::string::npos);
+  TEST_ASSERT_TRUE(bad.out.find("\"design\": null") != std::string::npos);
+}
+
 // `lqgen run` with these lines as its standard input; the file's name stands for the design's.
 Outcome run_lines(const std::string& lines, const std::string& design = "base.toml") {
   write_file(folder / "lines", lines);
@@ -182,6 +200,7 @@ int main(int, char** arguments) {
   RUN_TEST(test_misspelt_options_of_a_command_are_explained);
   RUN_TEST(test_check_says_what_lqgen_says_and_writes_nothing);
   RUN_TEST(test_check_refuses_what_lqgen_refuses);
+  RUN_TEST(test_check_as_json_has_findings_with_their_places_and_the_design);
   RUN_TEST(test_run_answers_each_line_and_begins_anew_when_told);
   RUN_TEST(test_run_ends_at_a_line_that_is_wrong);
   RUN_TEST(test_run_refuses_what_lqgen_refuses_and_a_design_on_standard_input);
