@@ -26,9 +26,10 @@ Copyright: ${holder}
 License: Expat and Apache-2.0 and MPL-2.0 and BSL-1.0 and BSD-3-clause
 Comment: lqgen has parts of these libraries inside: Mbed TLS (Apache-2.0),
  Eigen (MPL-2.0), Boost (BSL-1.0), CLI11 and Fast C++ CSV
- Parser (BSD-3-clause), toml++ and JSON for Modern C++ (Expat). It uses the shared libraries of MPFR and GMP
- (LGPL-3+), which are in packages of their own. What Debian says of each
- of them stands in libraries/NAME.copyright beside this file.
+ Parser (BSD-3-clause), toml++, JSON for Modern C++ and Chart.js (Expat).
+ It uses the shared libraries of MPFR and GMP (LGPL-3+), which are in
+ packages of their own. What Debian says of each of them stands in
+ libraries/NAME.copyright beside this file.
 
 License: Expat
  ${license}

@@ -60,7 +60,8 @@ Fedora:  dnf install cmake gcc-c++ make eigen3-devel boost-devel mpfr-devel gmp-
 Arch:    pacman -S cmake gcc make eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json mbedtls
 macOS:   brew install cmake eigen boost mpfr gmp tomlplusplus cli11 nlohmann-json mbedtls
 On these three also csv.h of fast-cpp-csv-parser (github.com/ben-strasser/fast-cpp-csv-parser), its folder in
--DFAST_CPP_CSV_PARSER_INCLUDE_DIR=…"
+-DFAST_CPP_CSV_PARSER_INCLUDE_DIR=…; and Chart.js: npm pack chart.js@3.9.1, unpacked, its file in
+-DLQG_CHART_JS=…/package/dist/chart.min.js"
   fi
 }
 
@@ -81,6 +82,7 @@ lqg_install_packages() {
   lqg_has_header libfccp/csv.h || lqg_has_header fast-cpp-csv-parser/csv.h || lqg_has_header csv.h || missing+=(libfccp-dev)
   lqg_has_header nlohmann/json.hpp || missing+=(nlohmann-json3-dev)
   lqg_has_header mbedtls/md.h || missing+=(libmbedtls-dev)
+  [ -e /usr/share/javascript/chart.js/chart.min.js ] || missing+=(libjs-chart.js)
   lqg_install "${missing[@]}"
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prints what lqgen has inside: one library a line, its name in the SBOM and its version. MPFR and GMP say it
-// themselves; a library without versions has the hash of its header, which CMake tells.
+// themselves; a library without versions has the hash of its header; this and the version of Chart.js CMake tells.
 #include <gmp.h>
 #include <mbedtls/version.h>
 #include <mpfr.h>
@@ -15,6 +15,7 @@
 int main() {
   std::cout << "boost " << BOOST_VERSION / 100000 << '.' << BOOST_VERSION / 100 % 1000 << '.' << BOOST_VERSION % 100
             << '\n'
+            << "chart-js " << LQG_CHART_JS_VERSION << '\n'
             << "cli11 " << CLI11_VERSION << '\n'
             << "eigen " << EIGEN_WORLD_VERSION << '.' << EIGEN_MAJOR_VERSION << '.' << EIGEN_MINOR_VERSION << '\n'
             << "fast-cpp-csv-parser " << LQG_CSV_VERSION << '\n'

@@ -15,6 +15,7 @@ def charts(report):
 
 def style(report):
     """The page's rules for charts, in its light colours."""
+    report = report[report.index("<style>") : report.index("</style>")]
     colours = dict(re.findall(r"(--[\w-]+): (#\w+);", report[: report.index("@media")]))
     text = "\n".join(re.findall(r"\bsvg ([.\w][^{}]*\{[^}]*\})", report))
     return re.sub(r"var\((--[\w-]+)\)", lambda found: colours[found[1]], text), colours
@@ -30,19 +31,19 @@ def placed(chart, x, y, panel):
 
 
 def picture(report):
-    found = charts(report)
-    nyquist = next(chart for chart in found if chart[2].startswith("The loop opened"))
-    after = found[found.index(nyquist) + 1 :]
-    state, u = after[0], next(chart for chart in after if chart[2].startswith("voltage"))
+    nyquist, output, u = (
+        next(chart for chart in charts(report) if chart[2].startswith(title))
+        for title in ("Nyquist curve about", "angle", "voltage")
+    )
     rules, colours = style(report)
-    side, top = float(nyquist[0]) + GAP, float(state[1]) + GAP
-    width, height = side + float(state[0]), float(nyquist[1])
+    side, top = float(nyquist[0]) + GAP, float(output[1]) + GAP
+    width, height = side + float(output[0]), float(nyquist[1])
     panel = colours["--panel"]
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" font-family="sans-serif" '
         f'font-size="11">\n<style>\n{rules}\n</style>\n'
         + placed(nyquist, 0, 0, panel)
-        + placed(state, side, 0, panel)
+        + placed(output, side, 0, panel)
         + placed(u, side, top, panel)
         + "</svg>\n"
     )

@@ -6,7 +6,7 @@ set(text "// Made by embed.cmake.\n#include \"emit/page/embedded.hpp\"\n\nnamesp
 
 # add(<name> <content>): in pieces, for compilers limit the length of a literal.
 function(add name content)
-  foreach(never IN ITEMS "</script" "</style" "<!--" "http://" "https://" ")embedded\"")
+  foreach(never IN ITEMS "<script" "</script" "</style" "<!--" "http://" "https://" ")embedded\"")
     string(FIND "${content}" "${never}" found)
     if(NOT found EQUAL -1)
       message(FATAL_ERROR "${name} has `${never}`, which a page without a network cannot have")

@@ -81,8 +81,8 @@ struct PageExtras {
   bool may_connect = false;  // scripts may talk to the server that the page came from
 };
 
-// Shortens curves and bands to at most 1500 points each, and to fewer, not below 150, where the page would have more than
-// so many points in all: least and largest values stay.
+// Shortens curves and bands to at most 1500 points each, and to fewer, not below 150, where the page would have more
+// than so many points in all: least and largest values stay.
 void shorten(PageData& data, std::size_t points = 40000);
 
 std::string page_html(const PageData& data, const PageExtras& extras = {});

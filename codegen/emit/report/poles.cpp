@@ -37,15 +37,29 @@ std::string continuous_of(const std::complex<double>& pole, double sample_time) 
   return decimal(found->s.real()) + (found->s.imag() > 0 ? " ± " + decimal(found->s.imag()) + "i" : "");
 }
 
+// Poles that read the same are one row.
+void add_pole(const std::string& owner, std::vector<std::string> cells, PageTable& table) {
+  int times = 1;
+  if (!table.rows.empty() && std::equal(cells.begin(), cells.end(), table.rows.back().begin() + 1)) {
+    const std::string& before = table.rows.back().front();
+    if (before == owner) times = 2;
+    if (before.rfind(owner + ", ", 0) == 0) times = std::stoi(before.substr(owner.size() + 2)) + 1;
+  }
+  if (times > 1) table.rows.pop_back();
+  cells.insert(cells.begin(), times > 1 ? owner + ", " + std::to_string(times) + " times" : owner);
+  table.rows.push_back(std::move(cells));
+}
+
 PageTable pole_table(const Controller& controller) {
   const double T = controller.problem.plant.sample_time;
   PageTable table = {"", {"", "z", "|z|", "s = ln(z)/T, rad/s", "damping", "time constant", "frequency"}, {}};
   for (const auto& [owner, poles] : poles_to_show(controller))
     for (const std::complex<double>& pole : poles) {
       if (pole.imag() < 0) continue;  // stands with its conjugate
-      table.rows.push_back({owner, decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : ""),
+      const std::vector<std::string> cells = {decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : ""),
                             decimal(std::abs(pole)), continuous_of(pole, T), damping_of(pole, T),
-                            time_constant_of(pole, T), frequency_of(pole, T)});
+                            time_constant_of(pole, T), frequency_of(pole, T)};
+      add_pole(owner, cells, table);
     }
   return table;
 }

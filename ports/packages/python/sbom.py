@@ -24,6 +24,7 @@ from packageurl import PackageURL
 # By the names that lqgen_libraries prints: how it is called, its licence, how it got into lqgen.
 LIBRARIES = {
     "boost": ("Boost", "BSL-1.0", "headers, compiled in"),
+    "chart-js": ("Chart.js", "MIT", "a text in lqgen, and in each page that it writes"),
     "cli11": ("CLI11", "BSD-3-Clause", "headers, compiled in"),
     "eigen": ("Eigen", "MPL-2.0", "headers, compiled in"),
     "fast-cpp-csv-parser": ("Fast C++ CSV Parser", "BSD-3-Clause", "headers, compiled in"),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Curves as SVG.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -38,8 +39,8 @@ void expect_only_numbers(const std::string& svg) {
 }
 
 void test_a_line_goes_from_corner_to_corner_of_its_range() {
-  // 62 and 12 beside the axes, 26 above and 34 below, of 460 × 190.
-  TEST_ASSERT_EQUAL_STRING("M62.0 156.0L255.0 91.0L448.0 26.0", path_of(svg(chart_of({-1, 0, 1}))).c_str());
+  // 62 and 12 beside the axes of 460, 26 above 130 of height; 3 % of the range above and below.
+  TEST_ASSERT_EQUAL_STRING("M62.0 152.3L255.0 91.0L448.0 29.7", path_of(svg(chart_of({-1, 0, 1}))).c_str());
 }
 
 void test_ticks_of_a_small_range_have_the_digits_that_they_need() {
@@ -49,7 +50,7 @@ void test_ticks_of_a_small_range_have_the_digits_that_they_need() {
 }
 
 void test_steps_hold_a_value_until_the_next() {
-  TEST_ASSERT_EQUAL_STRING("M62.0 156.0H448.0V26.0", path_of(svg(chart_of({0, 1}, Mark::steps))).c_str());
+  TEST_ASSERT_EQUAL_STRING("M62.0 152.3H448.0V29.7", path_of(svg(chart_of({0, 1}, Mark::steps))).c_str());
 }
 
 void test_a_number_that_is_not_finite_interrupts_the_line() {
@@ -80,6 +81,82 @@ void test_words_are_escaped() {
   TEST_ASSERT_FALSE(has(svg(chart_of({0, 1})), "a <"));
 }
 
+void test_a_logarithmic_axis_has_decades_and_equal_ratios_are_equally_wide() {
+  Chart chart;
+  chart.x.is_logarithmic = true;
+  chart.curves.push_back({"", Mark::line, 0, {0.01, 1, 100}, {0, 0.5, 1}});
+  const std::string picture = svg(chart);
+  for (const char* tick : {">0.01<", ">0.1<", ">1<", ">10<", ">100<"})
+    TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
+  TEST_ASSERT_TRUE(has(path_of(picture), "L255.0 91.0"));  // 1 lies in the middle
+}
+
+void test_what_is_not_positive_interrupts_a_line_on_a_logarithmic_axis() {
+  Chart chart;
+  chart.y.is_logarithmic = true;
+  chart.curves.push_back({"", Mark::line, 0, {0, 1, 2, 3, 4}, {1, 10, 0, -1, 100}});
+  TEST_ASSERT_EQUAL_size_t(2, count(path_of(svg(chart)), "M"));
+  expect_only_numbers(svg(chart));
+}
+
+void test_a_wide_band_makes_room_for_three_times_the_curves_and_no_more() {
+  Chart chart = chart_of({0, 1});
+  chart.bands.push_back({"±3σ", 0, {0, 1}, {-1000, -0.5}, {1000, 1.5}});
+  const Window window = window_of(chart);
+  TEST_ASSERT_EQUAL_DOUBLE(-1 - 0.09, window.y_low);
+  TEST_ASSERT_EQUAL_DOUBLE(2 + 0.09, window.y_high);
+}
+
+void test_a_limit_that_is_far_away_stays_outside_and_one_that_is_near_is_shown() {
+  Chart chart = chart_of({0, 1});
+  chart.guides = {{Guide::Axis::y, 12, "far"}, {Guide::Axis::y, 1.4, "near"}};
+  TEST_ASSERT_TRUE(window_of(chart).y_high > 1.4 && window_of(chart).y_high < 1.5);
+  TEST_ASSERT_TRUE(has(svg(chart), ">near<"));
+  TEST_ASSERT_FALSE(has(svg(chart), ">far<"));
+}
+
+void test_a_shorter_curve_keeps_its_least_and_its_largest_value_in_their_order() {
+  Curve curve = {"", Mark::line, 0, {}, {}};
+  for (int k = 0; k < 10000; ++k) curve.x.push_back(k), curve.y.push_back(std::sin(0.01 * k));
+  curve.y[1234] = -7, curve.y[1235] = 9;
+  const Curve shorter = reduced(curve, 100);
+  TEST_ASSERT_TRUE(shorter.x.size() <= 100 && shorter.x.size() > 50);
+  TEST_ASSERT_TRUE(std::is_sorted(shorter.x.begin(), shorter.x.end()));
+  const auto low = std::find(shorter.y.begin(), shorter.y.end(), -7.0);
+  TEST_ASSERT_TRUE(low != shorter.y.end() && *(low + 1) == 9);
+  TEST_ASSERT_EQUAL_DOUBLE(1234, shorter.x[static_cast<std::size_t>(low - shorter.y.begin())]);
+}
+
+void test_points_are_never_left_out() {
+  Curve curve = {"", Mark::dots, 0, std::vector<double>(5000, 1.0), std::vector<double>(5000, 2.0)};
+  TEST_ASSERT_EQUAL_size_t(5000, reduced(curve, 100).x.size());
+}
+
+void test_a_shorter_band_keeps_both_ends() {
+  Band band;
+  for (int k = 0; k < 1000; ++k) band.x.push_back(k), band.low.push_back(-k), band.high.push_back(k);
+  const Band shorter = reduced(band, 10);
+  TEST_ASSERT_EQUAL_size_t(10, shorter.x.size());
+  TEST_ASSERT_EQUAL_DOUBLE(0, shorter.x.front());
+  TEST_ASSERT_EQUAL_DOUBLE(999, shorter.high.back());
+}
+
+void test_a_legend_names_each_label_once_and_grey_curves_never() {
+  Chart chart = chart_of({0, 1});
+  chart.curves.push_back({"", Mark::line, 0, {0, 1}, {0, 0}, Role::ghost});
+  chart.curves.push_back({"curve", Mark::line, 1, {0, 1}, {1, 0}});
+  const std::string picture = svg(chart);
+  TEST_ASSERT_EQUAL_size_t(1, count(picture, ">curve<"));
+  TEST_ASSERT_TRUE(has(picture, "class=\"ghost\""));
+}
+
+void test_an_event_is_a_mark_on_the_axis() {
+  Chart chart = chart_of({0, 1, 2});
+  chart.events = {{1, "reset"}, {99, "reset"}};  // one of them is outside
+  TEST_ASSERT_TRUE(has(svg(chart), "<path class=\"event\" d=\"M255.0 149.0l-3 6h6z\"/>"));
+  TEST_ASSERT_EQUAL_size_t(1, count(svg(chart), ">reset<"));
+}
+
 void test_zero_has_no_sign() { TEST_ASSERT_FALSE(has(svg(chart_of({-1, 1})), ">-0<")); }
 
 }  // namespace
@@ -93,6 +170,15 @@ int main() {
   RUN_TEST(test_curves_without_extent_are_drawn_all_the_same);
   RUN_TEST(test_a_square_chart_shows_what_lies_inside);
   RUN_TEST(test_words_are_escaped);
+  RUN_TEST(test_a_logarithmic_axis_has_decades_and_equal_ratios_are_equally_wide);
+  RUN_TEST(test_what_is_not_positive_interrupts_a_line_on_a_logarithmic_axis);
+  RUN_TEST(test_a_wide_band_makes_room_for_three_times_the_curves_and_no_more);
+  RUN_TEST(test_a_limit_that_is_far_away_stays_outside_and_one_that_is_near_is_shown);
+  RUN_TEST(test_a_shorter_curve_keeps_its_least_and_its_largest_value_in_their_order);
+  RUN_TEST(test_points_are_never_left_out);
+  RUN_TEST(test_a_shorter_band_keeps_both_ends);
+  RUN_TEST(test_a_legend_names_each_label_once_and_grey_curves_never);
+  RUN_TEST(test_an_event_is_a_mark_on_the_axis);
   RUN_TEST(test_zero_has_no_sign);
   return UNITY_END();
 }

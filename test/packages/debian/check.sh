@@ -32,7 +32,7 @@ dpkg-deb -x "$package" "$folder/root"
 usr=$folder/root/usr
 grep -q "Copyright: 2026 TinyLQG contributors" "$usr/share/doc/tinylqg/copyright" || fail "copyright: no holder"
 grep -q "MERCHANTABILITY" "$usr/share/doc/tinylqg/copyright" || fail "copyright: no licence"
-for library in boost cli11 eigen fast-cpp-csv-parser gmp mbedtls mpfr nlohmann-json tomlplusplus; do
+for library in boost chart-js cli11 eigen fast-cpp-csv-parser gmp mbedtls mpfr nlohmann-json tomlplusplus; do
   grep -q -i "copyright" "$usr/share/doc/tinylqg/libraries/$library.copyright" ||
     fail "libraries: no licence of $library"
 done

@@ -21,6 +21,7 @@ from designs import SOURCE, InFolder
 FOLDER = Path(os.environ["TINYLQG_BUILD"]) / "test" / "packages" / "python" / "wheel"
 LIBRARIES = (
     "boost",
+    "chart-js",
     "cli11",
     "eigen",
     "fast-cpp-csv-parser",

@@ -31,7 +31,8 @@ function colourOf(curve, palette) {
   return curve.role === "grid" ? palette.rule : palette.curves[curve.colour % palette.curves.length];
 }
 
-function datasetOf(chart, curve, palette) {
+// Chart.js draws what has the lower order later: the last curve stands over all others.
+function datasetOf(chart, curve, palette, index) {
   const colour = colourOf(curve, palette);
   const point = pointOf[curve.mark];
   const isLog = [chart.x.log, chart.y.log];
@@ -50,7 +51,7 @@ function datasetOf(chart, curve, palette) {
     pointBorderColor: colour,
     pointBorderWidth: point ? point.borderWidth || 0 : 0,
     pointBackgroundColor: curve.mark === "dots" ? colour : "transparent",
-    order: { data: 0, ghost: 1, grid: 2 }[curve.role],
+    order: 1000 * { data: 1, ghost: 2, grid: 3 }[curve.role] - index,
   };
 }
 
@@ -242,7 +243,7 @@ function drawOn(canvas, spec, isSmall) {
   });
   const live = new Chart(canvas, {
     type: "scatter",
-    data: { datasets: spec.curves.map((curve) => datasetOf(spec, curve, palette)) },
+    data: { datasets: spec.curves.map((curve, i) => datasetOf(spec, curve, palette, i)) },
     options: options([xLow, xHigh, yLow, yHigh]),
     plugins: [pluginOf(spec, () => palette)],
   });
@@ -264,7 +265,7 @@ function drawOn(canvas, spec, isSmall) {
   }
   const restyle = () => {
     palette = colours();
-    live.data.datasets = spec.curves.map((curve) => datasetOf(spec, curve, palette));
+    live.data.datasets = spec.curves.map((curve, i) => datasetOf(spec, curve, palette, i));
     live.options.scales = options(shownWindow(spec)).scales;
     show();
   };

@@ -13,6 +13,9 @@ function element(name, className, words) {
 
 const isLine = (curve) => !(curve.mark in pointOf);
 
+const sampleWith = (classes, path) =>
+  `<svg viewBox="0 -6 18 12" aria-hidden="true"><path class="${classes}" d="${path}"/></svg>`;
+
 // The small picture of a curve in the legend, with the classes of the static pictures.
 function sampleOf(curve) {
   const colour = `s${curve.colour % 7}`;
@@ -23,8 +26,7 @@ function sampleOf(curve) {
     rings: "M5 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0",
     squares: "M5 -4h8v8h-8z",
   };
-  const path = points[curve.mark] || "M0 0h18";
-  return `<svg viewBox="0 -6 18 12" aria-hidden="true"><path class="${colour} ${curve.mark}" d="${path}"/></svg>`;
+  return sampleWith(`${colour} ${curve.mark}`, points[curve.mark] || "M0 0h18");
 }
 
 class Figure {
@@ -71,8 +73,7 @@ class Figure {
     for (const curve of this.spec.curves) {
       if (curve.role === "data" && curve.label) this.addEntry(legend, curve, sampleOf(curve));
     }
-    const area = (band) =>
-      `<svg viewBox="0 -6 18 12" aria-hidden="true"><path class="band b${band.colour % 7}" d="M0 -5h18v10h-18z"/></svg>`;
+    const area = (band) => sampleWith(`band b${band.colour % 7}`, "M0 -5h18v10h-18z");
     for (const band of this.spec.bands) if (band.label) this.addEntry(legend, band, area(band));
     const unnamed = this.spec.curves.find((curve) => curve.role === "data" && !curve.label);
     if (unnamed && !this.values.length && !this.spec.square) {
@@ -80,7 +81,7 @@ class Figure {
     }
     for (const label of new Set(this.spec.events.map((event) => event.label))) {
       const entry = legend.appendChild(element("span", "entry"));
-      entry.innerHTML = '<svg viewBox="0 -6 18 12" aria-hidden="true"><path class="event" d="M9 -4l-4 8h8z"/></svg>';
+      entry.innerHTML = sampleWith("event", "M9 -4l-4 8h8z");
       entry.append(label);
     }
     return legend;
@@ -253,7 +254,8 @@ class Figure {
     const curve = this.main();
     if (!curve) return;
     const { x } = this.drawn.live.scales;
-    const begin = this.cursor ? this.cursor.index + count : nearest(curve.x, x.getValueForPixel((x.left + x.right) / 2));
+    const middle = x.getValueForPixel((x.left + x.right) / 2);
+    const begin = this.cursor ? this.cursor.index + count : nearest(curve.x, middle);
     const index = Math.min(Math.max(begin, 0), curve.x.length - 1);
     this.moveTo({ curve, index, x: curve.x[index], y: curve.y[index] }, true);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The live page. Its data stand in <script id="lqg-data">; scripts that share the page use
+// The live page. Its data stand in the element lqg-data; scripts that share the page use
 //
 //   lqgPage.draw(data, options)   draws anew from what page_json() wrote (an object): the curves that are hidden, the
 //                                 zoom, the chosen views and the focus stay. options.ghost: data of another page,
