@@ -4,6 +4,7 @@
 import gc
 import os
 import random
+import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -163,15 +164,17 @@ class Refusals(InFolder):
             controller.step(0)
 
     def test_nothing_is_left_behind(self):
-        before = set(Path(os.environ.get("TMPDIR", "/tmp")).iterdir())
-        for compiled in (True, False):
-            controller = tinylqg.Design.load(SERVO).controller(compiled)
-            controller.step(0)
-            process = getattr(controller.engine, "process", None)
-            del controller
-            gc.collect()
-            self.assertTrue(process is None or process.poll() is not None)
-        self.assertEqual(set(Path(os.environ.get("TMPDIR", "/tmp")).iterdir()), before)
+        folder = self.folder / "temporary"
+        folder.mkdir()
+        with mock.patch.object(tempfile, "tempdir", str(folder)):
+            for compiled in (True, False):
+                controller = tinylqg.Design.load(SERVO).replace({"name": "left"}).controller(compiled)
+                controller.step(0)
+                process = getattr(controller.engine, "process", None)
+                del controller
+                gc.collect()
+                self.assertTrue(process is None or process.poll() is not None)
+        self.assertEqual(list(folder.iterdir()), [])
 
     def test_without_a_compiler_lqgen_runs_it(self):
         design = tinylqg.Design.load(SERVO)

@@ -4,6 +4,7 @@
 import ctypes
 import subprocess
 import tempfile
+from functools import lru_cache
 from pathlib import Path
 
 from .controller import Kind
@@ -49,27 +50,10 @@ FLAGS = ("-std=c99", "-O2", "-fPIC", "-shared")
 
 
 class Compiled:
-    """A controller in a shared library of its own. Its folder is gone as soon as the library is loaded."""
+    """The state of a controller, and the library that works on it."""
 
     def __init__(self, design, command):
-        with tempfile.TemporaryDirectory() as folder:
-            run_lqgen(
-                *("-o", folder, "--only", "h,json", "--quiet", "--", "-"),
-                text=design.text,
-                folder=design.folder,
-                where=design.where,
-            )
-            header = Path(folder, design.name + ".h").read_text(encoding="utf-8")
-            result = result_of(design.name, Path(folder, design.name + ".json").read_bytes())
-            source = Path(folder, "controller.c")
-            source.write_text(source_of(design.name, header, result), encoding="utf-8")
-            library = Path(folder, "controller.so")
-            compile_library([*command, *FLAGS, *switches(result)], folder, source, library, result.code.style)
-            self.library = ctypes.CDLL(str(library))
-        self.sizes = Kind(result)
-        self.real = {"float": ctypes.c_float, "double": ctypes.c_double}[result.code.real]
-        self.library.controller_size.restype = ctypes.c_size_t
-        self.library.controller_step.restype = ctypes.c_uint
+        self.library, self.sizes, self.real = library_of(design, tuple(command))
         doubles = -(-self.library.controller_size() // ctypes.sizeof(ctypes.c_double))
         self.state = (ctypes.c_double * max(doubles, 1))()
         self.reset()
@@ -87,7 +71,29 @@ class Compiled:
         return u[: self.sizes.inputs], x[:], status
 
     def close(self):
-        """A library stays loaded until the process ends: others may have pointers to it."""
+        """A library stays loaded until the process ends: other controllers of the design use it."""
+
+
+@lru_cache(maxsize=None)
+def library_of(design, command):
+    """The shared library of a design, its sizes and its type of numbers. Its folder is gone as soon as it is loaded."""
+    with tempfile.TemporaryDirectory() as folder:
+        run_lqgen(
+            *("-o", folder, "--only", "h,json", "--quiet", "--", "-"),
+            text=design.text,
+            folder=design.folder,
+            where=design.where,
+        )
+        header = Path(folder, design.name + ".h").read_text(encoding="utf-8")
+        result = result_of(design.name, Path(folder, design.name + ".json").read_bytes())
+        source = Path(folder, "controller.c")
+        source.write_text(source_of(design.name, header, result), encoding="utf-8")
+        file = Path(folder, "controller.so")
+        compile_library([*command, *FLAGS, *switches(result)], folder, source, file, result.code.style)
+        library = ctypes.CDLL(str(file))
+    library.controller_size.restype = ctypes.c_size_t
+    library.controller_step.restype = ctypes.c_uint
+    return library, Kind(result), {"float": ctypes.c_float, "double": ctypes.c_double}[result.code.real]
 
 
 def switches(result):
