@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lqgen: the command line. One design file in; header, test, JSON and report out, or a clear refusal and nothing.
 // `check` designs and writes nothing; `new` writes a design file to begin with; `simulate` runs its scenarios; `run`
-// runs the controller by a pipe.
+// runs the controller by a pipe; `watch` serves a live page of a design; `compare` writes a page of several.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -27,6 +27,8 @@
 #include "input/keys.hpp"
 #include "input/text.hpp"
 #include "reference/documents.hpp"
+#include "view/compare.hpp"
+#include "view/watch.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -269,6 +271,11 @@ int make_new(const NewArguments& arguments) {
   return written;
 }
 
+int compare_designs(const view::CompareArguments& arguments) {
+  Watch watch("lqgen compare", arguments.quiet, std::nullopt);
+  return view::compare(arguments, [&](const std::string& work) { watch.show(work); });
+}
+
 // --NAME prints a text and ends, whatever else the command line has, as --version does. The end of the last line is
 // CLI11's.
 void add_printed(CLI::App& app, const std::string& name, std::string (*text)(), const std::string& help) {
@@ -317,6 +324,30 @@ void add_design_options(CLI::App& app, Arguments& arguments) {
 
 void add_folder(CLI::App& app, std::string& folder) {
   app.add_option("-o", folder, "folder for what is written")->option_text("DIR [.]");
+}
+
+CLI::App* add_watch(CLI::App& app, view::WatchArguments& arguments) {
+  CLI::App* const watch =
+      app.add_subcommand("watch", "Serves a live page of a design at this machine, with sliders, until Ctrl-C.");
+  watch->add_option("DESIGN", arguments.design_file, "design file (TOML), which the page follows")
+      ->required()
+      ->option_text("DESIGN.toml");
+  watch->add_option("--port", arguments.port, "port of 127.0.0.1; without it a free one")
+      ->check(CLI::Range(1u, 65535u))
+      ->option_text("N");
+  return watch;
+}
+
+CLI::App* add_compare(CLI::App& app, view::CompareArguments& arguments) {
+  CLI::App* const comparison =
+      app.add_subcommand("compare", "Writes compare.html: several designs side by side, their curves over each other.");
+  comparison->add_option("DESIGNS", arguments.design_files, "two or more design files (TOML)")
+      ->required()
+      ->expected(2, 1000)
+      ->option_text("A.toml B.toml …");
+  comparison->add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  add_folder(*comparison, arguments.folder);
+  return comparison;
 }
 
 CLI::App* add_simulate(CLI::App& app, Arguments& arguments, commands::SimulateArguments& wanted) {
@@ -371,21 +402,30 @@ int main(int argc, char** argv) {
   beginning->add_option("--from", new_arguments.starter, "what to begin with; `lqgen new` lists what there is")
       ->option_text("STARTER");
   add_folder(*beginning, new_arguments.folder);
+  view::WatchArguments watch_arguments;
+  const CLI::App* const watching = add_watch(app, watch_arguments);
+  view::CompareArguments compare_arguments;
+  const CLI::App* const comparison = add_compare(app, compare_arguments);
   app.require_subcommand(0, 1);
+  bool has_design = true;  // one, in arguments
   try {
     app.parse(argc, argv);
-    if (!*beginning && arguments.design_file.empty()) throw CLI::RequiredError("DESIGN");
+    has_design = !*beginning && !*watching && !*comparison;
+    if (has_design && arguments.design_file.empty()) throw CLI::RequiredError("DESIGN");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0 && explain_unknown_options(app)) return wrong;
     return app.exit(error) == 0 ? written : wrong;
   }
+  const std::string command = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name();
   try {
     if (*beginning) return make_new(new_arguments);
+    if (*watching) return view::watch(watch_arguments);
+    if (*comparison) return compare_designs(compare_arguments);
     if (*checking) return check(arguments);
     if (*runner) return run_controller(arguments);
     return *simulation ? simulate_design(arguments, simulate_arguments) : generate(arguments);
   } catch (const std::exception& error) {
-    const std::string what = *beginning ? "lqgen new" : shown_path(arguments);
+    const std::string what = has_design ? shown_path(arguments) : "lqgen " + command;
     std::cerr << input::printable(what) << ": lqgen failed: " << input::printable(error.what()) << "\n";
     return impossible;
   }

@@ -8,6 +8,7 @@
 
 #include "design/checks/requirements.hpp"
 #include "emit/report/scenario_tables.hpp"
+#include "emit/report/simulation_page.hpp"
 #include "input/csv.hpp"
 #include "input/keys.hpp"
 #include "input/text.hpp"
@@ -145,6 +146,7 @@ std::optional<emit::Simulations> run_simulations(const Controller& controller, c
   }
   const auto scenarios = chosen(controller, arguments.scenarios, why);
   if (!scenarios) return std::nullopt;
+  out.scenarios = *scenarios;
   for (const Scenario& scenario : *scenarios) {
     if (arguments.runs == 0) {
       progress(scenario.name, 0);
@@ -185,6 +187,8 @@ std::vector<emit::File> simulation_files(const Controller& controller, const emi
   for (const simulate::MonteCarlo& result : simulations.monte_carlo)
     add(emit::in_file_name(result.name), "_runs", emit::csv(controller, result));
   if (simulations.replay) add("replay", "", emit::csv(controller, *simulations.replay));
+  files.push_back(
+      {controller.problem.name + "_simulation.html", emit::page_html(emit::simulation_data(controller, simulations))});
   return files;
 }
 

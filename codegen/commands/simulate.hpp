@@ -32,7 +32,7 @@ std::optional<emit::Simulations> run_simulations(const controller::Controller& c
 // What [require] asks for and the loop, or a single run, misses.
 design::Findings missed_requirements(const controller::Controller& controller, const emit::Simulations& simulations);
 
-// NAME_SCENARIO.csv, NAME_SCENARIO_runs.csv, NAME_replay.csv.
+// NAME_SCENARIO.csv, NAME_SCENARIO_runs.csv, NAME_replay.csv; NAME_simulation.html.
 std::vector<emit::File> simulation_files(const controller::Controller& controller,
                                          const emit::Simulations& simulations);
 

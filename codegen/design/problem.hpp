@@ -129,13 +129,13 @@ struct RmsRequirement {
 };
 struct Requirements {
   std::optional<double> gain_margin_dB, phase_margin_deg, disk_margin, max_pole;
-  std::optional<double> delay_margin;  // s
+  std::optional<double> delay_margin = {};  // s
   // In the scenario of that name; in each one without a name.
-  std::string scenario;
-  std::optional<double> overshoot;        // share of the step
-  std::optional<double> settling_time;    // s
-  std::optional<double> share_at_limits;  // of the samples
-  std::vector<RmsRequirement> rms;
+  std::string scenario = {};
+  std::optional<double> overshoot = {};        // share of the step
+  std::optional<double> settling_time = {};    // s
+  std::optional<double> share_at_limits = {};  // of the samples
+  std::vector<RmsRequirement> rms = {};
 };
 
 enum class Scalar { float32, float64 };

@@ -17,6 +17,7 @@ struct Listener {
 };
 
 thread_local Listener listener;
+thread_local const std::function<void()>* interruption = nullptr;
 
 }  // namespace
 
@@ -27,7 +28,12 @@ ProgressScope::ProgressScope(const Progress& progress) {
 
 ProgressScope::~ProgressScope() { listener.progress = nullptr; }
 
+InterruptionScope::InterruptionScope(const std::function<void()>& check) { interruption = check ? &check : nullptr; }
+
+InterruptionScope::~InterruptionScope() { interruption = nullptr; }
+
 void report_progress(const char* work, long step, long all) {
+  if (interruption) (*interruption)();
   if (!listener.progress) return;
   const Clock::time_point now = Clock::now();
   if (now - listener.last < std::chrono::seconds(1)) return;

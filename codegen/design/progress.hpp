@@ -20,6 +20,17 @@ class ProgressScope {
   ProgressScope& operator=(const ProgressScope&) = delete;
 };
 
+// During its life report_progress calls `check`, in this thread, at every step. What `check` throws ends the work: a
+// program that no longer needs the result throws an exception of its own, which comes out of solve(). `check` has to
+// live as long.
+class InterruptionScope {
+ public:
+  explicit InterruptionScope(const std::function<void()>& check);
+  ~InterruptionScope();
+  InterruptionScope(const InterruptionScope&) = delete;
+  InterruptionScope& operator=(const InterruptionScope&) = delete;
+};
+
 // `all`: how many steps there are; 0 where nobody knows.
 void report_progress(const char* work, long step, long all = 0);
 

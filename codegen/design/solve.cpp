@@ -75,21 +75,31 @@ bool run_passes_ziv_test(const DesignRun& coarse, DesignRun& fine, unsigned coar
   return optional_passes_ziv_test(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
 }
 
-void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& findings) {
+// Poles, costs, margins at the inputs and root mean squares.
+void describe_loop(const Problem& problem, DesignRun& run, unsigned digits) {
   Solution& solution = run.solution;
-  findings.insert(findings.end(), run.findings.begin(), run.findings.end());
   solution.numerics.digits = digits;
   solution.loop.poles = sorted_poles(run.loop_poles);
   if (solution.regulator) solution.regulator->poles = sorted_poles(run.regulator_poles);
   if (solution.estimator) solution.estimator->poles = sorted_poles(run.estimator_poles);
   if (run.cost_per_sample) solution.loop.cost_per_sample = to_double(*run.cost_per_sample);
   if (run.cost_per_second) solution.loop.cost_per_second = to_double(*run.cost_per_second);
+  if (!run.has_steady_loop) return;
+  const Compensator controller = compensator(problem, solution);
+  const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
+  solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
+  if (run.stages.back().samples.noise) solution.loop.rms = steady_rms(problem, run.stages.back().samples, controller);
+}
+
+void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& findings) {
+  Solution& solution = run.solution;
+  findings.insert(findings.end(), run.findings.begin(), run.findings.end());
+  describe_loop(problem, run, digits);
   if (run.has_steady_loop) {
-    const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
-    const Compensator controller = compensator(problem, solution);
-    solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
-    if (solution.estimator) solution.loop.at_output = margins(open_at_outputs(plant, controller), run.loop_poles);
-    if (run.stages.back().samples.noise) solution.loop.rms = steady_rms(problem, run.stages.back().samples, controller);
+    if (solution.estimator)
+      solution.loop.at_output =
+          margins(open_at_outputs(measured_plant(problem, final_plant(solution)), compensator(problem, solution)),
+                  run.loop_poles);
     add_full_margins(problem, run);
   }
   check_representable(solution, problem.code.real, findings);
@@ -222,6 +232,18 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
   add_error(findings, "design",
             "the problem is so ill conditioned that " + std::to_string(runs.back()) + " digits do not settle it");
   return std::nullopt;
+}
+
+std::optional<Solution> first_look(const Problem& problem) {
+  const Digits scope(runs.front());
+  Findings findings;
+  if (!is_well_posed(problem, findings)) return std::nullopt;
+  DesignRun run = run_design(problem, nullptr);
+  if (has_error(run.findings)) return std::nullopt;
+  describe_loop(problem, run, runs.front());
+  check_representable(run.solution, problem.code.real, findings);
+  if (has_error(findings)) return std::nullopt;
+  return run.solution;
 }
 
 }  // namespace lqg::design

@@ -145,6 +145,13 @@ double share_failed(const MonteCarlo& result) {
          static_cast<double>(result.failed.size());
 }
 
+std::vector<double> means_of(const std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& counts) {
+  std::vector<double> means;
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    means.push_back(counts[k] ? static_cast<double>(sums[k]) / scale / static_cast<double>(counts[k]) : std::nan(""));
+  return means;
+}
+
 std::optional<Consistency> nees_of(const MonteCarlo& result) {
   if (result.nees_sums.empty()) return {};
   return consistency(result.nees_sums, result.nees_counts, result.nees_degrees);

@@ -41,6 +41,8 @@ MonteCarlo monte_carlo(const controller::Controller& controller, const design::S
                        const MonteCarloOptions& options);
 
 double share_failed(const MonteCarlo& result);
+// Mean over the runs, sample by sample, of what `sums` counts; NaN where `counts` is 0.
+std::vector<double> means_of(const std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& counts);
 std::optional<Consistency> nees_of(const MonteCarlo& result);
 std::optional<Consistency> nis_of(const MonteCarlo& result);
 

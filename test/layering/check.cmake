@@ -74,7 +74,10 @@ check(codegen/emit ${any_room} "^controller/" "^design/")
 check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.hpp$" "^nlohmann/")
 check(codegen/commands ${any_room} "^commands/" "^input/" "^emit/" "^controller/" "^simulate/" "^design/" "^step/"
       "^nlohmann/" "^lqg/status\\.h$")
-check(codegen ${any_room} "^commands/" "^input/" "^reference/documents\\.hpp$" "^emit/" "^design/solve\\.hpp$"
+check(codegen/serve ${any_room} "^serve/" "^boost/(asio|beast)/")
+check(codegen/view ${any_room} "^view/" "^serve/" "^emit/" "^controller/" "^input/" "^design/" "^nlohmann/")
+check(codegen ${any_room} "^commands/" "^view/(watch|compare)\\.hpp$" "^input/" "^reference/documents\\.hpp$" "^emit/"
+      "^design/solve\\.hpp$"
       "^CLI/" "^watch\\.hpp$")
 
 # A folder that nobody has given a place has to be given one.

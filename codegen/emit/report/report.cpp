@@ -16,6 +16,11 @@ Eigen::MatrixXd in_double(const design::RealMatrix& values) {
   return out;
 }
 
+std::string drawn_by() {
+  return "This file is yours: use it under any licence. The script that draws its charts, Chart.js, has the MIT "
+         "licence.";
+}
+
 PageData page_data(const Controller& controller, const design::Findings& findings) {
   PageData page;
   add_head(controller, findings, page);
@@ -24,9 +29,7 @@ PageData page_data(const Controller& controller, const design::Findings& finding
                                                        pole_section(controller), estimator_section(controller, runs),
                                                        target_section(controller), number_section(controller)})
     if (!section.views.empty()) page.sections.push_back(std::move(section));
-  page.footer =
-      "This file is yours: use it under any licence. The script that draws its charts, Chart.js, has the MIT "
-      "licence.";
+  page.footer = drawn_by();
   shorten(page);
   return page;
 }

@@ -14,6 +14,7 @@ namespace lqg::emit {
 
 // All that was simulated of one controller.
 struct Simulations {
+  std::vector<design::Scenario> scenarios;  // of the runs, or of the Monte Carlos
   std::vector<simulate::ScenarioRun> runs;
   std::uint64_t seed = 1;  // of the runs
   std::vector<simulate::MonteCarlo> monte_carlo;

@@ -32,6 +32,9 @@ std::vector<NamedPoles> poles_to_show(const Controller& controller);
 // samples are summed by.
 std::vector<Chart> root_locus(const Controller& controller);
 
+// The footer of a page.
+std::string drawn_by();
+
 // Of a frequency, a time: "3.21 Hz".
 std::string with_unit(double value, const std::string& unit);
 

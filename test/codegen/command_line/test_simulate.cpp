@@ -56,7 +56,7 @@ void test_each_scenario_has_its_file_and_its_numbers() {
   const Outcome outcome = run_lqgen({"simulate", "base.toml", "-o", "out"});
   TEST_ASSERT_EQUAL_INT_MESSAGE(written, outcome.status, outcome.err.c_str());
   TEST_ASSERT_TRUE(has(outcome.out, "a push, and a gap\n") && has(outcome.out, "force"));
-  TEST_ASSERT_EQUAL_UINT(2, snapshot(folder / "out").size());
+  TEST_ASSERT_EQUAL_UINT(3, snapshot(folder / "out").size());
   const std::vector<std::string> lines = lines_of(read_file(folder / "out/base_a_push_and_a_gap.csv"));
   TEST_ASSERT_EQUAL_UINT(1 + 20, lines.size());
   TEST_ASSERT_EQUAL_STRING(
@@ -66,6 +66,7 @@ void test_each_scenario_has_its_file_and_its_numbers() {
   TEST_ASSERT_TRUE_MESSAGE(lines[9].rfind("4,,", 0) == 0, "a missing output is an empty field");
   TEST_ASSERT_TRUE(has(lines[9], "output_rejected|output_rejected_0"));
   TEST_ASSERT_TRUE(fs::exists(folder / "out/base_a_push_and_a_gap_2.csv"));
+  TEST_ASSERT_TRUE(has(read_file(folder / "out/base_simulation.html"), "The loop holds in every scenario."));
 }
 
 // A table of 0 and 2 from 1 s and 2 s on, times from `at` on; the mass's own spring moves it little in half a second.
@@ -105,6 +106,7 @@ void test_runs_write_the_numbers_of_each_run() {
   TEST_ASSERT_EQUAL_INT_MESSAGE(written, outcome.status, outcome.err.c_str());
   TEST_ASSERT_TRUE(has(outcome.out, "a push, and a gap, 20 runs: 0 % failed"));
   TEST_ASSERT_TRUE(has(outcome.out, "NEES: mean "));
+  TEST_ASSERT_TRUE(has(read_file(folder / "out/base_simulation.html"), "No run failed."));
   TEST_ASSERT_EQUAL_UINT(21, lines_of(read_file(folder / "out/base_a_push_and_a_gap_runs.csv")).size());
 }
 
@@ -165,7 +167,7 @@ void test_what_misses_a_requirement_is_shown_and_the_status_tells() {
   TEST_ASSERT_TRUE(has(outcome.err,
                        "require.rms[0].value: requires at most 1e-06, scenario \"a push and a gap\": the "
                        "rms of y1 is "));
-  TEST_ASSERT_EQUAL_UINT(2, snapshot(folder / "out").size());
+  TEST_ASSERT_EQUAL_UINT(3, snapshot(folder / "out").size());
   TEST_ASSERT_EQUAL_INT(impossible, run_lqgen({"check", "base.toml"}).status);
 }
 

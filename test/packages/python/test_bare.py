@@ -45,6 +45,12 @@ class Bare(InFolder):
                 (u,) = controller.step([1])
                 self.assertLess(u, 0)
                 self.assertEqual([type(value) for value in controller.x], [float, float])
+        scenario = {"duration": 0.2, "x0": [1, 0], "noise": False, "spread": {"A": 0.01}}
+        run = design.simulate(scenario)
+        self.assertEqual((len(run.t), run.x[0], len(run.u[0])), (20, [1, 0], 1))
+        many = design.monte_carlo(20, scenario=scenario)
+        self.assertLess(many.percentiles[5].cost, many.percentiles[95].cost)
+        self.assertEqual((len(many.column("peak.states[0]")), many.failures), (20, [False] * 20))
         with self.assertRaisesRegex(ImportError, r"pip install 'tinylqg\[plot\]'"):
             design.plot("poles")
         with self.assertRaisesRegex(ImportError, r"pip install 'tinylqg\[progress\]'"):

@@ -178,6 +178,15 @@ class Refusals(InFolder):
         with self.assertRaises(FileNotFoundError):
             tinylqg.Design.load("missing.toml")
 
+    def test_a_name_that_is_a_path_is_none(self):
+        for name in ("../victim", "/tmp/victim", "a.b", ""):
+            with self.refused("name", "lower-case letters"):
+                tinylqg.Design.from_text(f'name = "{name}"\n[plant]\n')
+            with self.refused("name", "lower-case letters"):
+                tinylqg.Design(**MASS, name=name)
+        with self.refused("design"):
+            tinylqg.Design.from_text("a = " + "[" * 100000)
+
     def test_plants_that_are_none_or_two(self):
         with self.refused("plant", "A="):
             tinylqg.Design(Q=[1], R=1)

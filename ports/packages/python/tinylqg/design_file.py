@@ -45,8 +45,8 @@ def design_text(
 
     `sample_time` … `outputs` are keys of [plant]; Q, R and N those of [lqr]; W, V and Swv are process_noise,
     measurement_noise and cross_noise of [kalman]. Every other key is given in its section, as
-    `kalman={"gain": "online"}` or `stage=[{"from": 20, "R": [2]}]`. A number in place of a matrix is one of 1 × 1. lqgen
-    checks the whole.
+    `kalman={"gain": "online"}` or `stage=[{"from": 20, "R": [2]}]`. A number in place of a matrix is one of 1 × 1.
+    lqgen checks the whole.
     """
     for word in sections:
         if word not in SECTIONS:

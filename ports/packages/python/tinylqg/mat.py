@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The variables of a .mat file as keys of a design file."""
 
-from .design_file import SECTIONS
+from .design_file import SECTIONS, SEVERAL
 from .errors import DesignError, expected
 from .mat_file import variables_of
 from .plant import scalar, timed
@@ -106,15 +106,15 @@ def with_time(path, plant, Ts):
 
 
 def section(name, value):
-    """A structure as that section; `stage` may be several, and is always a list of tables."""
+    """A structure as that section; `stage` and `scenario` may be several, and are always a list of tables."""
     structures = value if isinstance(value, list) else [value]
-    if not all(isinstance(item, dict) for item in structures) or (len(structures) != 1 and name != "stage"):
+    if not all(isinstance(item, dict) for item in structures) or (len(structures) != 1 and name not in SEVERAL):
         raise expected(name, "a structure", "something else")
     tables = [
         {key: section(key, item) if isinstance(item, dict) else shaped(key, item) for key, item in structure.items()}
         for structure in structures
     ]
-    return tables if name == "stage" else tables[0]
+    return tables if name in SEVERAL else tables[0]
 
 
 def shaped(key, value):

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from typing import Any, List, Optional
 
-from .errors import DesignError
 from .progress import done
 from .quantile import chi_squared_quantile
 from .result import Table, array
@@ -15,7 +14,7 @@ from .simulation import simulated, tables, whole, with_scenario
 PERCENTS = (5, 50, 95)
 SCALE = 2**20  # of the sums of NEES and NIS, which are whole numbers: sums of parts are the sum of all
 SMALLEST_PART, SMALLEST_PART_HERE = 250, 1000  # runs: each part designs again
-SUMS = ("nees_sums", "nis_sums", "nis_counts")
+SUMS = ("nees", "nees_counts", "nis", "nis_counts")
 
 
 class MonteCarlo:
@@ -43,19 +42,15 @@ class MonteCarlo:
 
     def __init__(self, name, seed, parts):
         self.name, self.seed = name, seed
-        self.numbers = [tables(numbers) for part in parts for numbers in part["numbers"]]
-        failures = [bool(failed) for part in parts for failed in part["failed"]]
+        self.numbers = [tables(numbers) for part in parts for numbers in part["samples"]]
+        failures = [failed for part in parts for failed in part["failures"]]
         self.runs, self.failures = len(failures), array(failures)
         self.failed = sum(failures) / len(failures)
         self.percentiles = {percent: percentiles_of(self.numbers, percent) for percent in PERCENTS}
         sums = {key: joined(key, parts) for key in SUMS}
-        degrees = (
-            max(part.get("nees_degrees") or 0 for part in parts),
-            max(part.get("nis_degrees") or 0 for part in parts),
-        )
-        all_runs = [self.runs] * len(sums["nees_sums"])
-        self.nees = consistency(sums["nees_sums"], all_runs, degrees[0])
-        self.nis = consistency(sums["nis_sums"], sums["nis_counts"], degrees[1])
+        for key in ("nees", "nis"):
+            degrees = max(part["sums"][f"{key}_degrees"] for part in parts)
+            setattr(self, key, consistency(sums[key], sums[f"{key}_counts"], degrees))
 
     def column(self, path: str):
         """A number of each run, as "steps[0].overshoot": an array; NaN where there is none."""
@@ -87,8 +82,8 @@ def percentiles_of(items, percent):
 
 
 def joined(key, parts):
-    """Sums of parts, sample by sample; a run that was lost may have fewer."""
-    rows = [part.get(key) or [] for part in parts]
+    """Sums of parts, sample by sample; a part whose runs were all lost may have fewer."""
+    rows = [part["sums"][key] for part in parts]
     length = max(map(len, rows))
     return [sum(row[k] for row in rows if k < len(row)) for k in range(length)]
 
@@ -115,8 +110,7 @@ def part_of(design, name, seed, first, count):
     """Runs first … first + count − 1: what a task does."""
     words = [] if name is None else ["--scenario", name]
     said = simulated(design, "--seed", seed, "--runs", str(count), "--first", str(first), *words)
-    part = said["monte_carlo"][0]
-    return part["name"], part["samples"]
+    return {key: said["monte_carlo"][0][key] for key in ("name", "samples", "failures", "sums")}
 
 
 def monte_carlo(design, runs, seed, scenario, executor, progress) -> MonteCarlo:
@@ -126,6 +120,4 @@ def monte_carlo(design, runs, seed, scenario, executor, progress) -> MonteCarlo:
     size = runs if executor is None and progress is False else max(smallest, -(-runs // 64))
     tasks = [(design, name, seed, first, min(size, runs - first)) for first in range(0, runs, size)]
     parts = done(part_of, tasks, executor, progress, design.name)
-    if len({part[0] for part in parts}) != 1:
-        raise DesignError("monte_carlo: the parts are of different scenarios")
-    return MonteCarlo(parts[0][0], int(seed), [part for _, part in parts])
+    return MonteCarlo(parts[0]["name"], int(seed), parts)

@@ -12,6 +12,7 @@ from .toml import plain
 
 STEP = re.compile(r"(\w+)((?:\[\d+\])*)")
 
+TOP = ("name", "brief")
 LETTERS = {
     **{key: f"plant.{key}" for key in ("A", "B", "C", "D", "G", "H")},
     **{key: f"lqr.{key}" for key in ("Q", "R", "N")},
@@ -85,10 +86,11 @@ def steps_of(path):
     parts = [STEP.fullmatch(part) for part in path.split(".")]
     if not all(parts):
         raise expected(path, 'a place such as "lqr.Q[1]"', repr(path))
-    if len(parts) == 1 and parts[0][1] not in ("name", "brief", "scenario", "stage"):
-        return [*whole(parts[0][1]).split("."), *numbers(parts[0][2])]
-    if parts[0][1] not in sections() and parts[0][1] not in ("name", "brief"):
-        raise unknown(path, parts[0][1], sections())
+    first = parts[0][1]
+    if first not in sections() and first not in TOP:
+        if len(parts) > 1:
+            raise unknown(path, first, sections())
+        return [*whole(first).split("."), *numbers(parts[0][2])]
     steps = []
     for part in parts:
         steps += [part[1], *numbers(part[2])]

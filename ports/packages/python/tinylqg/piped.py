@@ -19,13 +19,12 @@ class Piped:
         self.errors = tempfile.TemporaryFile()
         self.folder = tempfile.TemporaryDirectory()
         file = Path(self.folder.name, design.name + ".toml")
-        file.write_bytes(design.text.encode("utf-8"))
+        file.write_bytes(alone(design).text.encode("utf-8"))
         self.process = subprocess.Popen(
             [str(lqgen_path()), "run", "--quiet", "--", str(file)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self.errors,
-            cwd=design.folder,
             text=True,
             bufsize=1,
         )
@@ -59,6 +58,11 @@ class Piped:
 
     def close(self):
         self.end()
+
+
+def alone(design):
+    """The design without scenarios, whose files lie beside it, and without what is required of it in them."""
+    return design.replace(scenario=None, require=None) if design.scenarios else design
 
 
 def ended(process, errors, folder):

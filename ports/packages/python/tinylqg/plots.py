@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Pictures of a design, by Matplotlib."""
 
+from functools import partial
+
 from .errors import DesignError, expected, needs
 from .frequency import frequencies, loop_gain, one_at_a_time
 
@@ -28,18 +30,17 @@ def figure_of(Figure):
 
 
 def response(figure, design, scenario=None, seed=1):
-    """Outputs with their references, inputs with their limits, estimates within ±3σ."""
+    """Outputs with their references, inputs with their limits, each state with its estimate within ±3σ."""
     run = design.simulate(scenario, seed)
-    parts = [
-        draw for draw, there in ((draw_outputs, run.outputs), (draw_inputs, run.u), (draw_states, run.x)) if has(there)
-    ]
+    parts = [draw for draw, there in ((draw_outputs, run.outputs), (draw_inputs, run.u)) if has(there)]
+    parts += [partial(draw_state, i) for i in range(len(run.names.states))]
     axes = figure.subplots(len(parts), 1, sharex=True, squeeze=False)[:, 0]
-    figure.set_size_inches(8, 2.4 * len(parts))
+    figure.set_size_inches(8, max(4, 1.8 * len(parts)))
     figure.suptitle(f"{design.name}: {run.name}")
     for draw, place in zip(parts, axes):
         draw(place, run, design)
         place.grid(alpha=0.3)
-        place.legend(loc="upper right", fontsize="small")
+        place.legend(loc="best", fontsize="small")
     axes[-1].set_xlabel("t [s]")
     return figure
 
@@ -69,14 +70,15 @@ def draw_inputs(axes, run, design):
     axes.set_ylabel("inputs")
 
 
-def draw_states(axes, run, design):
-    for i, name in enumerate(run.names.states):
-        (line,) = axes.plot(run.t, run.x[:, i], label=name)
-        axes.plot(run.t, run.estimate[:, i], "--", color=line.get_color())
-        if has(run.sigma):
-            low, high = (run.estimate[:, i] + sign * 3 * run.sigma[:, i] for sign in (-1, 1))
-            axes.fill_between(run.t, low, high, color=line.get_color(), alpha=0.2)
-    axes.set_ylabel("states (--: x̂ ± 3σ)")
+def draw_state(i, axes, run, design):
+    """The axis is for the state and its estimate: σ may begin far outside."""
+    (line,) = axes.plot(run.t, run.x[:, i], label=run.names.states[i])
+    axes.plot(run.t, run.estimate[:, i], "--", label="estimate ± 3σ")
+    low, high = axes.get_ylim()
+    if has(run.sigma):
+        least, most = (run.estimate[:, i] + sign * 3 * run.sigma[:, i] for sign in (-1, 1))
+        axes.fill_between(run.t, least, most, color=line.get_color(), alpha=0.2)
+    axes.set_ylim(low, high)
 
 
 def loops(design):

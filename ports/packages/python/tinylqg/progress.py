@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Work that an executor does, in order, with a bar of tqdm where that is installed."""
 
+import warnings
+
 
 def done(function, tasks, executor, progress, what):
     """function(*task) of each task, in their order. An executor has submit(function, *arguments), whose result has
@@ -19,7 +21,9 @@ def shown(results, count, progress, what):
     if progress is False:
         return results
     try:
-        from tqdm.auto import tqdm
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of notebooks without widgets: the bar is text there
+            from tqdm.auto import tqdm
     except ImportError:
         if progress:
             from .errors import needs

@@ -61,7 +61,7 @@ class Run:
         for key in SERIES:
             setattr(self, key, series(scenario.get(key)))
         for key in SIGNALS:
-            setattr(self, key, rows(scenario.get(key)))
+            setattr(self, key, rows(scenario.get(key), len(scenario["t"])))
         self.events = [frozenset() for _ in scenario["t"]]
         for sample in scenario.get("events", []):
             self.events[sample["k"]] = frozenset(sample["events"])
@@ -99,26 +99,26 @@ def series(values):
     return None if values is None else array([float("nan") if value is None else value for value in values])
 
 
-def rows(signals):
-    """Signals as columns."""
+def rows(signals, count):
+    """Signals as columns of `count` rows."""
     if signals is None:
         return None
-    return array([[float("nan") if value is None else value for value in row] for row in zip(*signals)])
+    columns = [[float("nan") if value is None else value for value in signal] for signal in signals]
+    return array([[column[k] for column in columns] for k in range(count)])
 
 
 def with_scenario(design, scenario):
-    """The design whose scenario `scenario` is, and that scenario's name; None: the first one there is."""
+    """The design that has `scenario`, and that scenario's name, which lqgen checks; None: the first one there is. A
+    dictionary takes the place of a scenario of its name."""
     if scenario is None:
         return design, design.scenarios[0] if design.scenarios else None
     if isinstance(scenario, str):
-        if scenario not in design.scenarios:
-            known = ", ".join(map(repr, design.scenarios)) or "none"
-            raise expected("scenario", f"one of the design's, {known}", repr(scenario))
         return design, scenario
     if not isinstance(scenario, Mapping):
         raise expected("scenario", "a name or a dictionary", f"{type(scenario).__name__} {scenario!r}")
     scenario = {"name": "scenario", **scenario}
-    return design.replace(scenario=[scenario]), scenario["name"]
+    others = [other for other in design.tables.get("scenario", []) if other.get("name") != scenario["name"]]
+    return design.replace(scenario=[*others, scenario]), scenario["name"]  # [require] may name one of the others
 
 
 def simulated(design, *arguments):

@@ -72,6 +72,8 @@ def inline(value, where):
         return "{ " + ", ".join(items) + " }"
     if isinstance(value, list):
         return "[" + ", ".join(inline(item, where) for item in value) + "]"
+    if isinstance(value, bool) and where.startswith("scenario["):  # nothing else has truth values
+        return "true" if value else "false"
     return number(value, where)
 
 

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# cmake -DFOLDER=… -DOUTPUT=… -P embed.cmake: the files of the panel as strings of C++.
+set(text "// Made by embed.cmake.\n#include \"view/panel.hpp\"\n\nnamespace lqg::view::panel {\n\n")
+foreach(entry IN ITEMS body=html style=css script=js)
+  string(REGEX MATCH "^([a-z]+)=([a-z]+)$" matched "${entry}")
+  set(name ${CMAKE_MATCH_1})
+  file(READ "${FOLDER}/panel.${CMAKE_MATCH_2}" content)
+  foreach(never IN ITEMS "</script" "</style" "http://" "https://" ")embedded\"")
+    string(FIND "${content}" "${never}" found)
+    if(NOT found EQUAL -1)
+      message(FATAL_ERROR "panel.${CMAKE_MATCH_2} has `${never}`, which the page cannot have")
+    endif()
+  endforeach()
+  string(REGEX REPLACE "^(//|/\\*|<!--) SPDX[^\n]*\n" "" content "${content}")
+  string(APPEND text "const char* const ${name} = R\"embedded(${content})embedded\";\n\n")
+endforeach()
+file(WRITE "${OUTPUT}" "${text}}  // namespace lqg::view::panel\n")

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "view/picture.hpp"
+
+#include <filesystem>
+
+#include "design/solve.hpp"
+#include "emit/plan/plan.hpp"
+#include "emit/report/report.hpp"
+#include "emit/text/sha256.hpp"
+#include "input/design_file.hpp"
+
+namespace lqg::view {
+
+namespace {
+
+void add_lines(Picture& picture, const input::DesignFile& file, const std::string& path,
+               const design::Findings& findings) {
+  for (const design::Finding& finding : findings) {
+    const input::Location where = input::locate(file, finding.key);
+    picture.lines.push_back(input::format(path, where, finding));
+    if (finding.severity != design::Severity::error) continue;
+    if (!picture.has_error) picture.line = where.line;
+    picture.has_error = true;
+  }
+}
+
+controller::Source source_of(const std::string& text, const std::string& path) {
+  return {std::filesystem::path(path).filename().string(), emit::sha256(text)};
+}
+
+std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
+  std::optional<design::Solution> solution = design::first_look(*file.problem);
+  if (!solution) return std::nullopt;
+  design::Findings ignored;
+  const auto controller =
+      emit::make_controller(*file.problem, *std::move(solution), source_of(file.text, path), ignored);
+  return controller ? std::optional(emit::page_data(*controller)) : std::nullopt;
+}
+
+std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, Picture& picture) {
+  design::Findings findings;
+  std::optional<design::Solution> solution = design::solve(*file.problem, findings);
+  std::optional<emit::Controller> controller;
+  if (solution && !design::has_error(findings))
+    controller = emit::make_controller(*file.problem, *std::move(solution), source_of(file.text, path), findings);
+  input::sort_by_place(file, findings);
+  add_lines(picture, file, path, findings);
+  return controller ? std::optional(emit::page_data(*controller, findings)) : std::nullopt;
+}
+
+}  // namespace
+
+Picture picture_of(const std::string& text, const std::string& path, Depth depth) {
+  const input::DesignFile file = input::parse_design(text, std::filesystem::path(path).parent_path());
+  Picture picture;
+  add_lines(picture, file, path, file.findings);
+  if (!file.problem) return picture;
+  picture.tunables = tunables(file);
+  picture.page = depth == Depth::whole ? whole_page(file, path, picture) : first_page(file, path);
+  return picture;
+}
+
+emit::PageData empty_page(const std::string& path) {
+  emit::PageData page;
+  page.title = path;
+  page.verdict = "No picture yet.";
+  return page;
+}
+
+}  // namespace lqg::view

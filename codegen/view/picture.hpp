@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// From the text of a design file to its page, on the way that `lqgen check` goes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emit/page/page.hpp"
+#include "view/tunables.hpp"
+
+namespace lqg::view {
+
+struct Picture {
+  std::vector<std::string> lines;      // what the terminal would say: "servo.toml:9:5: plant.B: expected …"
+  int line = 0;                        // of the first error; 0: none has a line
+  bool has_error = false;              // one of the lines is an error: then there is no page
+  std::vector<Tunable> tunables;       // of a file without an error in it, even where its design is impossible
+  std::optional<emit::PageData> page;  // none, too, where a first look sees nothing
+};
+
+// A first look has the curves of design::first_look and no lines beyond those of the file: where it finds no page,
+// only the whole tells why.
+enum class Depth { first_look, whole };
+
+// `path`: how the messages call the file.
+Picture picture_of(const std::string& text, const std::string& path, Depth depth);
+
+// A page that says that there is nothing to see yet.
+emit::PageData empty_page(const std::string& path);
+
+}  // namespace lqg::view

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "view/tunables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "input/edit.hpp"
+#include "view/tunable_poles.hpp"
+
+namespace lqg::view {
+
+namespace {
+
+using design::Signal;
+using input::PlacedNumber;
+
+enum class Named { nothing, states, inputs, outputs, noises, integrals };
+enum class Span { weight, largest, time, limit, rate, delay, steps, gate, spike, decay };
+
+struct Rule {
+  const char* key;
+  const char* words;
+  Named named;
+  Span span;
+  const char* unit = "";  // of a number alone
+};
+
+// clang-format off
+const Rule rules[] = {
+    {"plant.sample_time", "Timing", Named::nothing, Span::time, "s"},
+    {"plant.delay", "Timing", Named::nothing, Span::delay, "s"},
+    {"lqr.Q", "Weights of the states", Named::states, Span::weight},
+    {"lqr.Q_output", "Weights of the outputs", Named::outputs, Span::weight},
+    {"lqr.R", "Weights of the inputs", Named::inputs, Span::weight},
+    {"lqr.Q_final", "Weights at the end of the horizon", Named::states, Span::weight},
+    {"lqr.bryson.states", "Largest acceptable states", Named::states, Span::largest},
+    {"lqr.bryson.outputs", "Largest acceptable outputs", Named::outputs, Span::largest},
+    {"lqr.bryson.inputs", "Largest acceptable inputs", Named::inputs, Span::largest},
+    {"lqr.bryson.rho", "Factor of R", Named::nothing, Span::weight},
+    {"lqr.integral.Q", "Weights of the integrals", Named::integrals, Span::weight},
+    {"lqr.input_rate", "Weights of the changes of the inputs", Named::inputs, Span::weight},
+    {"lqr.decay", "Decay", Named::nothing, Span::decay},
+    {"lqr.settling_time", "Timing", Named::nothing, Span::time, "s"},
+    {"lqr.horizon", "Horizon of the regulator", Named::nothing, Span::steps, "samples"},
+    {"kalman.process_noise", "Process noise", Named::noises, Span::weight},
+    {"kalman.measurement_noise", "Measurement noise", Named::outputs, Span::weight},
+    {"kalman.initial_covariance", "Initial covariance", Named::states, Span::weight},
+    {"kalman.process_correlation_time", "Correlation times of the process noise", Named::noises, Span::time},
+    {"kalman.measurement_correlation_time", "Correlation times of the measurement noise", Named::outputs, Span::time},
+    {"kalman.horizon", "Horizon of the filter", Named::nothing, Span::steps, "samples"},
+    {"kalman.gate", "Gates", Named::nothing, Span::gate, "σ"},
+    {"kalman.spike", "Gates", Named::nothing, Span::spike, "σ"},
+    {"limits.u_min", "Smallest inputs", Named::inputs, Span::limit},
+    {"limits.u_max", "Largest inputs", Named::inputs, Span::limit},
+    {"limits.u_rate", "Largest rates of the inputs", Named::inputs, Span::rate},
+};
+// clang-format on
+
+// "lqr.Q" and {1} of "lqr.Q[1]".
+struct SplitKey {
+  std::string base;
+  std::vector<std::size_t> indices;
+};
+
+SplitKey split(const std::string& key) {
+  SplitKey result = {key.substr(0, key.find('[')), {}};
+  for (std::size_t at = result.base.size(); at < key.size() && key[at] == '['; at = key.find(']', at) + 1)
+    result.indices.push_back(static_cast<std::size_t>(std::stoul(key.substr(at + 1))));
+  return result;
+}
+
+const Rule* rule_of(const std::string& base) {
+  const auto found =
+      std::find_if(std::begin(rules), std::end(rules), [&](const Rule& rule) { return base == rule.key; });
+  return found == std::end(rules) ? nullptr : found;
+}
+
+// The entry of a vector or of a diagonal; nothing beside the diagonal.
+std::optional<std::size_t> entry(const SplitKey& key) {
+  if (key.indices.empty()) return 0;
+  const bool is_beside = key.indices.size() > 2 || (key.indices.size() == 2 && key.indices[0] != key.indices[1]);
+  return is_beside ? std::nullopt : std::optional(key.indices[0]);
+}
+
+// A process noise has the name of its state where it enters that state alone, as without a G.
+std::vector<Signal> noises(const input::DesignFile& file) {
+  if (file.locations.count("plant.G") == 0) return file.problem->plant.states;
+  std::vector<Signal> names;
+  for (Eigen::Index i = 0; i < file.problem->plant.G.cols(); ++i) names.push_back({"w" + std::to_string(i), ""});
+  return names;
+}
+
+std::vector<Signal> names_of(Named named, const input::DesignFile& file) {
+  const design::Problem& problem = *file.problem;
+  switch (named) {
+    case Named::states: return problem.plant.states;
+    case Named::inputs: return problem.plant.inputs;
+    case Named::outputs: return problem.plant.outputs;
+    case Named::noises: return noises(file);
+    case Named::integrals: break;
+    case Named::nothing: return {};
+  }
+  std::vector<Signal> names;
+  if (problem.regulator && problem.regulator->integral)
+    for (const int output : problem.regulator->integral->outputs)
+      names.push_back(problem.plant.outputs[static_cast<std::size_t>(output)]);
+  return names;
+}
+
+std::string last_word(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// "(rad/s)/s" of a rate, "V" of a limit; nothing of a weight, whose unit nobody thinks in.
+std::string unit_of(const Rule& rule, const std::string& unit) {
+  if (rule.span == Span::time) return "s";
+  if (unit.empty() || rule.span == Span::weight) return "";
+  if (rule.span == Span::rate) return unit.find_first_of("/ ") == unit.npos ? unit + "/s" : "(" + unit + ")/s";
+  return unit;
+}
+
+void set_name(Tunable& tunable, const Rule& rule, std::size_t index, const input::DesignFile& file) {
+  tunable.group = std::string(rule.words);
+  if (rule.named == Named::nothing) {
+    tunable.name = last_word(rule.key);
+    tunable.unit = rule.unit;
+    return;
+  }
+  tunable.group += ", " + std::string(rule.key);
+  const std::vector<Signal> names = names_of(rule.named, file);
+  const Signal signal = index < names.size() ? names[index] : Signal{std::to_string(index), ""};
+  tunable.name = signal.name;
+  tunable.unit = unit_of(rule, signal.unit);
+}
+
+void span_decades(Tunable& tunable, double factor) {
+  tunable.scale = Scale::logarithmic;
+  tunable.low = tunable.value / factor;
+  tunable.high = tunable.value * factor;
+}
+
+// A straight scale that holds the value and has 0 on one of its ends.
+void span_from_zero(Tunable& tunable, double otherwise) {
+  const double far = tunable.value != 0 ? 4 * tunable.value : otherwise;
+  tunable.low = std::min(0.0, far);
+  tunable.high = std::max(0.0, far);
+}
+
+void span_delay(Tunable& tunable, const design::Plant& plant) {
+  tunable.high = std::max(2 * tunable.value, 5 * plant.sample_time);
+  if (plant.domain == design::Domain::discrete) tunable.step = plant.sample_time;
+}
+
+// α of a continuous cost is a rate from 0 on; of samples a factor from 1 on.
+void span_decay(Tunable& tunable, const design::Problem& problem) {
+  if (problem.regulator && problem.regulator->cost == design::Cost::continuous) return span_from_zero(tunable, 1);
+  tunable.low = 1;
+  tunable.high = std::max(1.05, 1 + 4 * (tunable.value - 1));
+}
+
+void set_range(Tunable& tunable, const Rule& rule, double largest, const design::Problem& problem) {
+  const bool has_decades = tunable.value > 0;
+  switch (rule.span) {
+    case Span::weight: has_decades ? span_decades(tunable, 1000) : span_from_zero(tunable, largest); break;
+    case Span::largest: span_decades(tunable, 30); break;
+    case Span::time: span_decades(tunable, 10); break;
+    case Span::rate: span_decades(tunable, 10); break;
+    case Span::spike: span_decades(tunable, 10); break;
+    case Span::limit: span_from_zero(tunable, largest); break;
+    case Span::delay: span_delay(tunable, problem.plant); break;
+    case Span::gate: tunable.high = std::max(10.0, 2 * tunable.value); break;
+    case Span::decay: span_decay(tunable, problem); break;
+    case Span::steps:
+      tunable.scale = Scale::whole;
+      tunable.high = tunable.value > 0 ? std::min<double>(design::most_steps, 4 * tunable.value) : 200;
+      break;
+  }
+}
+
+using Largest = std::map<std::string, double>;  // by the first word of a key's rule
+
+Largest largest_numbers(const std::vector<PlacedNumber>& numbers) {
+  Largest largest;
+  for (const PlacedNumber& number : numbers)
+    if (std::isfinite(number.value)) {
+      const std::string base = split(number.key).base;
+      double& size = largest[base.rfind("limits.u_m", 0) == 0 ? "limits" : base];
+      size = std::max(size, std::abs(number.value));
+    }
+  return largest;
+}
+
+double largest_beside(const Largest& largest, const std::string& base) {
+  const auto found = largest.find(base.rfind("limits.u_m", 0) == 0 ? "limits" : base);
+  return found == largest.end() || found->second == 0 ? 1 : found->second;
+}
+
+}  // namespace
+
+std::vector<Tunable> tunables(const input::DesignFile& file) {
+  const std::vector<PlacedNumber> numbers = input::numbers_of(file.text);
+  const Largest largest = largest_numbers(numbers);
+  std::vector<Tunable> result;
+  for (const PlacedNumber& number : numbers) {
+    const SplitKey key = split(number.key);
+    const Rule* const rule = rule_of(key.base);
+    const std::optional<std::size_t> index = entry(key);
+    if (rule == nullptr || !index || !std::isfinite(number.value)) continue;
+    Tunable tunable;
+    tunable.targets = {{number.key, 1}};
+    tunable.value = number.value;
+    set_name(tunable, *rule, *index, file);
+    set_range(tunable, *rule, largest_beside(largest, key.base), *file.problem);
+    result.push_back(tunable);
+  }
+  const std::vector<Tunable> poles = tunable_poles(numbers);
+  result.insert(result.end(), poles.begin(), poles.end());
+  return result;
+}
+
+}  // namespace lqg::view
