@@ -28,7 +28,8 @@ std::vector<std::size_t> needed_points(const std::vector<Point>& line, double to
     std::size_t farthest = from;
     double distance = tolerance;
     for (std::size_t i = from + 1; i < to; ++i)
-      if (const double here = distance_of(line[i], line[from], line[to]); here > distance) farthest = i, distance = here;
+      if (const double here = distance_of(line[i], line[from], line[to]); here > distance)
+        farthest = i, distance = here;
     if (farthest == from) continue;
     needed.push_back(farthest);
     open.push_back({from, farthest});
