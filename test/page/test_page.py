@@ -186,12 +186,19 @@ class Pages(unittest.TestCase):
         _, place = self.figure(page, chart)
         page.mouse.move(place["left"] + 0.6 * place["width"], place["top"] + 0.5 * place["height"])
         spec = next(c for c in data_of(name)["charts"] if c["id"] == chart)
-        curve = next(c for c in spec["curves"] if c["role"] == "data")
-        x, y = (data_of(name)["lists"][curve[axis]] for axis in "xy")
+        lists = data_of(name)["lists"]
+        curves = [c for c in spec["curves"] if c["role"] == "data"]
+        lines = [c for c in curves if c["mark"] not in ("dots", "rings")]
+        sampled = lists[min(lines, key=lambda c: len(lists[c["x"]]))["x"]]
         low, high = self.window(page, chart)[:2]
-        nearest = min(range(len(x)), key=lambda i: abs(x[i] - (low + 0.6 * (high - low))))
-        said = page.locator(f'[data-chart="{chart}"] .value').first.inner_text().replace("−", "-")
-        self.assertAlmostEqual(float(said), y[nearest], delta=2e-3 * max(abs(v) for v in y if v is not None))
+        at = min(sampled, key=lambda x: abs(x - (low + 0.6 * (high - low))))
+        values = page.locator(f'[data-chart="{chart}"] .value').all_inner_texts()
+        self.assertGreaterEqual(len(values), len(curves))
+        for curve, said in zip(curves, values):
+            x, y = lists[curve["x"]], lists[curve["y"]]
+            expected = y[min(range(len(x)), key=lambda i: abs(x[i] - at))]
+            size = max(abs(v) for v in y if v is not None)
+            self.assertAlmostEqual(float(said.replace("−", "-")), expected, delta=2e-3 * size, msg=curve["label"])
         crosses = page.locator(".cross:visible").count()
         group = [c["id"] for c in data_of(name)["charts"] if c["group"] == spec["group"]]
         drawn = [c for c in group if c in self.shown(page)]

@@ -21,12 +21,18 @@ def style(report):
     return re.sub(r"var\((--[\w-]+)\)", lambda found: colours[found[1]], text), colours
 
 
+def folded(lines):
+    """Paths in lines that people's tools can show."""
+    lines = lines.replace("/><text", "/>\n<text")
+    return re.sub(r"[^\n]{80,100}?(?=[LMHV]\d)", lambda found: found[0] + "\n", lines)
+
+
 def placed(chart, x, y, panel):
     width, height, label, lines = chart
     return (
         f'<svg x="{x:g}" y="{y:g}" width="{width}" height="{height}" viewBox="0 0 {width} {height}">\n'
         f"<title>{label}</title>\n"
-        f'<rect class="panel" width="{width}" height="{height}" fill="{panel}"/>\n{lines}</svg>\n'
+        f'<rect class="panel" width="{width}" height="{height}" fill="{panel}"/>\n{folded(lines)}</svg>\n'
     )
 
 

@@ -97,10 +97,8 @@ Json bands_of(const Chart& chart, Lists& lists) {
 void add_marks(Json& out, const Chart& chart) {
   out["circles"] = out["guides"] = out["notes"] = out["events"] = Json::array();
   for (const Circle& circle : chart.circles)
-    out["circles"].push_back({{"x", six_digits(circle.x)},
-                              {"y", six_digits(circle.y)},
-                              {"radius", six_digits(circle.radius)},
-                              {"label", circle.label}});
+    out["circles"].push_back(
+        {{"x", six_digits(circle.x)}, {"y", six_digits(circle.y)}, {"radius", six_digits(circle.radius)}});
   for (const Guide& guide : chart.guides)
     out["guides"].push_back(
         {{"axis", guide.axis == Guide::Axis::x ? "x" : "y"}, {"at", six_digits(guide.at)}, {"label", guide.label}});

@@ -14,7 +14,7 @@ namespace lqg::emit {
 //   charts  [{id, title, group, square, x: {label, log}, y, view: [x low, x high, y low, y high],
 //             curves: [{label, owner, mark, colour, role, x: which of the lists, y: which,
 //             texts: [of each point]}],
-//             bands: [{label, owner, colour, x: which of the lists, low, high}], circles: [{x, y, radius, label}],
+//             bands: [{label, owner, colour, x: which of the lists, low, high}], circles: [{x, y, radius}],
 //             guides: [{axis, at, label}], notes: [{x, y, dx, dy, text}], events: [{at, label}]}]
 //
 // Numbers have six digits. The text can stand in a script element: it has neither < nor anything beyond ASCII.

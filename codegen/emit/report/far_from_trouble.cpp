@@ -56,7 +56,8 @@ std::vector<double> decibels_of(const std::vector<Complex>& L, Value value) {
   return out;
 }
 
-// In degrees, without jumps; begins in (−270, 90].
+// In degrees, without jumps; of the angles that it can be called by those with which it is nearest to −180° where the
+// gain is nearest to 1.
 std::vector<double> phase_of(const std::vector<Complex>& L) {
   std::vector<double> out;
   for (const Complex& l : L) {
@@ -65,6 +66,12 @@ std::vector<double> phase_of(const std::vector<Complex>& L) {
     phase -= 360 * std::round((phase - before) / 360);
     out.push_back(phase);
   }
+  const auto from_crossover = [](const Complex& a, const Complex& b) {
+    return std::abs(std::log(std::abs(a))) < std::abs(std::log(std::abs(b)));
+  };
+  const auto crossover = std::min_element(L.begin(), L.end(), from_crossover) - L.begin();
+  const double turns = std::round((out[static_cast<std::size_t>(crossover)] + 180) / 360);
+  for (double& phase : out) phase -= 360 * turns;
   return out;
 }
 

@@ -36,8 +36,9 @@ PageFigure margin(const std::string& name, const std::optional<double>& value, c
 PageFigure delay_margin(const design::Margins& margins, const Controller& controller) {
   const double T = controller.problem.plant.sample_time;
   const std::optional<double>& least = controller.problem.requirements.delay_margin;
-  if (!margins.delay_samples) return {"Delay margin", "∞", at_least(least, "s"), true};
-  return {"Delay margin", with_unit(*margins.delay_samples, "samples"), at_least(least, "s"),
+  const std::string required = at_least(least ? std::optional(*least / T) : std::nullopt, "samples");
+  if (!margins.delay_samples) return {"Delay margin", "∞", required, true};
+  return {"Delay margin", with_unit(*margins.delay_samples, "samples"), required,
           !least || *margins.delay_samples * T >= *least};
 }
 

@@ -49,7 +49,7 @@ Chart chart_of(const LoopCurve& loop, double sample_time, const std::optional<do
   // |S − T| < 2/d keeps L out of the circle through −(2 + d)/(2 − d) and −(2 − d)/(2 + d).
   if (disk && *disk < 2) {
     const double far = (2 + *disk) / (2 - *disk), near = 1 / far;
-    chart.circles.push_back({-(far + near) / 2, 0, (far - near) / 2, "disk margin"});
+    chart.circles.push_back({-(far + near) / 2, 0, (far - near) / 2});
   }
   chart.curves = {
       curve_of(loop, sample_time, true), curve_of(loop, sample_time, false), {"−1", Mark::crosses, 1, {-1}, {0}}};

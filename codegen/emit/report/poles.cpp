@@ -56,9 +56,13 @@ PageTable pole_table(const Controller& controller) {
   for (const auto& [owner, poles] : poles_to_show(controller))
     for (const std::complex<double>& pole : poles) {
       if (pole.imag() < 0) continue;  // stands with its conjugate
-      const std::vector<std::string> cells = {decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : ""),
-                            decimal(std::abs(pole)), continuous_of(pole, T), damping_of(pole, T),
-                            time_constant_of(pole, T), frequency_of(pole, T)};
+      const std::vector<std::string> cells = {
+          decimal(pole.real()) + (pole.imag() > 0 ? " ± " + decimal(pole.imag()) + "i" : ""),
+          decimal(std::abs(pole)),
+          continuous_of(pole, T),
+          damping_of(pole, T),
+          time_constant_of(pole, T),
+          frequency_of(pole, T)};
       add_pole(owner, cells, table);
     }
   return table;
@@ -148,7 +152,7 @@ Chart z_plane(const Controller& controller, const std::string& title, const std:
   chart.is_square = true;
   chart.x.label = "Re z";
   chart.y.label = "Im z";
-  chart.circles.push_back({0, 0, 1, "|z| = 1"});
+  chart.circles.push_back({0, 0, 1});
   for (const auto& [owner, poles] : poles_to_show(controller))
     chart.curves.push_back(curve_of_poles(owner, poles, controller.problem.plant.sample_time));
   return chart;

@@ -109,7 +109,7 @@ std::vector<Chart> root_locus(const Controller& controller) {
   chart.is_square = true;
   chart.x.label = "Re z";
   chart.y.label = "Im z";
-  chart.circles.push_back({0, 0, 1, "|z| = 1"});
+  chart.circles.push_back({0, 0, 1});
   chart.curves = branches(*plant);
   chart.curves.push_back(chosen_poles(controller.solution.regulator->poles));
   fit(chart);

@@ -8,6 +8,7 @@
 #include "design/finding.hpp"
 #include "emit/text/chart_axis.hpp"
 #include "emit/text/html.hpp"
+#include "emit/text/simplify.hpp"
 
 namespace lqg::emit {
 
@@ -203,24 +204,48 @@ class Picture {
   }
 
   std::string draw(const Curve& curve) const {
-    constexpr std::size_t visible = 200;  // half of the pixels that a narrow picture has
-    const std::string path = is_points(curve.mark) ? points(curve) : line_of(reduced(curve, visible));
+    const std::string path = is_points(curve.mark) ? points(curve) : line_of(curve);
     return "<path class=\"" + class_of(curve) + "\" d=\"" + path + "\"/>\n";
   }
 
-  std::string line_of(const Curve& curve) const {
-    std::string path;
+  // Pieces of the curve without a gap.
+  std::vector<std::vector<Point>> pieces(const Curve& curve) const {
+    std::vector<std::vector<Point>> out;
     bool pen_is_down = false;
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       const bool shown = shows(curve.x[i], curve.y[i]);
-      if (shown) {
-        const std::string x = coordinate(at_x(curve.x[i])), y = coordinate(at_y(curve.y[i]));
-        if (pen_is_down && curve.mark == Mark::steps)
-          path += "H" + x + "V" + y;
-        else
-          path += (pen_is_down ? "L" : "M") + x + " " + y;
-      }
+      if (shown && !pen_is_down) out.emplace_back();
+      if (shown) out.back().push_back({at_x(curve.x[i]), at_y(curve.y[i])});
       pen_is_down = shown;
+    }
+    return out;
+  }
+
+  std::string line_of(const Curve& curve) const {
+    constexpr double invisible = 0.15;  // of a unit of the picture
+    std::string path;
+    for (const std::vector<Point>& piece : pieces(curve)) {
+      if (curve.mark == Mark::steps)
+        path += staircase(piece);
+      else
+        for (const std::size_t i : needed_points(piece, invisible))
+          path += (i == 0 ? "M" : "L") + coordinate(piece[i].x) + " " + coordinate(piece[i].y);
+    }
+    return path;
+  }
+
+  // Each value is held until the next that is another.
+  static std::string staircase(const std::vector<Point>& piece) {
+    std::string path, level;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const std::string x = coordinate(piece[i].x), y = coordinate(piece[i].y);
+      if (i == 0)
+        path += "M" + x + " " + y;
+      else if (y != level)
+        path += "H" + x + "V" + y;
+      else if (i + 1 == piece.size())
+        path += "H" + x;
+      level = y;
     }
     return path;
   }

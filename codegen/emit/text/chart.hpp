@@ -56,7 +56,6 @@ struct EventMark {
 
 struct Circle {
   double x = 0, y = 0, radius = 1;
-  std::string label = {};
 };
 
 struct Axis {
@@ -87,7 +86,7 @@ struct Window {
 Window window_of(const Chart& chart);
 
 // Points that are not finite, outside of the window, or not > 0 on a logarithmic axis interrupt a line. Coordinates
-// have one decimal.
+// have one decimal; points that would not be seen are left out.
 std::string svg(const Chart& chart);
 
 // Shorter curves that look the same: of each of `most`/2 buckets the first point that is the least and the first that

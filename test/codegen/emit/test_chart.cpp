@@ -7,6 +7,7 @@
 #include <unity.h>
 
 #include "emit/text/chart.hpp"
+#include "emit/text/simplify.hpp"
 
 using namespace lqg::emit;
 
@@ -40,7 +41,7 @@ void expect_only_numbers(const std::string& svg) {
 
 void test_a_line_goes_from_corner_to_corner_of_its_range() {
   // 62 and 12 beside the axes of 460, 26 above 130 of height; 3 % of the range above and below.
-  TEST_ASSERT_EQUAL_STRING("M62.0 152.3L255.0 91.0L448.0 29.7", path_of(svg(chart_of({-1, 0, 1}))).c_str());
+  TEST_ASSERT_EQUAL_STRING("M62.0 152.3L255.0 60.3L448.0 29.7", path_of(svg(chart_of({-1, 0.5, 1}))).c_str());
 }
 
 void test_ticks_of_a_small_range_have_the_digits_that_they_need() {
@@ -84,11 +85,11 @@ void test_words_are_escaped() {
 void test_a_logarithmic_axis_has_decades_and_equal_ratios_are_equally_wide() {
   Chart chart;
   chart.x.is_logarithmic = true;
-  chart.curves.push_back({"", Mark::line, 0, {0.01, 1, 100}, {0, 0.5, 1}});
+  chart.curves.push_back({"", Mark::line, 0, {0.01, 1, 100}, {0, 1, 1}});
   const std::string picture = svg(chart);
   for (const char* tick : {">0.01<", ">0.1<", ">1<", ">10<", ">100<"})
     TEST_ASSERT_TRUE_MESSAGE(has(picture, tick), tick);
-  TEST_ASSERT_TRUE(has(path_of(picture), "L255.0 91.0"));  // 1 lies in the middle
+  TEST_ASSERT_TRUE(has(path_of(picture), "L255.0 29.7"));  // 1 lies in the middle
 }
 
 void test_what_is_not_positive_interrupts_a_line_on_a_logarithmic_axis() {
@@ -125,6 +126,33 @@ void test_a_shorter_curve_keeps_its_least_and_its_largest_value_in_their_order()
   const auto low = std::find(shorter.y.begin(), shorter.y.end(), -7.0);
   TEST_ASSERT_TRUE(low != shorter.y.end() && *(low + 1) == 9);
   TEST_ASSERT_EQUAL_DOUBLE(1234, shorter.x[static_cast<std::size_t>(low - shorter.y.begin())]);
+}
+
+void test_a_straight_line_needs_two_points_and_a_spike_three_more() {
+  std::vector<double> y;
+  for (int k = 0; k <= 1000; ++k) y.push_back(k);
+  TEST_ASSERT_EQUAL_size_t(1, count(path_of(svg(chart_of(y))), "L"));
+  y[500] = -1000;
+  TEST_ASSERT_EQUAL_size_t(4, count(path_of(svg(chart_of(y))), "L"));
+}
+
+void test_no_point_is_farther_from_the_simpler_line_than_the_tolerance() {
+  std::vector<Point> line;
+  for (int k = 0; k <= 300; ++k) line.push_back({0.1 * k, std::sin(0.1 * k)});
+  const std::vector<std::size_t> needed = needed_points(line, 0.01);
+  TEST_ASSERT_TRUE(needed.size() < 150 && needed.front() == 0 && needed.back() == 300);
+  for (std::size_t i = 0; i + 1 < needed.size(); ++i) {
+    const Point from = line[needed[i]], to = line[needed[i + 1]];
+    const double dx = to.x - from.x, dy = to.y - from.y;
+    for (std::size_t k = needed[i]; k < needed[i + 1]; ++k)
+      TEST_ASSERT_TRUE(std::abs(dx * (line[k].y - from.y) - dy * (line[k].x - from.x)) <= 0.01 * std::hypot(dx, dy));
+  }
+}
+
+void test_steps_that_hold_their_value_are_one_line() {
+  const std::string path = path_of(svg(chart_of({0, 0, 0, 0, 1, 1, 1}, Mark::steps)));
+  TEST_ASSERT_EQUAL_size_t(1, count(path, "V"));
+  TEST_ASSERT_EQUAL_size_t(2, count(path, "H"));
 }
 
 void test_points_are_never_left_out() {
@@ -175,6 +203,9 @@ int main() {
   RUN_TEST(test_a_wide_band_makes_room_for_three_times_the_curves_and_no_more);
   RUN_TEST(test_a_limit_that_is_far_away_stays_outside_and_one_that_is_near_is_shown);
   RUN_TEST(test_a_shorter_curve_keeps_its_least_and_its_largest_value_in_their_order);
+  RUN_TEST(test_a_straight_line_needs_two_points_and_a_spike_three_more);
+  RUN_TEST(test_no_point_is_farther_from_the_simpler_line_than_the_tolerance);
+  RUN_TEST(test_steps_that_hold_their_value_are_one_line);
   RUN_TEST(test_points_are_never_left_out);
   RUN_TEST(test_a_shorter_band_keeps_both_ends);
   RUN_TEST(test_a_legend_names_each_label_once_and_grey_curves_never);

@@ -125,6 +125,9 @@ void test_the_gain_is_0_dB_at_the_crossover_and_the_phase_misses_180_by_the_marg
   TEST_ASSERT_TRUE(std::any_of(guides.begin(), guides.end(), [&](const lqg::emit::Guide& guide) {
     return std::abs(guide.at - crossover) < 1e-6 * crossover;
   }));
+  const auto& phase = chart_with(page, "loop0-phase").curves.front();
+  const auto after = std::lower_bound(phase.x.begin(), phase.x.end(), crossover) - phase.x.begin();
+  TEST_ASSERT_DOUBLE_WITHIN(1, *margins.phase_deg - 180, phase.y[static_cast<std::size_t>(after)]);
   const std::string words = "phase " + lqg::emit::decimal(*margins.phase_deg) + "° from −180°";
   TEST_ASSERT_TRUE(has(report(controller), words));
 }

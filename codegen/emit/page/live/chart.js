@@ -166,7 +166,9 @@ class Painter {
     context.setLineDash([]);
     const isRight = at > (area.left + area.right) / 2;
     if (isX) this.word(guide.label, at + (isRight ? -4 : 4), area.top + 11, isRight ? "end" : "start");
-    else this.word(guide.label, area.right - 3, at - 4, "end");
+    else if (at >= area.top && at <= area.bottom) {
+      this.word(guide.label, area.right - 3, at - 14 < area.top ? at + 12 : at - 4, "end");
+    }
   }
 
   note(note) {

@@ -170,12 +170,16 @@ class Figure {
     return this.zoomTo(x, about(window.y, this.spec.y, this.cursor ? this.cursor.y : height));
   }
 
-  // The curve that the cursor runs along.
+  // The curve that the cursor runs along: of those that are shown a line, and of these one with the fewest points, for
+  // other curves may have points between the samples.
   main() {
     const shownCurves = this.spec.curves.filter(
       (curve) => curve.role === "data" && curve.x.length && !page.hidden.has(keyOfCurve(this.spec, curve)),
     );
-    return (this.cursor && shownCurves.includes(this.cursor.curve) && this.cursor.curve) || shownCurves[0];
+    if (this.cursor && shownCurves.includes(this.cursor.curve)) return this.cursor.curve;
+    const lines = shownCurves.filter((curve) => isLine(curve) && curve.x.length > 2);
+    const candidates = lines.length ? lines : shownCurves;
+    return candidates.sort((a, b) => a.x.length - b.x.length)[0];
   }
 
   // The point that is nearest to these pixels: in x, or in both where a curve is not a function of x.
