@@ -28,13 +28,18 @@ controller::Source source_of(const std::string& text, const std::string& path) {
   return {std::filesystem::path(path).filename().string(), emit::sha256(text)};
 }
 
+// Also of a design that misses what is required: its page says so.
 std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
   std::optional<design::Solution> solution = design::first_look(*file.problem);
   if (!solution) return std::nullopt;
+  design::Problem problem = *file.problem;
+  problem.requirements = {};
   design::Findings ignored;
-  const auto controller =
-      emit::make_controller(*file.problem, *std::move(solution), source_of(file.text, path), ignored);
-  return controller ? std::optional(emit::page_data(*controller)) : std::nullopt;
+  auto controller =
+      emit::make_controller(std::move(problem), *std::move(solution), source_of(file.text, path), ignored);
+  if (!controller) return std::nullopt;
+  controller->problem.requirements = file.problem->requirements;
+  return emit::page_data(*controller);
 }
 
 std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, Picture& picture) {
@@ -56,7 +61,8 @@ Picture picture_of(const std::string& text, const std::string& path, Depth depth
   add_lines(picture, file, path, file.findings);
   if (!file.problem) return picture;
   picture.tunables = tunables(file);
-  picture.page = depth == Depth::whole ? whole_page(file, path, picture) : first_page(file, path);
+  if (depth == Depth::whole) picture.page = whole_page(file, path, picture);
+  if (!picture.page) picture.page = first_page(file, path);
   return picture;
 }
 

@@ -133,7 +133,7 @@
 
   function showErrors(message) {
     lqgPage.errors(message.has_error ? message.lines : []);
-    byId("lqg-page").classList.toggle("old", message.has_error);
+    byId("lqg-page").classList.toggle("old", message.has_error && !message.has_page);
   }
 
   function showFile() {
@@ -146,7 +146,8 @@
   function showTrial(message, isWhole) {
     showErrors(message);
     if (message.page) lqgPage.draw(message.page, { ghost: state.page || undefined });
-    if (message.has_error) say("These numbers make no design; the picture is the last one", true);
+    if (message.has_error && message.page) say("These numbers make no accepted design; a first look at it", true);
+    else if (message.has_error) say("These numbers make no design; the picture is the last one", true);
     else if (isWhole) say(`The design with these numbers, in ${Math.round(message.milliseconds)} ms; grey: the file`);
     else say("First look; computing all digits, margins at the outputs, rounding");
   }
