@@ -9,9 +9,9 @@
 //                       question came first
 //   POST /write         the same: puts the numbers into the file
 //
-// `page` is that of emit::page_json, or null; where a state has none (has_page) it is the last one. 400: a question that
-// nobody asked for, or a key that is no number of the file; 409: the file has changed since that revision. Both with
-// {error}.
+// `page` is that of emit::page_json, or null; where a state has none (has_page) it is the last one. 400: a question
+// that nobody asked for, or a key that is no number of the file; 409: the file has changed since that revision. Both
+// with {error}.
 #pragma once
 
 #include <map>
