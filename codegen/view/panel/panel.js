@@ -125,8 +125,12 @@
 
   // ---- what is shown
 
+  // While the file has an error there are no sliders for it: those of before wait.
+  const waits = () => state.has_error && !state.tunables.length;
+
   function showButtons() {
-    const none = !changed().length;
+    const none = !changed().length || waits();
+    byId("lqg-sliders").inert = waits();
     byId("lqg-back").disabled = none;
     byId("lqg-write").disabled = none;
   }
@@ -248,9 +252,9 @@
 
   function take(message) {
     state = message;
-    build(state.tunables);
+    if (!waits()) build(state.tunables);
     showButtons();
-    if (changed().length) move();
+    if (changed().length && !waits()) move();
     else showFile();
   }
 
