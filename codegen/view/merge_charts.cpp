@@ -21,11 +21,13 @@ bool is_data(const Curve& curve) { return curve.role == Role::data; }
 
 bool is_line(Mark mark) { return std::find(lines.begin(), lines.end(), mark) != lines.end(); }
 
-// Whether the curves of one design are told apart without their colours.
+// Whether the curves of one design are told apart without their colours. A staircase looks like a line in the legend.
 bool has_mark_for_each(const Chart& chart) {
   std::set<Mark> marks;
   for (const Curve& curve : chart.curves)
-    if (is_data(curve) && !curve.label.empty() && !marks.insert(curve.mark).second) return false;
+    if (is_data(curve) && !curve.label.empty() &&
+        !marks.insert(curve.mark == Mark::steps ? Mark::line : curve.mark).second)
+      return false;
   return true;
 }
 
@@ -57,6 +59,13 @@ void widen(double& low, double& high, double other_low, double other_high) {
   const bool has_both = low < high && other_low < other_high;
   low = has_both ? std::min(low, other_low) : 0;
   high = has_both ? std::max(high, other_high) : 0;
+}
+
+// Limits that two designs share, whose runs may differ in length.
+bool has_same_ends(const emit::Band& a, const emit::Band& b) {
+  if (a.low.empty() || b.low.empty()) return a.low.empty() && b.low.empty();
+  return a.low.front() == b.low.front() && a.low.back() == b.low.back() && a.high.front() == b.high.front() &&
+         a.high.back() == b.high.back();
 }
 
 void make_square(Chart& chart) {
@@ -93,7 +102,7 @@ Chart owned_chart(Chart chart, const std::string& owner, std::size_t number) {
 void lay_over(Chart& chart, const Chart& other) {
   for (const Curve& curve : other.curves)
     if (is_data(curve)) chart.curves.push_back(curve);
-  chart.bands.insert(chart.bands.end(), other.bands.begin(), other.bands.end());
+  add_new(chart.bands, other.bands, has_same_ends);
   chart.events.insert(chart.events.end(), other.events.begin(), other.events.end());
   add_new(chart.guides, other.guides,
           [](const emit::Guide& a, const emit::Guide& b) { return a.axis == b.axis && a.at == b.at; });

@@ -25,6 +25,7 @@ void add_lines(Json& message, const Picture& picture) {
   message["lines"] = picture.lines;
   message["line"] = picture.line;
   message["has_error"] = picture.has_error;
+  message["has_page"] = picture.page.has_value();
 }
 
 // The page is JSON already.

@@ -30,32 +30,39 @@ controller::Source source_of(const std::string& text, const std::string& path) {
   return {std::filesystem::path(path).filename().string(), emit::sha256(text)};
 }
 
-std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
+// Without what [require] asks for: who misses it wants to see by how much.
+design::Problem free_problem(const input::DesignFile& file) {
   design::Problem problem = *file.problem;
   problem.requirements = {};
+  return problem;
+}
+
+std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
+  design::Problem problem = free_problem(file);
   std::optional<design::Solution> solution = design::first_look(problem);
   if (!solution) return std::nullopt;
   design::Findings ignored;
-  const auto controller =
+  auto controller =
       emit::make_controller(std::move(problem), *std::move(solution), source_of(file.text, path), ignored);
-  return controller ? std::optional(emit::page_data(*controller)) : std::nullopt;
+  if (!controller) return std::nullopt;
+  controller->problem.requirements = file.problem->requirements;
+  return emit::page_data(*controller);
 }
 
 std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, Picture& picture) {
-  design::Problem problem = *file.problem;
-  problem.requirements = {};  // who misses one wants to see by how much
+  design::Problem problem = free_problem(file);
   design::Findings findings;
   std::optional<design::Solution> solution = design::solve(problem, findings);
   std::optional<emit::Controller> controller;
   if (solution && !design::has_error(findings))
     controller = emit::make_controller(std::move(problem), *std::move(solution), source_of(file.text, path), findings);
-  input::sort_by_place(file, findings);
-  add_lines(picture, file, path, findings);
   if (controller) {
     controller->problem.requirements = file.problem->requirements;
     design::check_requirements(controller->problem, controller->solution, findings);
     simulate::check_scenario_requirements(*controller, findings);
   }
+  input::sort_by_place(file, findings);
+  add_lines(picture, file, path, findings);
   return controller ? std::optional(emit::page_data(*controller, findings)) : std::nullopt;
 }
 
@@ -67,7 +74,8 @@ Picture picture_of(const std::string& text, const std::string& path, Depth depth
   add_lines(picture, file, path, file.findings);
   if (!file.problem) return picture;
   picture.tunables = tunables(file);
-  picture.page = depth == Depth::whole ? whole_page(file, path, picture) : first_page(file, path);
+  if (depth == Depth::whole) picture.page = whole_page(file, path, picture);
+  if (!picture.page) picture.page = first_page(file, path);
   return picture;
 }
 

@@ -14,13 +14,14 @@ namespace lqg::view {
 struct Picture {
   std::vector<std::string> lines;      // what the terminal would say: "servo.toml:9:5: plant.B: expected …"
   int line = 0;                        // of the first error; 0: none has a line
-  bool has_error = false;              // one of the lines is an error: then there is no page
+  bool has_error = false;              // one of the lines is an error
   std::vector<Tunable> tunables;       // of a file without an error in it, even where its design is impossible
-  std::optional<emit::PageData> page;  // none, too, where a first look sees nothing
+  std::optional<emit::PageData> page;  // none where there is nothing to see
 };
 
 // A first look has the curves of design::first_look and no lines beyond those of the file: where it finds no page,
-// only the whole tells why.
+// only the whole tells why. What [require] asks for and is missed is an error with a page: a person sees how far the
+// design is from it. The whole of a design with another error has the page of a first look where there is one.
 enum class Depth { first_look, whole };
 
 // `path`: how the messages call the file.

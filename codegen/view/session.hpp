@@ -3,14 +3,15 @@
 //
 //   GET  /              the page
 //   GET  /state?since=N  the state of the file, at once if it is newer than revision N, else as soon as it is, or after
-//                       20 s: {revision, path, lines, line, has_error, tunables, page}
+//                       20 s: {revision, path, lines, line, has_error, has_page, tunables, page}
 //   POST /look, /solve  {revision, changes: [{key, value}]}: the design with these numbers, at a first look or whole:
-//                       {lines, line, has_error, milliseconds, page}; {superseded: true} where a newer question
-//                       came first
+//                       {lines, line, has_error, has_page, milliseconds, page}; {superseded: true} where a newer
+//                       question came first
 //   POST /write         the same: puts the numbers into the file
 //
-// `page` is that of emit::page_json, or null. 400: a question that nobody asked for, or a key that is no number of the
-// file; 409: the file has changed since that revision. Both with {error}.
+// `page` is that of emit::page_json, or null; where a state has none (has_page) it is the last one. 400: a question
+// that nobody asked for, or a key that is no number of the file; 409: the file has changed since that revision. Both
+// with {error}.
 #pragma once
 
 #include <map>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "design/progress.hpp"
+#include "design/thread.hpp"
 
 namespace lqg::view {
 
@@ -68,6 +69,7 @@ std::optional<Worker::Job> Worker::next() {
 }
 
 void Worker::run() {
+  const design::ThreadCaches caches;
   while (std::optional<Job> job = next()) work(*job);
   const std::lock_guard<std::mutex> lock(mutex_);
   is_over_ = true;

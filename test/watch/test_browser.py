@@ -137,17 +137,22 @@ class LivePage(unittest.TestCase):
     def test_an_error_stands_over_the_last_good_picture(self):
         with Watched(LQGEN, SERVO) as watched:
             page = self.open(watched)
-            good = page.evaluate(FIRST_CHART)
+            number = page.locator(f'.slider:has([data-key="{ANGLE}"]) .number')
+            number.fill("0.025")
+            number.press("Enter")
+            self.expect_status(page, "The design with these numbers")
+            good = page.evaluate(FIRST_CHART)["ghost"]
             text = watched.path.read_text(encoding="utf-8")
             watched.save(text.replace("[[1, 0]]", "[[1, 0, 0]]"))
             self.expect_status(page, "The file has an error at line")
             errors = page.locator("#lqg-errors")
             self.assertIn("servo.toml:", errors.text_content())
             self.assertIn("plant.C", errors.text_content())
-            self.assertEqual(page.evaluate(FIRST_CHART), good)
+            self.assertEqual(page.evaluate(FIRST_CHART)["data"], good)
             self.picture(page, "watch-error")
             watched.save(text)
-            self.expect_status(page, "The design of the file")
+            self.expect_status(page, "The design with these numbers")
+            self.assertEqual(number.input_value(), "0.025")
             self.assertTrue(errors.is_hidden())
             page.close()
 

@@ -174,7 +174,7 @@ class Following(unittest.TestCase):
                 good = watched.state(bad["revision"])
                 self.assertFalse(good["has_error"])
 
-    def test_an_impossible_design_keeps_its_sliders(self):
+    def test_a_design_that_misses_what_is_required_is_shown_with_its_sliders(self):
         with Watched(LQGEN, SERVO) as watched:
             text = watched.path.read_text(encoding="utf-8")
             revision = watched.state()["revision"]
@@ -184,6 +184,13 @@ class Following(unittest.TestCase):
             self.assertIn("require.phase_margin_deg", bad["lines"][-1])
             self.assertGreater(bad["line"], 40)
             self.assertTrue(bad["tunables"])
+            self.assertTrue(bad["has_page"])
+            self.assertIn("is not met", bad["page"]["body"])
+            watched.save(text.replace("[[0], [2121.79407756]]", "[[0], [0]]"))
+            impossible = watched.state(bad["revision"])
+            self.assertTrue(impossible["has_error"])
+            self.assertFalse(impossible["has_page"])
+            self.assertEqual(impossible["page"], bad["page"])
 
     def test_a_file_that_goes_and_comes_back(self):
         with Watched(LQGEN, SERVO) as watched:

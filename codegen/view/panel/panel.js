@@ -125,15 +125,19 @@
 
   // ---- what is shown
 
+  // While the file has an error there are no sliders for it: those of before wait.
+  const waits = () => state.has_error && !state.tunables.length;
+
   function showButtons() {
-    const none = !changed().length;
+    const none = !changed().length || waits();
+    byId("lqg-sliders").inert = waits();
     byId("lqg-back").disabled = none;
     byId("lqg-write").disabled = none;
   }
 
   function showErrors(message) {
     lqgPage.errors(message.has_error ? message.lines : []);
-    byId("lqg-page").classList.toggle("old", message.has_error);
+    byId("lqg-page").classList.toggle("old", message.has_error && !message.has_page);
   }
 
   function showFile() {
@@ -146,7 +150,8 @@
   function showTrial(message, isWhole) {
     showErrors(message);
     if (message.page) lqgPage.draw(message.page, { ghost: state.page || undefined });
-    if (message.has_error) say("These numbers make no design; the picture is the last one", true);
+    if (message.has_error && message.page) say("These numbers miss what is required; the picture shows them", true);
+    else if (message.has_error) say("These numbers make no design; the picture is the last one", true);
     else if (isWhole) say(`The design with these numbers, in ${Math.round(message.milliseconds)} ms; grey: the file`);
     else say("First look; computing all digits, margins at the outputs, rounding");
   }
@@ -247,9 +252,9 @@
 
   function take(message) {
     state = message;
-    build(state.tunables);
+    if (!waits()) build(state.tunables);
     showButtons();
-    if (changed().length) move();
+    if (changed().length && !waits()) move();
     else showFile();
   }
 

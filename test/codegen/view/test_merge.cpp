@@ -89,6 +89,21 @@ void test_the_grid_stands_once_and_has_no_owner() {
   TEST_ASSERT_EQUAL_STRING("", merged.curves[0].label.c_str());
 }
 
+void test_a_staircase_and_a_line_keep_their_colours() {
+  const emit::Chart own =
+      owned_chart(chart("x", {curve("true", 1), curve("reference", 2, emit::Mark::steps, 6)}), "b", 1);
+  TEST_ASSERT_TRUE(own.curves[0].mark == emit::Mark::dashes && own.curves[0].colour == 0);
+  TEST_ASSERT_TRUE(own.curves[1].colour != own.curves[0].colour || own.curves[1].mark != own.curves[0].mark);
+}
+
+void test_limits_that_both_have_stand_once() {
+  emit::Chart a = chart("x", {curve("", 1)}), b = a;
+  a.bands = {{"within limits", 0, {0, 1}, {-1, -1}, {1, 1}}};
+  b.bands = {{"within limits", 0, {0, 2}, {-1, -1}, {1, 1}}, {"3σ", 0, {0, 2}, {-3, -1}, {3, 1}}};
+  lay_over(a, b);
+  TEST_ASSERT_EQUAL_UINT(2, a.bands.size());
+}
+
 void test_a_window_holds_both_and_a_square_stays_one() {
   emit::Chart a = chart("x", {curve("", 1)}), b = a;
   a.is_square = b.is_square = true;
@@ -143,6 +158,8 @@ int main() {
   RUN_TEST(test_charts_with_one_id_become_one_with_the_curves_of_all);
   RUN_TEST(test_no_two_curves_look_the_same);
   RUN_TEST(test_the_grid_stands_once_and_has_no_owner);
+  RUN_TEST(test_a_staircase_and_a_line_keep_their_colours);
+  RUN_TEST(test_limits_that_both_have_stand_once);
   RUN_TEST(test_a_window_holds_both_and_a_square_stays_one);
   RUN_TEST(test_rows_of_tables_become_columns_of_designs);
   RUN_TEST(test_figures_stand_in_columns_with_what_is_required);
