@@ -211,8 +211,8 @@ bool write_simulations(const Arguments& arguments, const commands::SimulateArgum
   return true;
 }
 
-// `lqgen simulate`: numbers on standard output, samples in files. A design that misses what [require] asks for is shown,
-// too: then the status tells.
+// `lqgen simulate`: numbers on standard output, samples in files. A design that misses what [require] asks for is
+// shown, too: then the status tells.
 int simulate_design(const Arguments& arguments, const commands::SimulateArguments& wanted) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
   const input::DesignFile file = input::read_design_file(arguments.design_file);

@@ -79,7 +79,8 @@ lqg_install_packages() {
   lqg_has_header mpfr.h || missing+=(libmpfr-dev)
   lqg_has_header toml++/toml.h || missing+=(libtomlplusplus-dev)
   lqg_has_header CLI/CLI.hpp || missing+=(libcli11-dev)
-  lqg_has_header libfccp/csv.h || lqg_has_header fast-cpp-csv-parser/csv.h || lqg_has_header csv.h || missing+=(libfccp-dev)
+  lqg_has_header libfccp/csv.h || lqg_has_header fast-cpp-csv-parser/csv.h || lqg_has_header csv.h ||
+    missing+=(libfccp-dev)
   lqg_has_header nlohmann/json.hpp || missing+=(nlohmann-json3-dev)
   lqg_has_header mbedtls/md.h || missing+=(libmbedtls-dev)
   [ -e /usr/share/javascript/chart.js/chart.min.js ] || missing+=(libjs-chart.js)

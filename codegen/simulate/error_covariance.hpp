@@ -19,8 +19,8 @@ struct NormalisedSquare {
 NormalisedSquare normalised_square(const Eigen::MatrixXd& S, const Eigen::VectorXd& nu, const std::vector<bool>& used);
 NormalisedSquare normalised_square(const Eigen::MatrixXd& S, const Eigen::VectorXd& nu);
 
-// P of e = x − x̂ from P0 on. Of a filter with given gains it follows the gains of each sample and the outputs that were
-// used; of one that carries its covariance it is told P.
+// P of e = x − x̂ from P0 on. Of a filter with given gains it follows the gains of each sample and the outputs that
+// were used; of one that carries its covariance it is told P.
 class ErrorCovariance {
  public:
   explicit ErrorCovariance(const Controller& controller);

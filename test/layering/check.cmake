@@ -75,7 +75,8 @@ check(codegen/reference ${any_room} "^reference/" "^input/" "^design/problem\\.h
 check(codegen/commands ${any_room} "^commands/" "^input/" "^emit/" "^controller/" "^simulate/" "^design/" "^step/"
       "^nlohmann/" "^lqg/status\\.h$")
 check(codegen/serve ${any_room} "^serve/" "^boost/(asio|beast)/")
-check(codegen/view ${any_room} "^view/" "^serve/" "^emit/" "^simulate/" "^controller/" "^input/" "^design/" "^nlohmann/")
+check(codegen/view ${any_room} "^view/" "^serve/" "^emit/" "^simulate/" "^controller/" "^input/" "^design/"
+      "^nlohmann/")
 check(codegen ${any_room} "^commands/" "^view/(watch|compare)\\.hpp$" "^input/" "^reference/documents\\.hpp$" "^emit/"
       "^design/solve\\.hpp$"
       "^CLI/" "^watch\\.hpp$")

@@ -38,7 +38,8 @@ std::vector<BadDesign> wrong_scenarios() {
        {"44:30: scenario[0].load[0].state: says again what scenario[0].load[0].input says: expected one of the two"}},
       {"load on an input that is not there",
        scenario("load = [{ input = \"torque\" }]"),
-       {"44:19: scenario[0].load[0].input: expected a whole number from 0 to 0, or one of \"force\", found \"torque\""}},
+       {"44:19: scenario[0].load[0].input: expected a whole number from 0 to 0, or one of \"force\", found "
+        "\"torque\""}},
       {"load on the fifth of four states",
        scenario("load = [{ state = 4 }]"),
        {"44:19: scenario[0].load[0].state: expected a whole number from 0 to 3, or one of \"dy1\", \"v1\", \"dy2\", "
