@@ -18,7 +18,7 @@ mkdir -p "$folder"
 
 # The string of a key at the head of a design file, as HTML.
 string_of() {
-  sed -n "s/^$1 *= *\"\(.*\)\"\$/\1/p" "$2" | sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'
+  sed -n "/^\[/q;s/^$1 *= *\"\(.*\)\"\$/\1/p" "$2" | sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'
 }
 
 print_index() {

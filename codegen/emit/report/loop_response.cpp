@@ -39,11 +39,14 @@ Answer answer_of(const Controller& controller) {
 std::vector<double> angles_for(const design::Poles& poles) {
   const double nyquist_angle = std::acos(-1.0);
   constexpr int even = 240;
+  constexpr double beside_1 = 1e-9;
   double slowest = nyquist_angle / 10;
   std::vector<design::ComplexReal> many;
   for (const Complex& pole : poles) {
     if (std::abs(pole) > 1e-3) slowest = std::min(slowest, std::max(std::abs(std::log(pole)), 1e-6));
-    many.push_back({design::Real(pole.real()), design::Real(pole.imag())});
+    // A pole that a double cannot tell from ±1 has no frequency that a picture could show.
+    if (std::abs(pole - 1.0) > beside_1 && std::abs(pole + 1.0) > beside_1)
+      many.push_back({design::Real(pole.real()), design::Real(pole.imag())});
   }
   const double low = slowest / 30;
   std::vector<double> out;
