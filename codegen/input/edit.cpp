@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <string_view>
 
 #include "input/document.hpp"
@@ -101,25 +103,67 @@ bool is_same(double a, double b) {
 
 std::string written(double value) { return in_style_of("", value); }
 
-// The tree with its numbers and without its places, for a comparison.
-std::string outline(const Node& node) {
+using Added = std::set<std::string>;  // keys
+
+// The tree without its numbers, its places and what was added, for a comparison.
+std::string outline(const Node& node, const std::string& path, const Added& added) {
   std::string all = std::to_string(static_cast<int>(node.kind)) + "(" + node.text + ")";
-  for (const Key& key : node.keys) all += key.name + "=";
-  for (const Node& item : node.items) all += outline(item) + ",";
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const bool is_table = node.kind == Kind::table;
+    const std::string own =
+        is_table ? path + (path.empty() ? "" : ".") + node.keys[i].name : path + "[" + std::to_string(i) + "]";
+    if (added.count(own) != 0) continue;
+    all += (is_table ? node.keys[i].name + "=" : "") + outline(node.items[i], own, added) + ",";
+  }
   return all;
 }
 
-bool differs_only_in_numbers(const std::string& before, const std::string& after) {
+bool differs_only_in_numbers(const std::string& before, const std::string& after, const Added& added) {
   const auto old_tree = parse_toml(before), new_tree = parse_toml(after);
   const Node* const a = std::get_if<Node>(&old_tree);
   const Node* const b = std::get_if<Node>(&new_tree);
-  return a != nullptr && b != nullptr && outline(*a) == outline(*b);
+  return a != nullptr && b != nullptr && outline(*a, "", added) == outline(*b, "", added);
 }
 
-// Whether `text` has the numbers of `before`, but those of `changes`.
+const Node* table_at(const Node& tree, const std::string& path) {
+  const std::size_t dot = path.find('.');
+  const std::string name = path.substr(0, dot);
+  for (std::size_t i = 0; i < tree.keys.size(); ++i) {
+    if (tree.keys[i].name != name || tree.items[i].kind != Kind::table) continue;
+    return dot == path.npos ? &tree.items[i] : table_at(tree.items[i], path.substr(dot + 1));
+  }
+  return nullptr;
+}
+
+// `text` with one more number; nothing where its table has no header and no brace of its own.
+std::optional<std::string> with_number(const std::string& text, const std::string& key, double value) {
+  const std::size_t dot = key.rfind('.');
+  const auto document = parse_toml(text);
+  const Node* const tree = std::get_if<Node>(&document);
+  const Node* const table = tree == nullptr || dot == key.npos ? nullptr : table_at(*tree, key.substr(0, dot));
+  if (table == nullptr || table->keys.empty()) return std::nullopt;
+  const std::size_t begin = Places(text).byte(table->where);
+  const std::string assignment = key.substr(dot + 1) + " = " + in_style_of("", value);
+  std::string result = text;
+  if (text[begin] == '{') return result.insert(begin + 1, " " + assignment + ",");
+  if (text[begin] != '[' || text[begin + 1] == '[') return std::nullopt;
+  const std::size_t end = text.find('\n', begin);
+  if (end == text.npos) return std::nullopt;
+  return result.insert(end + 1, assignment + (text[end - 1] == '\r' ? "\r\n" : "\n"));
+}
+
+// Whether `text` has the numbers of `before`, but those of `changes`, and besides the added ones.
 bool has_become(const std::string& text, const std::vector<PlacedNumber>& before,
-                const std::map<std::string, double>& changes) {
-  const std::vector<PlacedNumber> after = numbers_of(text);
+                const std::map<std::string, double>& changes, const Added& added) {
+  std::vector<PlacedNumber> after = numbers_of(text);
+  std::size_t found = 0;
+  const auto is_added = [&](const PlacedNumber& number) {
+    const bool is_new = added.count(number.key) != 0;
+    found += is_new && is_same(number.value, changes.at(number.key));
+    return is_new;
+  };
+  after.erase(std::remove_if(after.begin(), after.end(), is_added), after.end());
+  if (found != added.size()) return false;
   return std::equal(before.begin(), before.end(), after.begin(), after.end(), [&](const auto& a, const auto& b) {
     const auto changed = changes.find(a.key);
     return a.key == b.key && is_same(b.value, changed == changes.end() ? a.value : changed->second);
@@ -148,10 +192,10 @@ std::string word_at(const std::string& text, Location where) {
 std::variant<std::string, EditFailure> set_numbers(const std::string& text, const std::vector<Change>& changes) {
   const std::vector<PlacedNumber> numbers = numbers_of(text);
   std::map<std::string, double> wanted;
+  Added added;
   for (const Change& change : changes) {
     const auto has_key = [&](const PlacedNumber& number) { return number.key == change.key; };
-    if (std::none_of(numbers.begin(), numbers.end(), has_key))
-      return EditFailure{change.key, "expected a number of the file, found none at this key"};
+    if (std::none_of(numbers.begin(), numbers.end(), has_key)) added.insert(change.key);
     if (std::isnan(change.value)) return EditFailure{change.key, "expected a number, found nan"};
     if (!wanted.emplace(change.key, change.value).second)
       return EditFailure{change.key, "expected one new value, found two"};
@@ -163,7 +207,12 @@ std::variant<std::string, EditFailure> set_numbers(const std::string& text, cons
     const std::string old = text.substr(number->begin, number->length);
     result.replace(number->begin, number->length, in_style_of(old, change->second));
   }
-  if (!has_become(result, numbers, wanted) || !differs_only_in_numbers(text, result)) {
+  for (const std::string& key : added) {
+    const std::optional<std::string> longer = with_number(result, key, wanted.at(key));
+    if (!longer) return EditFailure{key, "expected a number of the file, or a table to add it to, found neither"};
+    result = *longer;
+  }
+  if (!has_become(result, numbers, wanted, added) || !differs_only_in_numbers(text, result, added)) {
     const std::string first = changes.empty() ? "" : changes.front().key;
     const std::string value = changes.empty() ? "" : written(changes.front().value);
     return EditFailure{first, "expected a file that can be changed at this key to " + value +

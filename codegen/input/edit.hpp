@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Changes numbers of a design file and nothing else of it: comments, layout and line ends stay byte for byte.
+// Changes numbers of a design file, or adds them, and nothing else of it: comments, layout and line ends stay byte for
+// byte.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +38,10 @@ struct EditFailure {
 };
 
 // `text` with these numbers. Each is the shortest that reads back as the value, in the style of the one before:
-// an exponent stays an exponent, 2.0 becomes 3.0, and 2 becomes 3. The result has been read again: it has these values
-// and otherwise those of `text`. A key that is not a number of the file, a value that is not a number, and a key that
-// comes twice are failures.
+// an exponent stays an exponent, 2.0 becomes 3.0, and 2 becomes 3. A number that is not there, "plant.delay", is added
+// where its table begins: in a line of its own behind [plant], or as the first key behind a brace. The result has been
+// read again: it has these values and otherwise those of `text`. A key that is no number of the file and has no such
+// table, a value that is not a number, and a key that comes twice are failures.
 std::variant<std::string, EditFailure> set_numbers(const std::string& text, const std::vector<Change>& changes);
 
 }  // namespace lqg::input

@@ -177,6 +177,17 @@ void set_range(Tunable& tunable, const Rule& rule, double largest, const design:
   }
 }
 
+// Numbers that have a default and that a person wants to move: they are added to the file when they are written.
+std::vector<PlacedNumber> absent_numbers(const input::DesignFile& file) {
+  std::vector<PlacedNumber> absent;
+  const auto add = [&](const std::string& key, const char* table, double value) {
+    if (file.locations.count(key) == 0 && file.locations.count(table) != 0) absent.push_back({key, value, 0, 0});
+  };
+  if (file.problem->regulator) add("plant.delay", "plant", 0);
+  add("lqr.bryson.rho", "lqr.bryson", 1);
+  return absent;
+}
+
 using Largest = std::map<std::string, double>;  // by the first word of a key's rule
 
 Largest largest_numbers(const std::vector<PlacedNumber>& numbers) {
@@ -198,8 +209,10 @@ double largest_beside(const Largest& largest, const std::string& base) {
 }  // namespace
 
 std::vector<Tunable> tunables(const input::DesignFile& file) {
-  const std::vector<PlacedNumber> numbers = input::numbers_of(file.text);
+  std::vector<PlacedNumber> numbers = input::numbers_of(file.text);
   const Largest largest = largest_numbers(numbers);
+  std::vector<PlacedNumber> absent = absent_numbers(file);
+  numbers.insert(numbers.begin(), absent.begin(), absent.end());
   std::vector<Tunable> result;
   for (const PlacedNumber& number : numbers) {
     const SplitKey key = split(number.key);

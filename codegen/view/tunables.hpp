@@ -27,8 +27,9 @@ struct Tunable {
   double step = 0;  // linear: of a multiple of it; 0: any value
 };
 
-// Those of a file that has a problem, in the order of the file: only numbers that stand in it, on the diagonal of what
-// is a matrix, and finite.
+// Those of a file that has a problem, in the order of the file: numbers that stand in it, on the diagonal of what is a
+// matrix, and finite. First those that every design has, with their default where they do not stand there: the delay,
+// the factor of R.
 std::vector<Tunable> tunables(const input::DesignFile& file);
 
 }  // namespace lqg::view

@@ -176,6 +176,19 @@ void test_each_number_of_a_design_has_the_place_that_findings_name() {
   }
 }
 
+void test_a_number_that_is_not_there_is_added_where_its_table_begins() {
+  expect("[plant]  # the motor\ndelay = 0.001\nA = [[1]]\n", "[plant]  # the motor\nA = [[1]]\n", "plant.delay", 1e-3);
+  expect("[plant]\r\ndelay = 2\r\nA = 1\r\n", "[plant]\r\nA = 1\r\n", "plant.delay", 2);
+  expect("[lqr]\nbryson = { rho = 0.5, states = [1] }\n", "[lqr]\nbryson = { states = [1] }\n", "lqr.bryson.rho", 0.5);
+  const std::string both = edited("x = 1\n[a]\ny = 2\n[b]\nz = 3\n", {{"a.n", 4}, {"x", 5}, {"b.m", 6}, {"b.z", 7}});
+  TEST_ASSERT_EQUAL_STRING("x = 5\n[a]\nn = 4\ny = 2\n[b]\nm = 6\nz = 7\n", both.c_str());
+}
+
+void test_a_number_is_not_added_where_its_table_has_no_place_of_its_own() {
+  for (const char* text : {"plant.A = 1\n", "[[plant]]\nA = 1\n", "x = 1\n", "[plant.more]\nA = 1\n", "[plant]"})
+    TEST_ASSERT_EQUAL_STRING("plant.delay", refusal(text, {{"plant.delay", 1}}).key.c_str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -190,6 +203,8 @@ int main(int argc, char** argv) {
   RUN_TEST(test_many_changes_at_once_do_not_move_each_other);
   RUN_TEST(test_what_is_no_number_of_the_file_is_refused_with_its_key);
   RUN_TEST(test_a_number_that_is_two_keys_apart_in_quotes_is_left_out);
+  RUN_TEST(test_a_number_that_is_not_there_is_added_where_its_table_begins);
+  RUN_TEST(test_a_number_is_not_added_where_its_table_has_no_place_of_its_own);
   RUN_TEST(test_any_double_reads_back_exactly);
   RUN_TEST(test_every_number_of_every_design_is_set_and_all_else_stays);
   RUN_TEST(test_each_number_of_a_design_has_the_place_that_findings_name);

@@ -137,6 +137,37 @@ void test_one_entry_is_scaled_by_the_names_of_its_row_and_column() {
   expect_curve(run.fine_times, run.fine_x, 1, ramp, "speed");
 }
 
+// ẍ = u sampled every 0.1 s: the design knows the samples, the scenario what lies between.
+void test_a_continuous_plant_in_place_of_the_samples_is_seen_between_them() {
+  const char* const sampled = R"(
+name = "mass"
+[plant]
+domain = "discrete"
+sample_time = 0.1
+A = [[1, 0.1], [0, 1]]
+B = [[0.005], [0.1]]
+C = [[1, 0]]
+[kalman]
+process_noise = [0, 1e-6]
+measurement_noise = [1e-4]
+[code]
+real = "double"
+[[scenario]]
+name = "between"
+duration = 2
+noise = false
+input = [{ input = 0, value = 1 }]
+)";
+  const ScenarioRun samples = run_of(sampled);
+  TEST_ASSERT_EQUAL(0, samples.fine_times.size());
+  expect_curve(samples.times, samples.x, 0, parabola, "place at the samples");
+  const ScenarioRun run = run_of(std::string(sampled) +
+                                 "plant = { continuous = true, A = [[0, 1], [0, 0]], "
+                                 "B = [[0], [1]] }\n");
+  expect_curve(run.fine_times, run.fine_x, 0, parabola, "place between");
+  TEST_ASSERT_TRUE((run.x - samples.x).cwiseAbs().maxCoeff() <= rounding);
+}
+
 // --- actuators, loads and sensors -----------------------------------------------------------------------------------
 
 // ȧ = (1 − a)/τ: the speed is t − τ (1 − e^(−t/τ)).
@@ -381,6 +412,7 @@ int main() {
   RUN_TEST(test_a_delay_of_any_part_of_a_period_moves_the_answer_by_itself);
   RUN_TEST(test_a_replaced_plant_answers_as_itself);
   RUN_TEST(test_one_entry_is_scaled_by_the_names_of_its_row_and_column);
+  RUN_TEST(test_a_continuous_plant_in_place_of_the_samples_is_seen_between_them);
   RUN_TEST(test_a_lag_of_the_actuator_is_first_order);
   RUN_TEST(test_an_actuator_is_limited_slow_and_weak_in_this_order);
   RUN_TEST(test_loads_on_an_input_and_on_a_state_add_to_what_the_actuator_does);

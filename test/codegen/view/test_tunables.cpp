@@ -94,6 +94,19 @@ void test_times_steps_and_gates_have_fitting_scales() {
   TEST_ASSERT_TRUE(at(all, "kalman.spike").scale == Scale::logarithmic);
 }
 
+void test_delay_and_factor_of_R_are_there_although_the_file_leaves_them_out() {
+  const std::string text = plant + "[lqr]\nbryson = { states = [1, 1], inputs = [1] }\n";
+  const auto all = of(text);
+  const Tunable& delay = at(all, "plant.delay");
+  TEST_ASSERT_TRUE(delay.value == 0 && delay.low == 0 && delay.high >= 0.01);
+  const Tunable& rho = at(all, "lqr.bryson.rho");
+  TEST_ASSERT_TRUE(rho.value == 1 && rho.scale == Scale::logarithmic);
+  TEST_ASSERT_NULL(find(of(plant + "[lqr]\nQ = [1, 1]\nR = [1]\n"), "lqr.bryson.rho"));
+  const auto longer = input::set_numbers(text, {{"plant.delay", 0.005}, {"lqr.bryson.rho", 4}});
+  const input::DesignFile file = input::parse_design(std::get<std::string>(longer));
+  TEST_ASSERT_TRUE(file.problem->plant.delay == 0.005 && file.problem->regulator->bryson->rho == 4);
+}
+
 void test_the_delay_of_samples_moves_by_whole_samples() {
   const auto all =
       of("name = \"t\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\ndelay = 0.2\nA = [[0.5]]\n"
@@ -155,6 +168,7 @@ int main(int argc, char** argv) {
   RUN_TEST(test_weights_and_noises_have_names_and_decades);
   RUN_TEST(test_acceptable_values_and_limits_have_the_units_of_their_signals);
   RUN_TEST(test_times_steps_and_gates_have_fitting_scales);
+  RUN_TEST(test_delay_and_factor_of_R_are_there_although_the_file_leaves_them_out);
   RUN_TEST(test_the_delay_of_samples_moves_by_whole_samples);
   RUN_TEST(test_conjugate_poles_move_together);
   RUN_TEST(test_every_slider_of_every_design_sets_its_number);
