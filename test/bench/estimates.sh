@@ -58,7 +58,7 @@ find_library() {
 compare() {
   local title=$1 design=$2 name made library variant=() names stated_flash stated_stack flash stack
   shift 2
-  name=$(sed -n 's/^[[:space:]]*name *= *"\([a-z0-9_]*\)".*/\1/p' "$design")
+  name=$(sed -n '/^\[/q;s/^[[:space:]]*name *= *"\([a-z0-9_]*\)".*/\1/p' "$design")
   made=$folder/controller
   rm -rf "$made"
   if ! "$LQGEN" "$design" -o "$made" --quiet "$@" >"$folder/refusal" 2>&1; then

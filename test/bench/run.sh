@@ -57,7 +57,8 @@ wait_for_all() {
 # ---- the controllers ---------------------------------------------------------------------------------------------
 
 # The value of a key of a design file, and of "code" in a NAME.json.
-design_value() { sed -n "s/^[[:space:]]*$2 *= *\"\([a-z0-9_]*\)\".*/\1/p" "$1"; }
+# The first of that key: a scenario has a name, too.
+design_value() { sed -n "/^[[:space:]]*$2 *= *\"\([a-z0-9_]*\)\".*/{s//\1/p;q}" "$1"; }
 json_value() { sed -n "s/^ *\"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1; }
 
 # make_controller <folder> <title> <design> <style> <real>: its header, reference samples and figures; prints what
