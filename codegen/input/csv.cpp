@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "input/csv.hpp"
 
-#define CSV_IO_NO_THREAD
-#include <csv.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+
+// Uses std::numeric_limits without including it.
+#define CSV_IO_NO_THREAD
+#include <csv.h>
 
 #include "input/text.hpp"
 
