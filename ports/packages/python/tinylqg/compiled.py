@@ -7,8 +7,8 @@ import tempfile
 from functools import lru_cache
 from pathlib import Path
 
-from .controller import Kind
 from .errors import DesignError
+from .kind import Kind
 from .lqgen import include_dir, run_lqgen, source_dir
 from .result import result_of
 

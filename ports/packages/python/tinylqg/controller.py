@@ -8,7 +8,10 @@ import shlex
 import shutil
 from typing import Any, Optional, Sequence
 
+from .compiled import Compiled
 from .errors import DesignError, expected
+from .kind import Kind
+from .piped import Piped
 from .result import array
 
 # The bits of lqg/status.h.
@@ -97,21 +100,6 @@ class Controller:
         self.close()
 
 
-class Kind:
-    """What a controller takes and gives."""
-
-    def __init__(self, result):
-        plant = result.plant
-        self.has_filter = "kalman" in result
-        self.is_estimator = "lqr" not in result
-        self.is_predictor = self.has_filter and result.kalman.form == "predictor"
-        self.states = len(plant.A)
-        self.inputs = len(plant.inputs)
-        self.measured = "y" if self.has_filter else "x"
-        self.measured_size = len(plant.C) if self.has_filter else self.states
-        self.references = 0 if self.is_estimator else len(result.lqr.get("references", []))
-
-
 def numbers(what, values, count):
     """As doubles of Python; None is NaN."""
     if hasattr(values, "tolist"):
@@ -134,9 +122,6 @@ def compiler():
 
 
 def controller(design, compiled=None) -> Controller:
-    from .compiled import Compiled
-    from .piped import Piped
-
     command = compiler()
     if compiled and command is None:
         raise OSError("controller(compiled=True): expected a C compiler, CC or cc, found none")

@@ -6,8 +6,8 @@ import tempfile
 import weakref
 from pathlib import Path
 
-from .controller import Kind
 from .errors import DesignError
+from .kind import Kind
 from .lqgen import lqgen_path
 
 
