@@ -72,17 +72,16 @@ PageTable shares(const Controller& controller, const simulate::ScenarioRun& run)
     const std::string expected = std::to_string(controller.size.ny);
     table.rows.push_back(
         {"mean of NIS; " + expected + " where the filter is right", decimal(sum / static_cast<double>(nis.size()))});
-    table.rows.push_back({"share of NIS below its 95 % bound",
-                          decimal(100 * share_below(nis, chi_squared(controller.size.ny, 0.05))) + " %"});
+    table.rows.push_back(
+        {"share of NIS below its 95 % bound", in_percent(share_below(nis, chi_squared(controller.size.ny, 0.05)))});
   }
   const auto& left_out = run.numbers.left_out;
   if (std::all_of(left_out.begin(), left_out.end(), [](unsigned long count) { return count == 0; }))
     table.rows.push_back({"outputs left out", "none"});
   for (std::size_t i = 0; i < left_out.size(); ++i)
     if (left_out[i])
-      table.rows.push_back(
-          {controller.problem.plant.outputs[i].name + " left out",
-           decimal(100.0 * static_cast<double>(left_out[i]) / static_cast<double>(run.times.size())) + " %"});
+      table.rows.push_back({controller.problem.plant.outputs[i].name + " left out",
+                            in_percent(static_cast<double>(left_out[i]) / static_cast<double>(run.times.size()))});
   return table;
 }
 

@@ -13,8 +13,6 @@ namespace {
 using simulate::Consistency;
 using simulate::MonteCarlo;
 
-std::string percent_of(double share) { return decimal(100 * share) + " %"; }
-
 // Means over the runs beside the band that 95 % of them are in where the filter is right.
 Chart consistency_chart(const Controller& controller, const std::string& title, const std::string& id,
                         const Consistency& found, const std::vector<double>& means) {
@@ -92,7 +90,7 @@ void add_consistency(const std::string& name, const std::optional<Consistency>& 
   if (!found) return;
   table.rows.push_back(
       {name + ", mean; " + decimal(found->expected) + " if the filter is right", decimal(found->mean)});
-  table.rows.push_back({name + ", share of the samples within its 95 % band", percent_of(found->share_inside)});
+  table.rows.push_back({name + ", share of the samples within its 95 % band", in_percent(found->share_inside)});
 }
 
 }  // namespace
@@ -100,7 +98,7 @@ void add_consistency(const std::string& name, const std::optional<Consistency>& 
 PageView monte_carlo_view(const Controller& controller, const MonteCarlo& result) {
   PageView view;
   view.name = result.name;
-  view.text = std::to_string(result.numbers.size()) + " runs, of which " + percent_of(share_failed(result)) +
+  view.text = std::to_string(result.numbers.size()) + " runs, of which " + in_percent(share_failed(result)) +
               " failed: the loop was lost, or a requirement was missed.";
   const auto nees = simulate::nees_of(result), nis = simulate::nis_of(result);
   const std::string id = in_file_name(result.name);

@@ -27,8 +27,6 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   return out;
 }
 
-std::string in_percent(double share) { return decimal(100 * share) + " %"; }
-
 std::string seconds(const std::optional<double>& time) { return time ? decimal(*time) + " s" : "not reached"; }
 
 std::string with_unit_of(double value, const design::Signal& signal) {

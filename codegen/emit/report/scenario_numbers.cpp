@@ -2,14 +2,13 @@
 // The numbers that decide of a run of a scenario.
 #include "emit/report/scenario_view.hpp"
 #include "emit/report/sections.hpp"
+#include "emit/text/wording.hpp"
 
 namespace lqg::emit {
 
 namespace {
 
 using Signals = std::vector<design::Signal>;
-
-std::string as_percent(double share) { return decimal(100 * share) + " %"; }
 
 std::string in_seconds(const std::optional<double>& time) { return time ? with_unit(*time, "s") : "not reached"; }
 
@@ -19,7 +18,7 @@ PageTable answers_to_steps(const Controller& controller, const simulate::Scenari
     const design::Signal& output = controller.problem.plant.outputs[static_cast<std::size_t>(answer.output)];
     table.rows.push_back({output.name, decimal(answer.from) + " to " + with_unit(answer.to, output.unit),
                           in_seconds(answer.rise_time), in_seconds(answer.settling_time),
-                          as_percent(answer.overshoot)});
+                          in_percent(answer.overshoot)});
   }
   return table;
 }
@@ -48,7 +47,7 @@ PageTable incidents(const Controller& controller, const simulate::ScenarioRun& r
   PageTable table = {"Incidents", {}, {}};
   if (controller.problem.limits)
     for (std::size_t i = 0; i < numbers.share_at_limits.size(); ++i)
-      table.rows.push_back({plant.inputs[i].name + " at a limit", as_percent(numbers.share_at_limits[i])});
+      table.rows.push_back({plant.inputs[i].name + " at a limit", in_percent(numbers.share_at_limits[i])});
   for (std::size_t i = 0; i < numbers.left_out.size(); ++i)
     if (numbers.left_out[i])
       table.rows.push_back({plant.outputs[i].name + " left out", std::to_string(numbers.left_out[i]) + " of " +

@@ -34,6 +34,8 @@ std::vector<design::Signal> reference_signals(const Controller& controller) {
   return signals;
 }
 
+std::string in_percent(double share) { return decimal(100 * share) + " %"; }
+
 std::string name_with_unit(const design::Signal& signal) {
   return signal.unit.empty() ? signal.name : signal.name + " [" + signal.unit + "]";
 }

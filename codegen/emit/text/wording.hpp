@@ -16,6 +16,9 @@ Words common_words(const Controller& controller);
 // The states with their names: the plant's own, then the inputs on their way, "force_delayed_2", "force_delayed_1".
 std::vector<design::Signal> state_signals(const Controller& controller);
 
+// "2.5 %" of 0.025.
+std::string in_percent(double share);
+
 // "speed [m/s]", or "speed" where it has no unit.
 std::string name_with_unit(const design::Signal& signal);
 
