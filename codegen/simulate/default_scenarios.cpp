@@ -115,7 +115,62 @@ Scenario load_on(const Controller& controller, int input) {
   return scenario;
 }
 
+// Its courses; a default scenario has one at most.
+std::vector<design::Course*> courses_in(Scenario& scenario) {
+  std::vector<design::Course*> courses;
+  for (std::vector<design::Course>* list : {&scenario.reference, &scenario.load})
+    for (design::Course& course : *list) courses.push_back(&course);
+  return courses;
+}
+
+template <class Scenarios>
+auto find_scenario(Scenarios& scenarios, const std::string& name) {
+  return std::find_if(scenarios.begin(), scenarios.end(), [&](const Scenario& one) { return one.name == name; });
+}
+
+void take_times(Scenario& scenario, Scenario other) {
+  const std::vector<design::Course*> own = courses_in(scenario), others = courses_in(other);
+  if (own.size() != others.size()) return;
+  scenario.duration = other.duration;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const int signal = own[i]->signal;  // of that name it may be another one there
+    *own[i] = *others[i];
+    own[i]->signal = signal;
+  }
+}
+
+// Of two with the same name.
+Scenario common_scenario(Scenario a, Scenario b) {
+  Scenario& longer = a.duration >= b.duration ? a : b;
+  const std::vector<design::Course*> in_a = courses_in(a), in_b = courses_in(b);
+  for (std::size_t i = 0; i < std::min(in_a.size(), in_b.size()); ++i)
+    in_a[i]->value = in_b[i]->value =
+        std::abs(in_a[i]->value) <= std::abs(in_b[i]->value) ? in_a[i]->value : in_b[i]->value;
+  return longer;
+}
+
 }  // namespace
+
+std::vector<Scenario> scenarios_to_show(const Controller& controller, const std::vector<Scenario>& others) {
+  std::vector<Scenario> shown = scenarios_to_show(controller);
+  if (!controller.problem.scenarios.empty()) return shown;
+  for (Scenario& scenario : shown)
+    if (const auto other = find_scenario(others, scenario.name); other != others.end()) take_times(scenario, *other);
+  return shown;
+}
+
+std::vector<Scenario> common_scenarios(const std::vector<std::vector<Scenario>>& of_designs) {
+  std::vector<Scenario> common;
+  for (const std::vector<Scenario>& scenarios : of_designs)
+    for (const Scenario& scenario : scenarios) {
+      const auto found = find_scenario(common, scenario.name);
+      if (found == common.end())
+        common.push_back(scenario);
+      else
+        *found = common_scenario(*found, scenario);
+    }
+  return common;
+}
 
 std::vector<Scenario> scenarios_to_show(const Controller& controller) {
   if (!controller.problem.scenarios.empty()) return controller.problem.scenarios;

@@ -146,6 +146,8 @@ void count_numbers(const PreparedScenario& prepared, ScenarioRun& run) {
   numbers.rms_y = rms_of(run.outputs), numbers.peak_y = peak_of(run.outputs);
   numbers.share_at_limits = share_at_limits(prepared.controller, run.u);
   numbers.answers = answers_of(prepared, run);
+  for (Index i = 0; i < run.left_out.rows(); ++i)
+    numbers.left_out.push_back(static_cast<unsigned long>(run.left_out.row(i).count()));
 }
 
 }  // namespace lqg::simulate

@@ -50,7 +50,7 @@ struct ScenarioSurroundings {
   void after_update(const EmittedController<S>& emitted) {
     watch->after_update(emitted);
     const std::vector<bool>& left_out = emitted.left_out();
-    for (std::size_t i = 0; i < left_out.size(); ++i) run.numbers.left_out[i] += left_out[i];
+    for (std::size_t i = 0; i < left_out.size(); ++i) run.left_out(static_cast<Index>(i), k) = left_out[i];
     run.innovation.col(k) = watch->innovation();
     if (!watch->knows_its_error()) return;
     run.nis(k) = watch->nis();
@@ -101,7 +101,7 @@ ScenarioRun empty_run(const PreparedScenario& prepared, const TruthModel& truth)
   run.u = MatrixXd::Zero(truth.nu, samples);
   run.r = prepared.courses.reference;
   run.events.assign(static_cast<std::size_t>(samples), 0);
-  run.numbers.left_out.assign(static_cast<std::size_t>(controller.size.ny), 0);
+  run.left_out = Eigen::ArrayXX<bool>::Constant(truth.ny, samples, false);
   if (ScenarioSurroundings::keeps_estimate(controller)) run.innovation = MatrixXd::Zero(truth.ny, samples);
   if (run.innovation.size() && controller::noise_at(controller, 0)) {
     run.sigma = MatrixXd::Zero(truth.nx, samples);
@@ -124,6 +124,7 @@ void cut(ScenarioRun& run, Index samples) {
   for (VectorXd* values : {&run.nis, &run.nees})
     if (values->size()) values->conservativeResize(samples);
   run.events.resize(static_cast<std::size_t>(samples));
+  run.left_out.conservativeResize(Eigen::NoChange, samples);
   run.fine_times.conservativeResize(samples * instants);
   for (MatrixXd* values : {&run.fine_x, &run.fine_outputs})
     if (values->size()) values->conservativeResize(Eigen::NoChange, samples * instants);
@@ -181,10 +182,11 @@ void run_emitted(EmittedController<S>& emitted, ScenarioSurroundings& around, Sc
 
 template <class S>
 void run_emitted(EmittedForm<S>& emitted, ScenarioSurroundings& around, ScenarioRun& run) {
-  run_samples(around, run, [&] { return take_sample(emitted, around); });
-  for (Index i = 0; i < run.y.rows(); ++i)
-    for (Index k = 0; k < run.y.cols(); ++k)
-      run.numbers.left_out[static_cast<std::size_t>(i)] += !std::isfinite(run.y(i, k));
+  run_samples(around, run, [&] {
+    const Sample sample = take_sample(emitted, around);
+    run.left_out.col(around.k) = !sample.y.array().isFinite();
+    return sample;
+  });
 }
 
 // Enough for a curve, and no more than a page can hold.

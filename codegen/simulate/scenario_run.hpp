@@ -46,11 +46,12 @@ struct ScenarioRun {
   Eigen::MatrixXd outputs;   // C x + D u without noise
   Eigen::MatrixXd u;         // as the controller asked for it, numbers of the target
   Eigen::MatrixXd r;         // of the outputs named in controller.references
-  Eigen::MatrixXd innovation;    // y − C x̂ − D u; empty without a filter that keeps x̂
-  Eigen::VectorXd nis;           // νᵀ S⁻¹ ν of the outputs that were used; likewise
-  Eigen::VectorXd nees;          // eᵀ P⁻¹ e; empty without sigma
-  int nees_degrees = 0;          // directions in which there is an error at all
-  std::vector<unsigned> events;  // a bit for each step::Event that the status told
+  Eigen::MatrixXd innovation;     // y − C x̂ − D u; empty without a filter that keeps x̂
+  Eigen::VectorXd nis;            // νᵀ S⁻¹ ν of the outputs that were used; likewise
+  Eigen::VectorXd nees;           // eᵀ P⁻¹ e; empty without sigma
+  int nees_degrees = 0;           // directions in which there is an error at all
+  std::vector<unsigned> events;   // a bit for each step::Event that the status told
+  Eigen::ArrayXX<bool> left_out;  // of each output, whether it was not used
   // Between the samples, too (of a continuous plant; else empty): several instants in each period.
   Eigen::VectorXd fine_times;
   Eigen::MatrixXd fine_x, fine_outputs;
@@ -68,5 +69,13 @@ ScenarioRun run_scenario(const controller::Controller& controller, const design:
 // Those of the design file. Without any: a step of each reference and of each load, in sizes that the limits and
 // weights make sensible; of an estimator alone a run with its noises.
 std::vector<design::Scenario> scenarios_to_show(const controller::Controller& controller);
+
+// Likewise, with the times and sizes of those of the same name among `others`, so that the curves of several designs
+// lie over each other. Those of a design file stay as they are.
+std::vector<design::Scenario> scenarios_to_show(const controller::Controller& controller,
+                                                const std::vector<design::Scenario>& others);
+
+// One scenario of each name: as long as the longest of that name, with the smallest course, which all can follow.
+std::vector<design::Scenario> common_scenarios(const std::vector<std::vector<design::Scenario>>& of_designs);
 
 }  // namespace lqg::simulate

@@ -15,6 +15,7 @@
 #include "emit/text/wording.hpp"
 #include "input/design_file.hpp"
 #include "input/text.hpp"
+#include "simulate/scenario_run.hpp"
 #include "view/differences.hpp"
 #include "view/merge.hpp"
 
@@ -30,6 +31,8 @@ const char* const page_name = "compare.html";
 
 struct Compared {
   std::string path, text;
+  emit::Controller controller;
+  design::Findings findings;
   emit::PageData page;
 };
 
@@ -56,8 +59,19 @@ Status read(const CompareArguments& arguments, const std::string& path, const de
   input::sort_by_place(file, findings);
   print(arguments, path, file, findings);
   if (!controller) return impossible_design;
-  all.push_back({path, file.text, emit::page_data(*controller, findings)});
+  all.push_back({path, file.text, *std::move(controller), std::move(findings), {}});
   return made;
+}
+
+void draw_pages(std::vector<Compared>& all) {
+  std::vector<std::vector<design::Scenario>> shown;
+  for (const Compared& one : all)
+    if (one.controller.problem.scenarios.empty()) shown.push_back(simulate::scenarios_to_show(one.controller));
+  const std::vector<design::Scenario> common = simulate::common_scenarios(shown);
+  for (Compared& one : all) {
+    one.controller.problem.scenarios = simulate::scenarios_to_show(one.controller, common);
+    one.page = emit::page_data(one.controller, one.findings);
+  }
 }
 
 using NameOf = std::string (*)(const Compared&);
@@ -146,6 +160,7 @@ int compare(const CompareArguments& arguments, const design::Progress& progress)
   for (const std::string& path : arguments.design_files)
     worst = std::max<int>(worst, read(arguments, path, progress, all));
   if (worst != made) return worst;
+  draw_pages(all);
   if (overwrites(arguments)) {
     std::cerr << "lqgen compare: expected design files that are not " << page_name
               << "; rename it, or choose another folder with -o\n";

@@ -56,11 +56,18 @@ std::optional<Numbers> numbers_in(const std::string& body) {
   return numbers;
 }
 
+std::optional<std::string> name_in(const std::string& body) {
+  const Json message = Json::parse(body, nullptr, false);
+  if (!message.is_object() || !message.contains("name") || !message["name"].is_string()) return std::nullopt;
+  return message["name"].get<std::string>();
+}
+
 std::string state_message(const State& state, const Picture& picture, const std::optional<emit::PageData>& last_good) {
   Json message = {{"revision", state.revision}, {"path", state.path}};
   add_lines(message, picture);
   message["tunables"] = Json::array();
   for (const Tunable& tunable : picture.tunables) message["tunables"].push_back(json_of(tunable));
+  message["others"] = state.others;
   return with_page(message, last_good);
 }
 

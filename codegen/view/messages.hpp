@@ -18,10 +18,12 @@ struct Numbers {
   std::vector<input::Change> changes;
 };
 std::optional<Numbers> numbers_in(const std::string& body);
+std::optional<std::string> name_in(const std::string& body);  // of {name}
 
 struct State {
   long revision = 0;
   std::string path;
+  std::vector<std::string> others;
 };
 std::string state_message(const State& state, const Picture& picture, const std::optional<emit::PageData>& last_good);
 std::string trial_message(const Picture& picture, double milliseconds);

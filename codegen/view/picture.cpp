@@ -10,6 +10,7 @@
 #include "emit/text/sha256.hpp"
 #include "input/design_file.hpp"
 #include "simulate/scenario_requirements.hpp"
+#include "simulate/scenario_run.hpp"
 
 namespace lqg::view {
 
@@ -37,7 +38,17 @@ design::Problem free_problem(const input::DesignFile& file) {
   return problem;
 }
 
-std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path) {
+using Scenarios = std::vector<design::Scenario>;
+
+emit::PageData draw(emit::Controller& controller, const input::DesignFile& file, const Scenarios& like,
+                    const design::Findings& findings, Picture& picture) {
+  controller.problem.requirements = file.problem->requirements;
+  picture.scenarios = controller.problem.scenarios = simulate::scenarios_to_show(controller, like);
+  return emit::page_data(controller, findings);
+}
+
+std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path, const Scenarios& like,
+                                         Picture& picture) {
   design::Problem problem = free_problem(file);
   std::optional<design::Solution> solution = design::first_look(problem);
   if (!solution) return std::nullopt;
@@ -45,11 +56,11 @@ std::optional<emit::PageData> first_page(const input::DesignFile& file, const st
   auto controller =
       emit::make_controller(std::move(problem), *std::move(solution), source_of(file.text, path), ignored);
   if (!controller) return std::nullopt;
-  controller->problem.requirements = file.problem->requirements;
-  return emit::page_data(*controller);
+  return draw(*controller, file, like, {}, picture);
 }
 
-std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, Picture& picture) {
+std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, const Scenarios& like,
+                                         Picture& picture) {
   design::Problem problem = free_problem(file);
   design::Findings findings;
   std::optional<design::Solution> solution = design::solve(problem, findings);
@@ -63,19 +74,19 @@ std::optional<emit::PageData> whole_page(const input::DesignFile& file, const st
   }
   input::sort_by_place(file, findings);
   add_lines(picture, file, path, findings);
-  return controller ? std::optional(emit::page_data(*controller, findings)) : std::nullopt;
+  return controller ? std::optional(draw(*controller, file, like, findings, picture)) : std::nullopt;
 }
 
 }  // namespace
 
-Picture picture_of(const std::string& text, const std::string& path, Depth depth) {
+Picture picture_of(const std::string& text, const std::string& path, Depth depth, const Scenarios& like) {
   const input::DesignFile file = input::parse_design(text, std::filesystem::path(path).parent_path());
   Picture picture;
   add_lines(picture, file, path, file.findings);
   if (!file.problem) return picture;
   picture.tunables = tunables(file);
-  if (depth == Depth::whole) picture.page = whole_page(file, path, picture);
-  if (!picture.page) picture.page = first_page(file, path);
+  if (depth == Depth::whole) picture.page = whole_page(file, path, like, picture);
+  if (!picture.page) picture.page = first_page(file, path, like, picture);
   return picture;
 }
 

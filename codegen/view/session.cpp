@@ -8,6 +8,7 @@
 #include "input/text.hpp"
 #include "view/live_page.hpp"
 #include "view/messages.hpp"
+#include "view/neighbours.hpp"
 
 namespace lqg::view {
 
@@ -83,7 +84,9 @@ void Session::publish() {
   for (const auto& [number, answer] : waiting) answer(json(200, message));
 }
 
-std::string Session::state() const { return state_message({revision_, path_}, picture_, last_good_); }
+std::string Session::state() const {
+  return state_message({revision_, path_, neighbours(path_)}, picture_, last_good_);
+}
 
 void Session::answer(const serve::Request& request, const serve::Answer& answer) {
   const bool is_get = request.method == "GET";
@@ -91,6 +94,7 @@ void Session::answer(const serve::Request& request, const serve::Answer& answer)
   if (is_get && request.path == "/") return answer(live_page(path_));
   if (is_get && request.path == "/state") return send_state(request, answer);
   if (!is_get && is_known_post) return try_numbers(request, answer);
+  if (!is_get && request.path == "/other") return draw_other(request, answer);
   answer(json(404, error_message("there is no such page")));
 }
 
@@ -115,12 +119,24 @@ void Session::try_numbers(const serve::Request& request, const serve::Answer& an
   if (const auto* failure = std::get_if<input::EditFailure>(&text))
     return answer(json(400, error_message(failure->key + ": " + failure->message)));
   if (request.path == "/write") return write_numbers(std::get<std::string>(text), answer);
+  try_design(std::get<std::string>(text), path_, request.path == "/look" ? Depth::first_look : Depth::whole, answer);
+}
 
+void Session::draw_other(const serve::Request& request, const serve::Answer& answer) {
+  const std::optional<std::string> name = name_in(request.body);
+  if (!name) return answer(json(400, error_message("expected {name}")));
+  const std::optional<Neighbour> other = read_neighbour(path_, *name);
+  if (!other) return answer(json(400, error_message(*name + ": expected a design file beside " + path_)));
+  try_design(other->text, other->path, Depth::whole, answer);
+}
+
+void Session::try_design(const std::string& text, const std::string& path, Depth depth, const serve::Answer& answer) {
   Worker::Job job;
-  job.text = std::get<std::string>(text);
-  job.path = path_;
+  job.text = text;
+  job.path = path;
   job.is_trial = true;
-  job.depth = request.path == "/look" ? Depth::first_look : Depth::whole;
+  job.like = picture_.scenarios;
+  job.depth = depth;
   job.done = [answer](const std::optional<Picture>& picture, double milliseconds) {
     answer(json(200, picture ? trial_message(*picture, milliseconds) : superseded_message()));
   };

@@ -3,15 +3,17 @@
 //
 //   GET  /              the page
 //   GET  /state?since=N  the state of the file, at once if it is newer than revision N, else as soon as it is, or after
-//                       20 s: {revision, path, lines, line, has_error, has_page, tunables, page}
+//                       20 s: {revision, path, lines, line, has_error, has_page, tunables, others, page}; others:
+//                       names of the design files beside it
 //   POST /look, /solve  {revision, changes: [{key, value}]}: the design with these numbers, at a first look or whole:
 //                       {lines, line, has_error, has_page, milliseconds, page}; {superseded: true} where a newer
 //                       question came first
 //   POST /write         the same: puts the numbers into the file
+//   POST /other         {name}: the whole design of one of the others, answered as /solve is
 //
 // `page` is that of emit::page_json, or null; where a state has none (has_page) it is the last one. 400: a question
-// that nobody asked for, or a key that is no number of the file; 409: the file has changed since that revision. Both
-// with {error}.
+// that nobody asked for, a key that is no number of the file, or a name that is none of the others; 409: the file has
+// changed since that revision. Both with {error}.
 #pragma once
 
 #include <map>
@@ -41,6 +43,8 @@ class Session {
   void send_state(const serve::Request& request, const serve::Answer& answer);
   void try_numbers(const serve::Request& request, const serve::Answer& answer);
   void write_numbers(const std::string& text, const serve::Answer& answer);
+  void draw_other(const serve::Request& request, const serve::Answer& answer);
+  void try_design(const std::string& text, const std::string& path, Depth depth, const serve::Answer& answer);
   std::string state() const;
 
   std::string path_;

@@ -84,7 +84,7 @@ void Worker::work(Job& job) {
   };
   const design::InterruptionScope interruption(check);
   try {
-    picture = picture_of(job.text, job.path, job.depth);
+    picture = picture_of(job.text, job.path, job.depth, job.like);
   } catch (const Superseded&) {
   } catch (const std::exception& error) {
     picture = failed_picture(job.path, error.what());

@@ -28,6 +28,7 @@ class Worker {
     std::string text, path;
     bool is_trial = false;  // else it is the state of the file
     Depth depth = Depth::whole;
+    std::vector<design::Scenario> like;  // see picture_of
     Done done;
   };
 

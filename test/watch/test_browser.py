@@ -134,6 +134,37 @@ class LivePage(unittest.TestCase):
             self.assertTrue(page.locator("#lqg-write").is_disabled())
             page.close()
 
+    def test_another_file_lends_the_grey_curves(self):
+        with Watched(LQGEN, SERVO) as watched:
+            text = watched.path.read_text(encoding="utf-8")
+            (watched.folder / "stiff.toml").write_text(text.replace("[0.05, 30]", "[0.02, 30]"), encoding="utf-8")
+            (watched.folder / "broken.toml").write_text(text.replace("[[1, 0]]", "[[1]]"), encoding="utf-8")
+            page = self.open(watched)
+            before = page.evaluate(FIRST_CHART)
+            choice = page.locator("#lqg-other")
+            choice.select_option("stiff.toml")
+            self.expect_status(page, "grey: stiff.toml")
+            compared = page.evaluate(FIRST_CHART)
+            self.assertEqual(compared["data"], before["data"])
+            self.assertEqual(len(compared["ghost"]), len(before["data"]))
+            self.assertNotEqual(compared["ghost"], before["data"])
+            number = page.locator(f'.slider:has([data-key="{ANGLE}"]) .number')
+            number.fill("0.02")
+            number.press("Enter")
+            self.expect_status(page, "The design with these numbers")
+            tried = page.evaluate(FIRST_CHART)
+            self.assertEqual(tried["ghost"], compared["ghost"])
+            self.assertEqual(tried["data"], compared["ghost"])
+            self.picture(page, "watch-other")
+            choice.select_option("broken.toml")
+            self.expect_status(page, "broken.toml makes no design")
+            self.assertEqual(choice.input_value(), "stiff.toml")
+            choice.select_option("")
+            page.locator("#lqg-back").click()
+            self.expect_status(page, "The design of the file")
+            self.assertEqual(page.evaluate(FIRST_CHART), before)
+            page.close()
+
     def test_an_error_stands_over_the_last_good_picture(self):
         with Watched(LQGEN, SERVO) as watched:
             page = self.open(watched)

@@ -71,6 +71,20 @@ class Compare(unittest.TestCase):
             self.assertAlmostEqual(shown, margins["phase_margin_deg"], delta=0.01)
         self.assertNotEqual(*rows["Phase margin"])
 
+    def test_designs_without_scenarios_move_at_the_same_times(self):
+        lines = (DESIGNS / "double_integrator.toml").read_text(encoding="utf-8")
+        self.assertNotIn("[[scenario]]", lines)
+        self.put("slow.toml", lines)
+        self.put("quick.toml", re.sub(r"^R *=.*$", "R = [1e-6]", lines, flags=re.MULTILINE))
+        done = self.run_lqgen("slow.toml", "quick.toml", "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        data = re.search(r'id="lqg-data">\n(.*?)\n</script>', self.page(), re.DOTALL)[1]
+        runs = [chart for chart in json.loads(data)["charts"] if chart["id"].startswith("run-load")]
+        self.assertTrue(runs)
+        for chart in runs:
+            times = {json.dumps(curve["x"]) for curve in chart["curves"] if curve["role"] == "data"}
+            self.assertEqual(len(times), 1, chart["id"])
+
     def test_curves_of_both_stand_in_one_chart(self):
         self.compare_two()
         data = re.search(r'id="lqg-data">\n(.*?)\n</script>', self.page(), re.DOTALL)[1]

@@ -7,6 +7,7 @@ It follows the file, designs with other numbers, and puts them into the file byt
 import json
 import os
 import pathlib
+import shutil
 import signal
 import socket
 import stat
@@ -219,6 +220,44 @@ class Following(unittest.TestCase):
         folder.rmdir()
 
 
+class Others(unittest.TestCase):
+    def test_another_file_of_the_folder_is_drawn_as_if_it_were_watched(self):
+        with Watched(LQGEN, SERVO) as watched:
+            text = watched.path.read_text(encoding="utf-8").replace("[0.05, 30]", "[0.02, 30]")
+            (watched.folder / "stiff.toml").write_text(text, encoding="utf-8")
+            (watched.folder / "notes.txt").write_text("no design", encoding="utf-8")
+            (watched.folder / "folder.toml").mkdir()
+            watched.save(watched.path.read_text(encoding="utf-8") + "\n")
+            state = watched.state(1)
+            self.assertEqual(state["others"], ["stiff.toml"])
+            status, _, body = watched.ask("/other", "POST", json.dumps({"name": "stiff.toml"}))
+            self.assertEqual(status, 200)
+            with Watched(LQGEN, watched.folder / "stiff.toml") as alone:
+                self.assertEqual(json.loads(body)["page"], alone.state()["page"])
+
+    def test_only_the_files_of_the_list_are_read(self):
+        with Watched(LQGEN, SERVO) as watched:
+            outside = watched.folder.parent / f"{watched.folder.name}.toml"
+            shutil.copy(SERVO, outside)
+            try:
+                for name in (f"../{outside.name}", str(outside), "servo.toml", "./servo.toml", "", ".", "nothing.toml"):
+                    body = json.dumps({"name": name})
+                    self.assertEqual(watched.ask("/other", "POST", body)[0], 400, name)
+                for body in ("", "[]", '{"name": 1}', '{"other": "servo.toml"}'):
+                    self.assertEqual(watched.ask("/other", "POST", body)[0], 400, body)
+            finally:
+                outside.unlink()
+
+    def test_another_file_with_an_error_says_so(self):
+        with Watched(LQGEN, SERVO) as watched:
+            text = watched.path.read_text(encoding="utf-8").replace("[[1, 0]]", "[[1, 0, 0]]")
+            (watched.folder / "broken.toml").write_text(text, encoding="utf-8")
+            status, _, body = watched.ask("/other", "POST", json.dumps({"name": "broken.toml"}))
+            answer = json.loads(body)
+            self.assertEqual((status, answer["has_error"], answer["page"]), (200, True, None))
+            self.assertIn("broken.toml:", answer["lines"][0])
+
+
 class Trials(unittest.TestCase):
     def test_a_trial_is_the_design_of_a_file_with_these_numbers(self):
         with Watched(LQGEN, SERVO) as watched:
@@ -230,6 +269,20 @@ class Trials(unittest.TestCase):
             saved = watched.state(state["revision"])
             self.assertEqual(trial["page"], saved["page"])
             self.assertEqual(trial["lines"], saved["lines"])
+
+    def test_a_trial_without_scenarios_moves_at_the_times_of_the_file(self):
+        with Watched(LQGEN, DESIGNS / "double_integrator.toml") as watched:
+            state = watched.state()
+            key = next(t["targets"][0]["key"] for t in state["tunables"] if t["targets"][0]["key"].startswith("lqr."))
+            status, trial = watched.post("/solve", state["revision"], {key: 1e-6})
+            self.assertEqual(status, 200)
+            runs = [
+                {chart["id"]: chart["curves"][0]["x"] for chart in page["charts"] if chart["id"].startswith("run-load")}
+                for page in (state["page"], trial["page"])
+            ]
+            self.assertTrue(runs[0])
+            self.assertEqual(runs[0], runs[1])
+            self.assertNotEqual(trial["page"], state["page"])
 
     def test_a_first_look_has_the_same_curves_in_six_digits(self):
         with Watched(LQGEN, SERVO) as watched:

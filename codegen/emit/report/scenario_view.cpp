@@ -44,12 +44,9 @@ bool nothing_happens(const Chart& chart) {
   return chart.events.empty();
 }
 
-// Whether one of the outputs was not used in a sample, by the bits of its status.
-bool is_left_out(const simulate::ScenarioRun& run, Index sample, std::size_t output) {
-  using step::Event;
-  constexpr std::size_t named = 8;
-  const auto bit = static_cast<unsigned>(Event::first_rejected) + static_cast<unsigned>(output);
-  return output < named && run.has(sample, static_cast<Event>(bit));
+// Of an output that was not used: only the gate did not believe it.
+bool is_gated(const simulate::ScenarioRun& run, Index sample, int output) {
+  return run.has(sample, step::Event::output_gated) && !run.has(sample, step::rejection_of(output));
 }
 
 class ScenarioCharts {
@@ -101,10 +98,8 @@ class ScenarioCharts {
       if (controller_.references[j] == static_cast<int>(i) && run_.r.rows() > static_cast<Index>(j))
         out.curves.push_back({"reference", Mark::steps, 6, times_, values_of(run_.r, static_cast<Index>(j))});
     for (Index k = 0; k < run_.times.size(); ++k)
-      if (is_left_out(run_, k, i))
-        out.events.push_back({run_.times(k), "left out"});
-      else if (run_.has(k, step::Event::output_gated))  // which one the status does not tell
-        out.events.push_back({run_.times(k), controller_.size.ny > 1 ? "an output gated" : "gated"});
+      if (run_.left_out(row, k))
+        out.events.push_back({run_.times(k), is_gated(run_, k, static_cast<int>(i)) ? "gated" : "left out"});
     add_sensor_limits(i, out);
     // An outlier does not make the rest small.
     if (!scenario_.outlier.empty()) look_at_truth(out);

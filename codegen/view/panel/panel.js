@@ -9,11 +9,14 @@
   const byId = (id) => document.getElementById(id);
   const status = byId("lqg-status");
 
-  let state = { revision: 0, lines: [], line: 0, has_error: false, tunables: [], page: null };
+  let state = { revision: 0, lines: [], line: 0, has_error: false, tunables: [], others: [], page: null };
+  let other = null; // name and page of the design whose curves are grey, where it is not the file's
+  let wantsOther = false; // it is to be asked for when the sliders rest
   let sliders = [];
   let asks = false; // a first look is under way
   let moved = false; // since it was asked for
   let settled = 0; // timer until the whole is asked for
+  let solving = false; // it is under way
   let lastMove = 0; // when, in ms
   let draggedIn = []; // ms from the last move before a question to its drawn answer, of the last questions
 
@@ -140,29 +143,32 @@
     byId("lqg-page").classList.toggle("old", message.has_error && !message.has_page);
   }
 
+  const grey = () => (other ? `; grey: ${other.name}` : "");
+
   function showFile() {
-    if (state.page) lqgPage.draw(state.page);
+    if (state.page) lqgPage.draw(state.page, { ghost: (other && other.page) || undefined });
     showErrors(state);
-    if (!state.has_error) say("The design of the file");
+    if (!state.has_error) say(`The design of the file${grey()}`);
     else say(state.line > 0 ? `The file has an error at line ${state.line}` : "The design has an error", true);
   }
 
   function showTrial(message, isWhole) {
     showErrors(message);
-    if (message.page) lqgPage.draw(message.page, { ghost: state.page || undefined });
+    if (message.page) lqgPage.draw(message.page, { ghost: (other && other.page) || state.page || undefined });
     if (message.has_error && message.page) say("These numbers miss what is required; the picture shows them", true);
     else if (message.has_error) say("These numbers make no design; the picture is the last one", true);
-    else if (isWhole) say(`The design with these numbers, in ${Math.round(message.milliseconds)} ms; grey: the file`);
+    else if (isWhole)
+      say(`The design with these numbers, in ${Math.round(message.milliseconds)} ms${grey() || "; grey: the file"}`);
     else say("First look; computing all digits, margins at the outputs, rounding");
   }
 
   // ---- asking
 
-  async function post(path) {
+  async function post(path, question = { revision: state.revision, changes: changes() }) {
     const response = await fetch(path, {
       method: "POST",
       headers: { "Content-Type": "application/json" },
-      body: JSON.stringify({ revision: state.revision, changes: changes() }),
+      body: JSON.stringify(question),
     });
     return { status: response.status, ...(await response.json()) };
   }
@@ -195,22 +201,26 @@
       lost();
     }
     asks = false;
+    resume();
   }
 
   async function solve() {
     const asked = state;
     const move = lastMove;
     try {
-      const answer = await post("solve");
+      solving = true;
+      const answer = await post("solve").finally(() => (solving = false));
       if (asked !== state || move !== lastMove) return;
       show(answer, true);
       if (answer.superseded) settled = setTimeout(settle, rest); // by another page of this lqgen
+      resume();
     } catch {
       lost();
     }
   }
 
   function settle() {
+    settled = 0;
     if (asks) settled = setTimeout(settle, rest);
     else if (changed().length) solve();
   }
@@ -219,8 +229,12 @@
     moved = true;
     lastMove = performance.now();
     clearTimeout(settled);
+    settled = 0;
     showButtons();
-    if (!changed().length) return showFile();
+    if (!changed().length) {
+      showFile();
+      return resume();
+    }
     say("Computing");
     look();
     settled = setTimeout(settle, rest);
@@ -244,6 +258,55 @@
     }
   });
 
+  // ---- another file's curves
+
+  const list = byId("lqg-other");
+
+  function showOthers() {
+    const names = state.others;
+    list.parentElement.hidden = !names.length;
+    if (names.join("/") === [...list.options].slice(1).map(({ value }) => value).join("/")) return;
+    const chosen = names.includes(list.value) ? list.value : "";
+    list.replaceChildren(new Option("of the file", ""), ...names.map((name) => new Option(name, name)));
+    list.value = chosen;
+  }
+
+  const computes = () => asks || solving || settled !== 0;
+
+  function resume() {
+    if (wantsOther && !computes()) compare();
+  }
+
+  // lqgen breaks off one question for the next: numbers that are being tried come first.
+  async function compare() {
+    const name = list.value;
+    wantsOther = computes();
+    if (wantsOther) return;
+    try {
+      const message = name ? await post("other", { name }) : { page: null };
+      if (name !== list.value) return;
+      if (message.superseded) {
+        wantsOther = true;
+        setTimeout(resume, rest); // by another page of this lqgen
+      } else takeOther(name, message);
+    } catch {
+      lost();
+    }
+  }
+
+  function takeOther(name, message) {
+    if (name && !message.page) {
+      list.value = other ? other.name : "";
+      say(`${name} makes no design: ${message.error || message.lines[0]}`, true);
+      return;
+    }
+    other = name ? { name, page: message.page } : null;
+    if (changed().length && !waits()) move();
+    else showFile();
+  }
+
+  list.addEventListener("change", compare);
+
   // ---- following
 
   function lost() {
@@ -254,8 +317,10 @@
     state = message;
     if (!waits()) build(state.tunables);
     showButtons();
+    showOthers();
     if (changed().length && !waits()) move();
     else showFile();
+    if (list.value) compare();
   }
 
   async function follow() {

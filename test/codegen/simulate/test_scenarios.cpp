@@ -9,6 +9,7 @@
 #include "design/equations/sampling.hpp"
 #include "design/numeric/digits.hpp"
 #include "design/rounding.hpp"
+#include "emit/report/scenario_view.hpp"
 #include "simulate/period.hpp"
 #include "simulate/prepared_scenario.hpp"
 #include "simulate/scenario_numbers.hpp"
@@ -239,6 +240,32 @@ void test_drop_outs_and_outliers_are_told_and_left_out() {
   TEST_ASSERT_TRUE(run.sigma(0, 7) > 1.1 * run.sigma(0, 4));
 }
 
+// Both sensors say the place. What the gate does not believe of one is not marked at the other.
+void test_an_output_that_is_left_out_is_marked_at_its_own_chart() {
+  std::string text = mass;
+  text.replace(text.find("C = [[1, 0]]"), 12, "C = [[1, 0], [1, 0]]");
+  text.replace(text.find("outputs = [\"place [m]\"]"), 23, "outputs = [\"place [m]\", \"again [m]\"]");
+  text.replace(text.find("measurement_noise = [1e-4]"), 26, "measurement_noise = [1e-4, 1e-4]\ngate = 5");
+  const Controller controller =
+      lqg_test::controller_of(text + pushed + "outlier = [{ output = \"again\", value = 300, at = 1.2 }]\n" +
+                              "dropout = [{ output = \"place\", from = 0.5, until = 0.55 }]\n");
+  const ScenarioRun run = simulate::run_scenario(controller, controller.problem.scenarios[0]);
+  for (Index k = 0; k < run.times.size(); ++k) {
+    TEST_ASSERT_EQUAL(k == 5, run.left_out(0, k));
+    TEST_ASSERT_EQUAL(k == 12, run.left_out(1, k));
+  }
+  const emit::PageView view = emit::scenario_view(controller, {controller.problem.scenarios[0], run});
+  const auto events_of = [&](const char* title) {
+    std::string words;
+    for (const emit::Chart& chart : view.charts)
+      if (chart.title == title && chart.id.find("-y") != std::string::npos)
+        for (const emit::EventMark& event : chart.events) words += event.label + ";";
+    return words;
+  };
+  TEST_ASSERT_EQUAL_STRING("left out;", events_of("place [m]").c_str());
+  TEST_ASSERT_EQUAL_STRING("gated;", events_of("again [m]").c_str());
+}
+
 // --- beside the simulation of the design's own plant ------------------------------------------------------------
 
 // The same numbers in the same order: the bits of simulate(), noise and all, where nothing has to be integrated.
@@ -369,8 +396,7 @@ plant = { A = [[0, 1], [0, 5]] }
   TEST_ASSERT_EQUAL_UINT(static_cast<unsigned>(run.times.size()), run.events.size());
 }
 
-void test_a_design_without_scenarios_is_shown_within_its_limits() {
-  const char* const text = R"(
+const char* const limited_text = R"(
 name = "limited"
 [plant]
 domain = "continuous"
@@ -389,7 +415,9 @@ measurement_noise = [1e-6]
 u_min = [-0.5]
 u_max = [2]
 )";
-  const Controller controller = lqg_test::controller_of(text);
+
+void test_a_design_without_scenarios_is_shown_within_its_limits() {
+  const Controller controller = lqg_test::controller_of(limited_text);
   const std::vector<design::Scenario> shown = simulate::scenarios_to_show(controller);
   TEST_ASSERT_EQUAL_UINT(3, shown.size());
   TEST_ASSERT_EQUAL_STRING("step of y0", shown[0].name.c_str());
@@ -397,6 +425,38 @@ u_max = [2]
   TEST_ASSERT_TRUE(step.numbers.share_at_limits[0] == 0);
   TEST_ASSERT_TRUE(step.numbers.peak_u[0] > 0.1 && step.numbers.peak_u[0] <= 0.5);
   TEST_ASSERT_TRUE(step.numbers.answers.at(0).settling_time.has_value());
+}
+
+design::Scenario step_scenario(const char* name, double duration, int signal, double value, double at) {
+  design::Scenario scenario;
+  scenario.name = name;
+  scenario.duration = duration;
+  scenario.reference.resize(1);
+  scenario.reference[0].signal = signal;
+  scenario.reference[0].value = value;
+  scenario.reference[0].at = at;
+  return scenario;
+}
+
+void test_scenarios_of_several_designs_last_as_the_longest_with_the_smallest_step() {
+  const std::vector<design::Scenario> common = simulate::common_scenarios(
+      {{step_scenario("step of angle", 2, 0, -0.5, 0.2), step_scenario("step of speed", 1, 1, 3, 0.1)},
+       {step_scenario("step of angle", 5, 3, 2, 0.5)}});
+  TEST_ASSERT_EQUAL_UINT(2, common.size());
+  TEST_ASSERT_TRUE(common[0].duration == 5 && common[0].reference[0].at == 0.5);
+  TEST_ASSERT_TRUE(common[0].reference[0].value == -0.5);
+  TEST_ASSERT_TRUE(common[1].duration == 1 && common[1].reference[0].value == 3);
+}
+
+void test_default_scenarios_take_times_by_name_and_keep_their_own_signal() {
+  const Controller controller = lqg_test::controller_of(limited_text);
+  const std::vector<design::Scenario> own = simulate::scenarios_to_show(controller);
+  const std::vector<design::Scenario> shown =
+      simulate::scenarios_to_show(controller, {step_scenario("step of y0", 7, 5, 0.125, 1)});
+  TEST_ASSERT_EQUAL_UINT(own.size(), shown.size());
+  TEST_ASSERT_TRUE(shown[0].duration == 7 && shown[0].reference[0].value == 0.125 && shown[0].reference[0].at == 1);
+  TEST_ASSERT_EQUAL_INT(0, shown[0].reference[0].signal);
+  TEST_ASSERT_TRUE(shown[1].duration == own[1].duration);
 }
 
 }  // namespace
@@ -419,11 +479,14 @@ int main() {
   RUN_TEST(test_a_late_sensor_says_what_was_between_two_samples);
   RUN_TEST(test_a_sensor_has_gain_bias_quantum_and_range_in_this_order);
   RUN_TEST(test_drop_outs_and_outliers_are_told_and_left_out);
+  RUN_TEST(test_an_output_that_is_left_out_is_marked_at_its_own_chart);
   RUN_TEST(test_a_scenario_without_anything_is_the_simulation_bit_for_bit);
   RUN_TEST(test_sigma_settles_at_the_covariance_of_the_design);
   RUN_TEST(test_the_numbers_of_a_step_are_those_of_the_closed_form);
   RUN_TEST(test_an_answer_is_looked_at_until_the_next_event);
   RUN_TEST(test_a_loop_that_is_lost_ends_its_run);
   RUN_TEST(test_a_design_without_scenarios_is_shown_within_its_limits);
+  RUN_TEST(test_scenarios_of_several_designs_last_as_the_longest_with_the_smallest_step);
+  RUN_TEST(test_default_scenarios_take_times_by_name_and_keep_their_own_signal);
   return UNITY_END();
 }
