@@ -95,6 +95,11 @@
 #error "This file needs header format 3, the library has another one: regenerate it with the library's lqgen."
 #endif
 
+#if !LQG_HAS_FMAF && !defined LQG_SLOW_FUSED
+#pragma message("tank: fused multiply-adds are slow here. Compile for a processor that has them (x86: -mfma), \
+run lqgen with arithmetic = \"plain\", or define LQG_SLOW_FUSED.")
+#endif
+
 #define TANK_NX 2  /* states */
 #define TANK_NU 2  /* inputs */
 #define TANK_NY 2  /* outputs */

@@ -59,6 +59,13 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(LQG_PROCESSOR_HAS_FMA TRUE)
 endif()
 
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_test(NAME src.slow_fused_is_told
+           COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_C_COMPILER} -DLACKS=-mno-fma -DHAS=-mfma
+                   -DINCLUDE=${include_folder} -DFILE=${library_folder}/kernel.c
+                   -P ${CMAKE_CURRENT_SOURCE_DIR}/slow_fused.cmake)
+endif()
+
 if(UNIX)
   set(allow_fma)
   if(LQG_PROCESSOR_HAS_FMA)

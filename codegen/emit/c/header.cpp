@@ -44,6 +44,19 @@ std::string width_of_double(const Controller& controller) {
 )";
 }
 
+// It is right without the instruction, too, but nobody would guess how slow.
+std::string speed_of_fused(const Controller& controller) {
+  if (!controller.target.is_fused) return "";
+  return fill(
+      R"(
+#if !{has_it} && !defined LQG_SLOW_FUSED
+#pragma message("{name}: fused multiply-adds are slow here. Compile for a processor that has them (x86: -mfma), \
+run lqgen with arithmetic = \"plain\", or define LQG_SLOW_FUSED.")
+#endif
+)",
+      {{"has_it", controller.target.is_double ? "LQG_HAS_FMA" : "LQG_HAS_FMAF"}, {"name", controller.problem.name}});
+}
+
 // A macro, because it is a list that any array may begin with.
 std::string bounds(const Controller& controller) {
   std::string out = fill(
@@ -174,7 +187,7 @@ std::string header(const Controller& controller) {
   const design::Plant& plant = controller.problem.plant;
   const std::string guard = upper(controller.problem.name) + "_H", code = functions(controller, bodies);
   std::string out = preamble(controller, code) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;
-  out += handshake() + width_of_double(controller) + dimensions(controller);
+  out += handshake() + width_of_double(controller) + speed_of_fused(controller) + dimensions(controller);
   out += constants(controller, bodies.constants + code);
   out += index_enum(controller, "X", state_signals(controller)) + index_enum(controller, "U", plant.inputs);
   if (controller.has.filter) out += index_enum(controller, "Y", plant.outputs);

@@ -375,6 +375,25 @@ void test_unrolled_does_not_care_about_the_options_of_the_library() {
     TEST_ASSERT_TRUE(compile(controller_in(Style::unrolled), options).succeeded);
 }
 
+void test_fused_multiply_adds_without_the_instruction_are_told() {
+#if defined __x86_64__
+  const std::string told = "fused multiply-adds are slow here";
+  DesignText design = double_integrator();
+  for (const Style style : {Style::unrolled, Style::compact})
+    for (const char* real : {"float", "double"}) {
+      design.real = real, design.arithmetic = "fused";
+      const Controller fused = controller_in(style, design);
+      TEST_ASSERT_TRUE(compile(fused, "-mno-fma").output.find(told) != std::string::npos);
+      for (const char* options : {"-mfma", "-mno-fma -DLQG_SLOW_FUSED"})
+        TEST_ASSERT_TRUE(compile(fused, options).output.find(told) == std::string::npos);
+      design.arithmetic = "plain";
+      TEST_ASSERT_TRUE(compile(controller_in(style, design), "-mno-fma").output.find(told) == std::string::npos);
+    }
+#else
+  TEST_IGNORE_MESSAGE("Only x86-64 can be compiled for with and without the instruction");
+#endif
+}
+
 // What gcc contracts and clang may: the header switches it off from the inside, at any optimisation.
 void test_contraction_around_the_header_changes_no_bit() {
 #if defined __x86_64__
@@ -447,6 +466,7 @@ int main() {
   RUN_TEST(test_fast_math_is_refused);
   RUN_TEST(test_compact_refuses_the_options_of_another_library);
   RUN_TEST(test_unrolled_does_not_care_about_the_options_of_the_library);
+  RUN_TEST(test_fused_multiply_adds_without_the_instruction_are_told);
   RUN_TEST(test_contraction_around_the_header_changes_no_bit);
   RUN_TEST(test_ram_is_exactly_the_size_of_the_state);
   return UNITY_END();
