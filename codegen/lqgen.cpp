@@ -22,6 +22,7 @@
 #include "emit/text/files.hpp"
 #include "emit/text/sha256.hpp"
 #include "emit/unit_test/unit_test.hpp"
+#include "design/number_memory.hpp"
 #include "design/solve.hpp"
 #include "input/design_file.hpp"
 #include "input/keys.hpp"
@@ -377,6 +378,7 @@ CLI::App* add_simulate(CLI::App& app, Arguments& arguments, commands::SimulateAr
 // Setting up the command line throws only where two options have one name.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
+  design::use_number_stores();
   Arguments arguments;
   NewArguments new_arguments;
   CLI::App app{"Designs an LQG controller and writes it as C99: NAME.h, NAME_test.c, NAME.json, NAME.html.", "lqgen"};

@@ -53,13 +53,15 @@ struct Point {
   ComplexReal t;
 };
 
-ComplexReal entry(const ComplexMatrix& T, Index channel) { return {T.re(channel, channel), T.im(channel, channel)}; }
+ComplexReal entry(const Eigen::MatrixXcd& T, Index channel) {
+  return {Real(T(channel, channel).real()), Real(T(channel, channel).imag())};
+}
 
 // Where `value` of a channel crosses zero: between neighbours of different sign, and on both sides of a dip that passes
 // zero unseen.
 void add_crossings(const Search& search, const Channel& t_at, Index channel, Value value, std::vector<Place>& places) {
   std::vector<Real> values;
-  for (const ComplexMatrix& T : search.responses) values.push_back(value(entry(T, channel)));
+  for (const Eigen::MatrixXcd& T : search.responses) values.push_back(value(entry(T, channel)));
   const Function f = [&](const Real& angle) { return value(t_at(angle)); };
   const auto add = [&](const Real& low, const Real& high) {
     const Real root = root_between(f, low, high, rough.end_of_root);
@@ -104,7 +106,7 @@ class Crossings {
   Crossings(const Search& search, const Channels& roughly, const Channels& exactly, const Fineness& fineness,
             Value value)
       : exactly_(exactly), fineness_(fineness), value_(value) {
-    for (Index channel = 0; channel < search.responses.front().re.rows(); ++channel)
+    for (Index channel = 0; channel < search.responses.front().rows(); ++channel)
       add_crossings(search, roughly(channel), channel, value, places_);
     refined_.resize(places_.size());
     is_refined_.resize(places_.size());
@@ -172,7 +174,7 @@ void take_ends(const std::vector<ComplexReal>& ends, Margin margin, Least& least
 ChannelMargins channel_margins(const Search& search, const Channels& roughly, const Channels& exactly,
                                const Fineness& fineness) {
   Crossings real(search, roughly, exactly, fineness, imaginary), unit(search, roughly, exactly, fineness, from_half);
-  const std::vector<ComplexReal> ends = ends_of(exactly, search.responses.front().re.rows());
+  const std::vector<ComplexReal> ends = ends_of(exactly, search.responses.front().rows());
   const auto gain_of = [&](Margin margin) {
     Least least = real.least(margin);
     take_ends(ends, margin, least);

@@ -14,27 +14,26 @@ namespace lqg::design {
 
 namespace {
 
-Function at_angle(Real (*value)(const ComplexMatrix&), const Evaluate& evaluate) {
+Function at_angle(Real (*value)(const Eigen::MatrixXcd&), const Evaluate& evaluate) {
   return [value, evaluate](const Real& angle) { return value(evaluate(angle)); };
 }
 
-// I/2 − T in double.
-Eigen::MatrixXcd rough_difference(const ComplexMatrix& T) {
-  Eigen::MatrixXcd H(T.re.rows(), T.re.cols());
-  for (Index i = 0; i < H.size(); ++i) H.data()[i] = {-to_double(T.re.data()[i]), -to_double(T.im.data()[i])};
+// I/2 − T
+Eigen::MatrixXcd difference(const Eigen::MatrixXcd& T) {
+  Eigen::MatrixXcd H = -T;
   H.diagonal().array() += 0.5;
   return H;
 }
 
 constexpr Index most_for_a_search = 8;  // channels whose structured norm is searched for in a whole cell
 
-// 1/μ(I/2 − T): of one channel in all digits, of several in those of double.
-Real rough_disk(const ComplexMatrix& T) { return 1 / Real(balanced_norm(rough_difference(T))); }
-Real exact_disk(const ComplexMatrix& T) {
-  if (T.re.rows() > most_for_a_search) return 1 / Real(structured_norm_of_many(rough_difference(T)));
-  if (T.re.size() > 1) return 1 / Real(structured_norm(rough_difference(T)));
-  return 1 / hypot(T.re(0, 0) - 0.5, T.im(0, 0));
+// 1/μ(I/2 − T)
+Real rough_disk(const Eigen::MatrixXcd& T) { return 1 / Real(balanced_norm(difference(T))); }
+Real disk_of_several(const Eigen::MatrixXcd& T) {
+  const Eigen::MatrixXcd H = difference(T);
+  return 1 / Real(H.rows() > most_for_a_search ? structured_norm_of_many(H) : structured_norm(H));
 }
+Real disk_of_one(const ComplexReal& t) { return 1 / hypot(t.re - 0.5, t.im); }
 
 // A cell of the grid with one minimum in it; where that is, roughly, and the disk there.
 struct DiskAt {
@@ -48,7 +47,7 @@ std::vector<DiskAt> disk_places(const Search& search) {
   std::vector<DiskAt> places;
   std::optional<DiskAt> flat;
   std::vector<Real> sizes;
-  for (const ComplexMatrix& T : search.responses) sizes.push_back(rough_disk(T));
+  for (const Eigen::MatrixXcd& T : search.responses) sizes.push_back(rough_disk(T));
   for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
     const Real &here = sizes[i], &angle = search.angles[i];
     if (here > sizes[i - 1] || here > sizes[i + 1]) continue;
@@ -84,7 +83,7 @@ void refine_one(const std::vector<DiskAt>& places, const Function& f, const Fine
 
 // The balanced disk is never more: a place where it is more than the least disk so far has nothing less.
 void refine_many(std::vector<DiskAt> places, const Evaluate& evaluate, DiskMargin& margin) {
-  const Function lower = at_angle(rough_disk, evaluate), f = at_angle(exact_disk, evaluate);
+  const Function lower = at_angle(rough_disk, evaluate), f = at_angle(disk_of_several, evaluate);
   for (DiskAt& place : places) std::tie(place.angle, place.disk) = least_in(place, lower);
   std::sort(places.begin(), places.end(), [](const DiskAt& a, const DiskAt& b) { return a.disk < b.disk; });
   for (const DiskAt& place : places) {
@@ -95,10 +94,13 @@ void refine_many(std::vector<DiskAt> places, const Evaluate& evaluate, DiskMargi
 
 }  // namespace
 
-DiskMargin disk_margin(const Search& search, const Evaluate& evaluate, const Fineness& fineness) {
-  const Index channels = search.responses.front().re.rows();
+DiskMargin disk_margin(const Search& search, const Channels& channel_of, const Evaluate& evaluate,
+                       const Fineness& fineness) {
+  const Index channels = search.responses.front().rows();
   const Evaluate& enough = channels > most_for_a_search ? search.evaluate : evaluate;
-  const Function f = at_angle(exact_disk, enough);
+  const Function f = channels == 1
+                         ? Function([t_at = channel_of(0)](const Real& angle) { return disk_of_one(t_at(angle)); })
+                         : at_angle(disk_of_several, enough);
   DiskMargin margin = {std::min<Real>(f(Real(0)), f(pi()))};
   std::vector<DiskAt> places = disk_places(search);
   const auto by_disk = [](const DiskAt& a, const DiskAt& b) { return a.disk < b.disk; };

@@ -10,14 +10,14 @@
 
 namespace lqg::design {
 
-using Evaluate = std::function<ComplexMatrix(const Real&)>;  // T at an angle
-using Function = std::function<Real(const Real&)>;           // of an angle
+using Evaluate = std::function<Eigen::MatrixXcd(const Real&)>;  // T at an angle, rounded to double
+using Function = std::function<Real(const Real&)>;              // of an angle
 
 // T at the angles of the grid, and between them.
 struct Search {
   Evaluate evaluate;
   std::vector<Real> angles;
-  std::vector<ComplexMatrix> responses;
+  std::vector<Eigen::MatrixXcd> responses;
 };
 
 // How exactly a place is found: steps and ends as fractions of the cell.

@@ -15,19 +15,25 @@ struct Way {
   const Response& response;
   bool is_rough;
 
-  ComplexMatrix at(const Real& angle) const {
-    if (!is_rough) return response.at(angle);
-    const Digits few(20);
-    return response.roughly_at(angle);
-  }
   Evaluate all() const {
-    return [way = *this](const Real& angle) { return way.at(angle); };
+    return [way = *this](const Real& angle) {
+      if (way.is_rough) return way.response.roughly_at(angle);
+      const ComplexMatrix T = way.response.at(angle);
+      Eigen::MatrixXcd result(T.re.rows(), T.re.cols());
+      result.real() = to_doubles(T.re);
+      result.imag() = to_doubles(T.im);
+      return result;
+    };
   }
   Channels channels() const {
     return [way = *this](Index channel) -> Channel {
       return [is_rough = way.is_rough, response = way.response.channel(channel)](const Real& angle) {
-        const ComplexMatrix t = Way{response, is_rough}.at(angle);
-        return ComplexReal{t.re(0, 0), t.im(0, 0)};
+        if (is_rough) {
+          const std::complex<double> t = response.roughly_at(angle)(0, 0);
+          return ComplexReal{Real(t.real()), Real(t.imag())};
+        }
+        const ComplexMatrix T = response.at(angle);
+        return ComplexReal{T.re(0, 0), T.im(0, 0)};
       };
     };
   }
@@ -41,7 +47,7 @@ std::optional<double> rounded(const std::optional<Real>& value) {
 std::pair<Margins, bool> least_margins(const Search& search, const Way& searched, const Way& refined,
                                        const Fineness& fineness) {
   const ChannelMargins of_one = channel_margins(search, searched.channels(), refined.channels(), fineness);
-  const DiskMargin disk = disk_margin(search, refined.all(), fineness);
+  const DiskMargin disk = disk_margin(search, refined.channels(), refined.all(), fineness);
   Margins result;
   result.gain_dB = rounded(of_one.gain_dB);
   result.gain_up_dB = rounded(of_one.gain_up_dB);
@@ -63,7 +69,7 @@ void keep_six_digits(std::optional<double>& value) {
 
 Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {
   const Response response = closed_response(loop);
-  const Digits enough(38);  // two limbs
+  const Digits enough(37);  // two limbs of 64 bits, less a bit: those have a short way through MPFR
   const Response in_few_digits = response.in_present_digits();
   const std::vector<Real> angles = search_angles(closed_loop_poles);
   const Way roughly = {response, true}, exactly = {in_few_digits, false};
@@ -74,7 +80,7 @@ Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loo
 }
 
 Margins rough_margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loop_poles) {
-  const Digits enough(38);
+  const Digits enough(37);
   const Response response = closed_response(loop);
   const Way roughly = {response, true};
   const Search search = search_with(roughly.all(), search_angles(closed_loop_poles));

@@ -42,7 +42,8 @@ struct Reflection {
       mpfr_add(dot, dot, part, MPFR_RNDN);
     }
     mpfr_mul(dot, dot, beta.backend().data(), MPFR_RNDN);
-    for (Index i = 0; i < size; ++i) {
+    mpfr_sub(a[0].backend().data(), a[0].backend().data(), dot, MPFR_RNDN);
+    for (Index i = 1; i < size; ++i) {
       mpfr_ptr entry = a[i * stride].backend().data();
       mpfr_mul(part, v[i].backend().data(), dot, MPFR_RNDN);
       mpfr_sub(entry, entry, part, MPFR_RNDN);
@@ -131,17 +132,41 @@ Index split(RealMatrix& h, Index high, const Real& rounding, const Real& scale) 
   return low;
 }
 
-// a ← (I − beta v vᵀ) a on the rows from `first` on, and a (I − beta v vᵀ) on the columns.
-void reflect_rows(RealMatrix& a, Index first, const RealMatrix& v, const RealMatrix& scaled) {
-  if (a.size() == 0) return;
-  const RealMatrix lower = a.bottomRows(a.rows() - first);
-  a.bottomRows(a.rows() - first) -= multiply(scaled, transpose_multiply(v, lower));
+// (I − scaled vᵀ) x for the entries x[0], x[stride], …, as many as v has; without new numbers, for this is where large
+// designs spend their time.
+class Householder {
+ public:
+  Householder(const RealMatrix& v, const RealMatrix& scaled) : v_(v), scaled_(scaled) {}
+
+  void apply(Real* x, Index stride) {
+    mpfr_ptr dot = dot_.backend().data(), part = part_.backend().data();
+    mpfr_set_zero(dot, 1);
+    for (Index i = 0; i < v_.size(); ++i) {
+      mpfr_srcptr entry = x[i * stride].backend().data();
+      if (mpfr_zero_p(entry)) continue;
+      mpfr_mul(part, v_.data()[i].backend().data(), entry, MPFR_RNDN);
+      mpfr_add(dot, dot, part, MPFR_RNDN);
+    }
+    if (mpfr_zero_p(dot)) return;
+    for (Index i = 0; i < v_.size(); ++i) {
+      mpfr_ptr entry = x[i * stride].backend().data();
+      mpfr_mul(part, scaled_.data()[i].backend().data(), dot, MPFR_RNDN);
+      mpfr_sub(entry, entry, part, MPFR_RNDN);
+    }
+  }
+
+ private:
+  const RealMatrix &v_, &scaled_;
+  Real dot_, part_;
+};
+
+// On the rows from `first` on, in the columns from `column` on.
+void reflect_rows(RealMatrix& a, Index first, Index column, Householder& householder) {
+  for (Index j = column; j < a.cols(); ++j) householder.apply(&a(first, j), 1);
 }
 
-void reflect_columns(RealMatrix& a, Index first, const RealMatrix& v, const RealMatrix& scaled) {
-  if (a.size() == 0) return;
-  const RealMatrix right = a.rightCols(a.cols() - first);
-  a.rightCols(a.cols() - first) -= multiply_transpose(multiply(right, v), scaled);
+void reflect_columns(RealMatrix& a, Index first, Householder& householder) {
+  for (Index i = 0; i < a.rows(); ++i) householder.apply(&a(i, first), a.rows());
 }
 
 }  // namespace
@@ -157,10 +182,11 @@ void reduce_to_hessenberg(RealMatrix& A, RealMatrix& B, RealMatrix& C) {
     const Real length = sqrt(v(0, 0) * v(0, 0) + tail);
     v(0, 0) = v(0, 0) < 0 ? v(0, 0) - length : v(0, 0) + length;
     const RealMatrix scaled = (2 / (v(0, 0) * v(0, 0) + tail)) * v;
-    reflect_rows(A, k + 1, v, scaled);
-    reflect_rows(B, k + 1, v, scaled);
-    reflect_columns(A, k + 1, v, scaled);
-    reflect_columns(C, k + 1, v, scaled);
+    Householder householder(v, scaled);
+    reflect_rows(A, k + 1, k, householder);
+    reflect_rows(B, k + 1, 0, householder);
+    reflect_columns(A, k + 1, householder);
+    reflect_columns(C, k + 1, householder);
     for (Index i = k + 2; i < n; ++i) A(i, k) = 0;
   }
 }

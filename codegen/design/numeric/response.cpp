@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "design/numeric/chains.hpp"
+#include "design/numeric/on_circle.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -73,8 +74,10 @@ struct System {
   System(const Terms& terms, const Scalar& z_re, const Scalar& z_im, const Delays<Scalar>& delays)
       : re(terms.A.cols() + terms.B.cols(), terms.A.rows()), im(re.rows(), re.cols()), size(terms.A.rows()),
         below(terms.below) {
-    re.topRows(size) = -terms.A.transpose();
-    re.bottomRows(terms.B.cols()) = terms.B.transpose();
+    for (Index i = 0; i < size; ++i) {
+      for (Index k = 0; k < size; ++k) re(k, i) = -terms.A(i, k);
+      for (Index right = 0; right < terms.B.cols(); ++right) re(size + right, i) = terms.B(i, right);
+    }
     for (Index i = 0; i < im.size(); ++i) im.data()[i] = 0;
     for (Index i = 0; i < size; ++i) {
       re(i, i) += z_re;
@@ -271,9 +274,13 @@ ComplexMatrix Response::at(const Real& angle) const {
   return {std::move(T.re), std::move(T.im)};
 }
 
-ComplexMatrix Response::roughly_at(const Real& angle) const {
-  const Complex<double> T = solution<DoubleProducts>(rough_, to_double(cos(angle)), to_double(sin(angle)));
-  return {real(T.re), real(T.im)};
+Eigen::MatrixXcd Response::roughly_at(const Real& angle) const {
+  const std::complex<double> z = on_circle(angle);
+  const Complex<double> T = solution<DoubleProducts>(rough_, z.real(), z.imag());
+  Eigen::MatrixXcd result(T.re.rows(), T.re.cols());
+  result.real() = T.re;
+  result.imag() = T.im;
+  return result;
 }
 
 }  // namespace lqg::design

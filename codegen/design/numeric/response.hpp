@@ -25,7 +25,7 @@ class Response {
 
   // At z = e^(j angle) in many digits, and in double: some fifty times faster.
   ComplexMatrix at(const Real& angle) const;
-  ComplexMatrix roughly_at(const Real& angle) const;
+  Eigen::MatrixXcd roughly_at(const Real& angle) const;
 
   // An entry of a coefficient of z^−ago, ago > 0.
   template <typename Scalar>

@@ -72,7 +72,8 @@ bool is_stable_when_late(const OpenLoop& loop) {
   const Index n = loop.A.rows(), nu = loop.B.cols();
   if (n > 100) return true;  // its poles would take as long as the rest of the design
   const RealMatrix late = above(beside(loop.A, loop.B), beside(-loop.C, zeros(nu, nu)));
-  for (const ComplexReal& pole : eigenvalues(late))
+  const Digits enough(std::max(50u, Real::default_precision() / 2));
+  for (const ComplexReal& pole : eigenvalues(in_present_digits(late)))
     if (!(size_of(pole) < 1)) return false;
   return true;
 }

@@ -25,14 +25,7 @@ Answer answer_of(const Controller& controller) {
       design::open_at_inputs(design::measured_plant(controller.problem, design::final_plant(controller.solution)),
                              design::compensator(controller.problem, controller.solution));
   auto response = std::make_shared<design::Response>(loop.A, loop.B, loop.C);
-  return [response](double angle) {
-    const design::ComplexMatrix value = response->roughly_at(design::Real(angle));
-    MatrixXcd out(value.re.rows(), value.re.cols());
-    for (Eigen::Index i = 0; i < out.rows(); ++i)
-      for (Eigen::Index j = 0; j < out.cols(); ++j)
-        out(i, j) = {design::to_double(value.re(i, j)), design::to_double(value.im(i, j))};
-    return out;
-  };
+  return [response](double angle) { return response->roughly_at(design::Real(angle)); };
 }
 
 // Even in their logarithm from far below the slowest pole, and dense around every pole.
