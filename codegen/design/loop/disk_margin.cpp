@@ -117,7 +117,8 @@ DiskMargin disk_margin(const Search& search, const Channels& channel_of, const E
   } else if (channels > most_for_a_search) {
     refine_many(places, enough, margin);
   } else {
-    for (const DiskAt& place : places) margin.least = std::min<Real>(margin.least, least_in(place, f).second);
+    const Function roughly = at_angle(disk_of_several, search.evaluate);
+    for (const DiskAt& place : places) margin.least = std::min<Real>(margin.least, f(least_in(place, roughly).first));
   }
   return margin;
 }

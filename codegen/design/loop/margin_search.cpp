@@ -27,7 +27,9 @@ std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
   angles.erase(std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
                angles.end());
   std::sort(angles.begin(), angles.end());
-  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());  // repeated poles
+  // Repeated poles, and powers of two of a real pole's distance that both of the sequences have, but for rounding.
+  const auto equal = [](const Real& a, const Real& b) { return b - a < 1e-12 * b; };
+  angles.erase(std::unique(angles.begin(), angles.end(), equal), angles.end());
   return angles;
 }
 
