@@ -4,8 +4,11 @@
 
 namespace lqg::design {
 
-// From now on the digits of numbers come from a store of each thread: malloc and free took a sixth of a design's time.
-// Of the whole program, GMP's and MPFR's other users included; to be called once, before the first number is made.
+// From now on the digits of GMP's and MPFR's numbers, of whoever in this program makes them, come from stores, one in
+// each thread, in place of malloc. To be called once, before the first number is made.
 void use_number_stores();
+
+// Gives back what the store of this thread keeps; ThreadCaches does it at the thread's end.
+void empty_number_store();
 
 }  // namespace lqg::design

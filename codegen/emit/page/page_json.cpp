@@ -3,8 +3,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <utility>
 
 #include "emit/page/body.hpp"
 
@@ -23,11 +25,20 @@ double six_digits(double value) {
   return out + 0.0;  // not −0
 }
 
-Json number_or_null(double value) { return std::isfinite(value) ? Json(six_digits(value)) : Json(nullptr); }
+constexpr double not_finite = std::numeric_limits<double>::quiet_NaN();
 
+std::vector<double> six_digits(const std::vector<double>& values) {
+  std::vector<double> out;
+  out.reserve(values.size());
+  for (const double value : values) out.push_back(std::isfinite(value) ? six_digits(value) : not_finite);
+  return out;
+}
+
+// Of numbers of six digits.
 Json list_of(const std::vector<double>& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(number_or_null(value));
+  Json::array_t out;
+  out.reserve(values.size());
+  for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
   return out;
 }
 
@@ -35,15 +46,25 @@ Json list_of(const std::vector<double>& values) {
 class Lists {
  public:
   std::size_t index_of(const std::vector<double>& values) {
-    std::string text = list_of(values).dump();
-    const auto [place, is_new] = index_.try_emplace(std::move(text), lists_.size());
+    const auto [place, is_new] = index_.try_emplace(bits_of(values), 0);
+    if (is_new) place->second = index_of_rounded(six_digits(values));
+    return place->second;
+  }
+  Json taken() { return std::move(lists_); }
+
+ private:
+  using Index = std::unordered_map<std::string, std::size_t>;
+
+  static std::string bits_of(const std::vector<double>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+  }
+  std::size_t index_of_rounded(const std::vector<double>& values) {
+    const auto [place, is_new] = rounded_.try_emplace(bits_of(values), lists_.size());
     if (is_new) lists_.push_back(list_of(values));
     return place->second;
   }
-  Json all() const { return lists_; }
 
- private:
-  std::map<std::string, std::size_t> index_;
+  Index index_, rounded_;
   Json lists_ = Json::array();
 };
 
@@ -120,7 +141,7 @@ Json json_of(const Chart& chart, const std::string& id, Lists& lists) {
               {"square", chart.is_square},
               {"x", json_of(chart.x)},
               {"y", json_of(chart.y)},
-              {"view", list_of({view.x_low, view.x_high, view.y_low, view.y_high})},
+              {"view", list_of(six_digits({view.x_low, view.x_high, view.y_low, view.y_high}))},
               {"curves", curves_of(chart, lists)},
               {"bands", bands_of(chart, lists)}};
   add_marks(out, chart);
@@ -145,7 +166,7 @@ std::string json_of(const PageData& data, bool with_body) {
         charts.push_back(json_of(section.views[view].charts[i], chart_id(section, view, i), lists));
   Json out = {{"title", data.title}};
   if (with_body) out["body"] = body(data, false);
-  out["lists"] = lists.all();
+  out["lists"] = lists.taken();
   out["charts"] = std::move(charts);
   return without_tags(out.dump(-1, ' ', true, Json::error_handler_t::replace));
 }

@@ -71,9 +71,8 @@ std::optional<PageFigure> effort(const Controller& controller) {
 
 std::optional<PageFigure> slowest(const Controller& controller) {
   double largest = 0;
-  for (const NamedPoles& named : poles_to_show(controller))
-    if (named.owner != "plant")
-      for (const std::complex<double>& pole : named.poles) largest = std::max(largest, std::abs(pole));
+  for (const NamedPoles& named : poles_of_controller(controller))
+    for (const std::complex<double>& pole : named.poles) largest = std::max(largest, std::abs(pole));
   if (largest == 0) return std::nullopt;
   const std::string value =
       largest < 1 ? with_unit(-controller.problem.plant.sample_time / std::log(largest), "s") : "∞";

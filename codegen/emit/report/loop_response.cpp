@@ -57,9 +57,8 @@ MatrixXcd complementary(const MatrixXcd& L) {
 }
 
 // L of one loop while the others are closed: T_ii = L/(1 + L).
-Complex loop_of(const MatrixXcd& L, Eigen::Index i) {
-  if (L.rows() == 1) return L(0, 0);
-  const Complex t = complementary(L)(i, i);
+Complex loop_of(const MatrixXcd& T, Eigen::Index i) {
+  const Complex t = T(i, i);
   return t / (1.0 - t);
 }
 
@@ -68,8 +67,7 @@ std::vector<double> singular_values(const MatrixXcd& matrix) {
   return {values.begin(), values.end()};
 }
 
-void add_singular_values(const MatrixXcd& L, LoopResponse& out) {
-  const MatrixXcd T = complementary(L);
+void add_singular_values(const MatrixXcd& L, const MatrixXcd& T, LoopResponse& out) {
   out.of_L.push_back(singular_values(L));
   out.of_S.push_back(singular_values(MatrixXcd::Identity(L.rows(), L.cols()) - T));
   out.of_T.push_back(singular_values(T));
@@ -88,13 +86,21 @@ std::optional<LoopResponse> loop_response(const Controller& controller) {
   out.loops.resize(static_cast<std::size_t>(controller.size.nu));
   for (std::size_t i = 0; i < out.loops.size(); ++i) {
     out.loops[i].angles = out.angles;
-    out.loops[i].at = [answer, i](double angle) { return loop_of(answer(angle), static_cast<Eigen::Index>(i)); };
+    out.loops[i].at = [answer, i, is_alone = out.loops.size() == 1](double angle) {
+      const MatrixXcd L = answer(angle);
+      return is_alone ? L(0, 0) : loop_of(complementary(L), static_cast<Eigen::Index>(i));
+    };
   }
   for (const double angle : out.angles) {
     const MatrixXcd L = answer(angle);
+    if (out.loops.size() == 1) {
+      out.loops[0].L.push_back(L(0, 0));
+      continue;
+    }
+    const MatrixXcd T = complementary(L);
     for (std::size_t i = 0; i < out.loops.size(); ++i)
-      out.loops[i].L.push_back(loop_of(L, static_cast<Eigen::Index>(i)));
-    if (out.loops.size() > 1) add_singular_values(L, out);
+      out.loops[i].L.push_back(loop_of(T, static_cast<Eigen::Index>(i)));
+    add_singular_values(L, T, out);
   }
   return out;
 }

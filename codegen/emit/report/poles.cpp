@@ -50,10 +50,9 @@ void add_pole(const std::string& owner, std::vector<std::string> cells, PageTabl
   table.rows.push_back(std::move(cells));
 }
 
-PageTable pole_table(const Controller& controller) {
-  const double T = controller.problem.plant.sample_time;
+PageTable pole_table(const std::vector<NamedPoles>& shown, double T) {
   PageTable table = {"", {"", "z", "|z|", "s = ln(z)/T, rad/s", "damping", "time constant", "frequency"}, {}};
-  for (const auto& [owner, poles] : poles_to_show(controller))
+  for (const auto& [owner, poles] : shown)
     for (const std::complex<double>& pole : poles) {
       if (pole.imag() < 0) continue;  // stands with its conjugate
       const std::vector<std::string> cells = {
@@ -145,7 +144,8 @@ void add_grid(double reach, double sample_time, Chart& chart) {
   }
 }
 
-Chart z_plane(const Controller& controller, const std::string& title, const std::string& id) {
+Chart z_plane(const std::vector<NamedPoles>& shown, double sample_time, const std::string& title,
+              const std::string& id) {
   Chart chart;
   chart.title = title;
   chart.id = id;
@@ -153,60 +153,63 @@ Chart z_plane(const Controller& controller, const std::string& title, const std:
   chart.x.label = "Re z";
   chart.y.label = "Im z";
   chart.circles.push_back({0, 0, 1});
-  for (const auto& [owner, poles] : poles_to_show(controller))
-    chart.curves.push_back(curve_of_poles(owner, poles, controller.problem.plant.sample_time));
+  for (const auto& [owner, poles] : shown) chart.curves.push_back(curve_of_poles(owner, poles, sample_time));
   return chart;
 }
 
-Chart whole_plane(const Controller& controller) {
-  Chart chart = z_plane(controller, "Poles in the z plane", "poles");
+Chart whole_plane(const std::vector<NamedPoles>& shown, double sample_time) {
+  Chart chart = z_plane(shown, sample_time, "Poles in the z plane", "poles");
   double reach = 1.1;
   for (const Curve& curve : chart.curves)
     for (std::size_t i = 0; i < curve.x.size(); ++i) reach = std::max(reach, 1.1 * std::hypot(curve.x[i], curve.y[i]));
   chart.x_low = chart.y_low = -reach;
   chart.x_high = chart.y_high = reach;
-  add_grid(half_turn, controller.problem.plant.sample_time, chart);
+  add_grid(half_turn, sample_time, chart);
   return chart;
 }
 
 // The poles that crowd at z = 1, if there are any: within a third of it, with the farthest of these at the edge.
-std::optional<Chart> about_one(const Controller& controller) {
+std::optional<Chart> about_one(const std::vector<NamedPoles>& shown, double sample_time) {
   constexpr double crowd = 0.35;
   double reach = 0;
-  for (const auto& [owner, poles] : poles_to_show(controller))
+  for (const auto& [owner, poles] : shown)
     for (const std::complex<double>& pole : poles)
       if (std::abs(pole - 1.0) < crowd) reach = std::max(reach, std::abs(pole - 1.0));
   if (reach < 1e-9) return std::nullopt;
-  Chart chart = z_plane(controller, "Poles about z = 1", "poles-zoom");
+  Chart chart = z_plane(shown, sample_time, "Poles about z = 1", "poles-zoom");
   chart.x_low = 1 - 1.3 * reach, chart.x_high = 1 + 0.3 * reach;
   chart.y_low = -0.8 * reach, chart.y_high = 0.8 * reach;
-  add_grid(reach, controller.problem.plant.sample_time, chart);
+  add_grid(reach, sample_time, chart);
   return chart;
+}
+
+design::Poles poles_of_plant(const Controller& controller) {
+  const design::Digits digits(50);
+  return design::sorted_poles(design::eigenvalues(design::final_plant(controller.solution).A));
 }
 
 }  // namespace
 
-std::vector<NamedPoles> poles_to_show(const Controller& controller) {
+std::vector<NamedPoles> poles_of_controller(const Controller& controller) {
   const design::Solution& solution = controller.solution;
-  std::vector<NamedPoles> shown;
   if (solution.regulator && solution.estimator &&
-      !design::is_separated(controller.problem, design::final_plant(solution))) {
-    shown.push_back({"loop", solution.loop.poles});
-  } else {
-    if (solution.regulator) shown.push_back({"regulator", solution.regulator->poles});
-    if (solution.estimator) shown.push_back({"estimator", solution.estimator->poles});
-  }
-  const design::Digits digits(50);
-  shown.push_back({"plant", design::sorted_poles(design::eigenvalues(design::final_plant(solution).A))});
+      !design::is_separated(controller.problem, design::final_plant(solution)))
+    return {{"loop", solution.loop.poles}};
+  std::vector<NamedPoles> shown;
+  if (solution.regulator) shown.push_back({"regulator", solution.regulator->poles});
+  if (solution.estimator) shown.push_back({"estimator", solution.estimator->poles});
   return shown;
 }
 
 PageSection pole_section(const Controller& controller) {
+  const double sample_time = controller.problem.plant.sample_time;
+  std::vector<NamedPoles> shown = poles_of_controller(controller);
+  shown.push_back({"plant", poles_of_plant(controller)});
   PageView view;
-  view.charts = {whole_plane(controller)};
-  if (std::optional<Chart> zoom = about_one(controller)) view.charts.push_back(*std::move(zoom));
+  view.charts = {whole_plane(shown, sample_time)};
+  if (std::optional<Chart> zoom = about_one(shown, sample_time)) view.charts.push_back(*std::move(zoom));
   for (Chart& chart : root_locus(controller)) view.charts.push_back(std::move(chart));
-  view.tables = {pole_table(controller)};
+  view.tables = {pole_table(shown, sample_time)};
   return {"poles", "Poles", {view}};
 }
 

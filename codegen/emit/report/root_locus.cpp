@@ -50,6 +50,7 @@ design::Poles poles_with(const Regulated& plant, double rho) {
   right.topRightCorner(n, n) = plant.B * inverse * plant.B.transpose();
   right.bottomRightCorner(n, n) = A.transpose();
   const Eigen::GeneralizedEigenSolver<MatrixXd> solver(left, right, false);
+  if (solver.info() != Eigen::Success) return {};
   design::Poles inside;
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const double beta = solver.betas()(i);

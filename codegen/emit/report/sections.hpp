@@ -20,13 +20,13 @@ PageSection estimator_section(const Controller& controller, const Runs& runs);  
 PageSection target_section(const Controller& controller);                       // what does it cost?
 PageSection number_section(const Controller& controller);
 
-// Whose poles a person wants to see: regulator and estimator, whose poles are those of the loop, else the loop itself;
-// and the plant.
+// Whose poles a person wants to see beside the plant's: regulator and estimator, whose poles are those of the loop, else
+// the loop itself.
 struct NamedPoles {
   std::string owner;
   design::Poles poles;
 };
-std::vector<NamedPoles> poles_to_show(const Controller& controller);
+std::vector<NamedPoles> poles_of_controller(const Controller& controller);
 
 // The poles as the weights on the inputs are scaled over decades; none where the regulator has no steady cost that the
 // samples are summed by.
