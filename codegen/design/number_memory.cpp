@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "design/number_memory.hpp"
 
-#include <gmp.h>
+#include <mpfr.h>
 
 #include <algorithm>
 #include <array>

@@ -55,8 +55,8 @@ Sum as_sum(const Real& value) {
 // 1/3!, 1/5!, … and 1/2!, 1/4!, …; from the fourth on a double is enough beside the sum.
 constexpr Sum third = {0x1.5555555555555p-3, 0x1.5555555555555p-57},
               fifth = {0x1.1111111111111p-7, 0x1.1111111111111p-63},
-              seventh = {0x1.a01a01a01a01ap-13, 0x1.a01a01a01a01ap-73},
-              second = {0.5, 0}, fourth = {0x1.5555555555555p-5, 0x1.5555555555555p-59},
+              seventh = {0x1.a01a01a01a01ap-13, 0x1.a01a01a01a01ap-73}, second = {0.5, 0},
+              fourth = {0x1.5555555555555p-5, 0x1.5555555555555p-59},
               sixth = {0x1.6c16c16c16c17p-10, -0x1.f49f49f49f49fp-65};
 
 struct Point {
