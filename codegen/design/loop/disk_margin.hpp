@@ -12,8 +12,9 @@ struct DiskMargin {
   bool as_expected = true;  // of one channel: where the search saw a minimum the refined evaluation has one
 };
 
-// Of one channel refined by `channel_of` in all digits of `fineness`, of several by `evaluate` in double: with more than 8
-// the time is that of some hundred decompositions, and the margin may be 1 % less than it is.
+// Of one channel refined by `channel_of` in all digits of `fineness`. Of several searched in double, and taken from
+// `evaluate` where it is least: with more than 8 the time is that of some hundred decompositions, and the margin may be
+// 1 % less than it is.
 DiskMargin disk_margin(const Search& search, const Channels& channel_of, const Evaluate& evaluate,
                        const Fineness& fineness);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // By the nearest of 65 angles k π/64, whose cosine and sine are in a table, and series for the small rest of the angle;
-// with sums of two doubles: T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
-// Mathematik 18 (1971), 224–242.
+// with sums of two doubles: T. J. Dekker, "A floating-point technique for extending the available precision",
+// Numerische Mathematik 18 (1971), 224–242.
 #include "design/numeric/on_circle.hpp"
 
 #include <cmath>

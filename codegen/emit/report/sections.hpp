@@ -20,8 +20,8 @@ PageSection estimator_section(const Controller& controller, const Runs& runs);  
 PageSection target_section(const Controller& controller);                       // what does it cost?
 PageSection number_section(const Controller& controller);
 
-// Whose poles a person wants to see beside the plant's: regulator and estimator, whose poles are those of the loop, else
-// the loop itself.
+// Whose poles a person wants to see beside the plant's: regulator and estimator, whose poles are those of the loop,
+// else the loop itself.
 struct NamedPoles {
   std::string owner;
   design::Poles poles;
