@@ -27,9 +27,13 @@ std::vector<Real> search_angles(const std::vector<ComplexReal>& poles) {
   angles.erase(std::remove_if(angles.begin(), angles.end(), [&](const Real& x) { return !(x > 0 && x < end); }),
                angles.end());
   std::sort(angles.begin(), angles.end());
-  // Repeated poles, and powers of two of a real pole's distance that both of the sequences have, but for rounding.
-  const auto equal = [](const Real& a, const Real& b) { return b - a < 1e-12 * b; };
-  angles.erase(std::unique(angles.begin(), angles.end(), equal), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());  // repeated poles
+  return angles;
+}
+
+std::vector<Real> without_near_ones(std::vector<Real> angles) {
+  const auto near = [](const Real& a, const Real& b) { return b - a < 1e-12 * b; };
+  angles.erase(std::unique(angles.begin(), angles.end(), near), angles.end());
   return angles;
 }
 

@@ -33,6 +33,10 @@ Real pi();
 // begin far inside of the pole that is nearest to ±1, for zeros may be nearer.
 std::vector<Real> search_angles(const std::vector<ComplexReal>& poles);
 
+// Powers of two of a real pole's distance are there twice, but for rounding. A cell between two such angles has no
+// width, and neither of the two cells beside it need have the minimum of both.
+std::vector<Real> without_near_ones(std::vector<Real> angles);
+
 Search search_with(const Evaluate& evaluate, const std::vector<Real>& angles);
 
 // A root of f between low and high, where its signs differ: secant steps, halving where they would leave the

@@ -61,6 +61,12 @@ std::pair<Margins, bool> least_margins(const Search& search, const Way& searched
 
 Response closed_response(const OpenLoop& loop) { return Response(loop.A - multiply(loop.B, loop.C), loop.B, loop.C); }
 
+// The grid. The refined disk of one channel wants cells with a minimum in each.
+std::vector<Real> angles_of(const OpenLoop& loop, const std::vector<ComplexReal>& poles) {
+  const std::vector<Real> angles = search_angles(poles);
+  return loop.B.cols() == 1 ? without_near_ones(angles) : angles;
+}
+
 void keep_six_digits(std::optional<double>& value) {
   if (value) value = six_digits(*value);
 }
@@ -71,7 +77,7 @@ Margins margins(const OpenLoop& loop, const std::vector<ComplexReal>& closed_loo
   const Response response = closed_response(loop);
   const Digits enough(37);  // two limbs of 64 bits, less a bit: those have a short way through MPFR
   const Response in_few_digits = response.in_present_digits();
-  const std::vector<Real> angles = search_angles(closed_loop_poles);
+  const std::vector<Real> angles = angles_of(loop, closed_loop_poles);
   const Way roughly = {response, true}, exactly = {in_few_digits, false};
   auto [result, is_certain] = least_margins(search_with(roughly.all(), angles), roughly, exactly, exact);
   if (!is_certain) result = least_margins(search_with(exactly.all(), angles), exactly, exactly, exact).first;
@@ -83,7 +89,7 @@ Margins rough_margins(const OpenLoop& loop, const std::vector<ComplexReal>& clos
   const Digits enough(37);
   const Response response = closed_response(loop);
   const Way roughly = {response, true};
-  const Search search = search_with(roughly.all(), search_angles(closed_loop_poles));
+  const Search search = search_with(roughly.all(), angles_of(loop, closed_loop_poles));
   Margins result = least_margins(search, roughly, roughly, as_far_as_double_goes).first;
   for (std::optional<double>* value : {&result.gain_dB, &result.gain_up_dB, &result.gain_down_dB, &result.phase_deg,
                                        &result.delay_samples, &result.crossover, &result.disk})
