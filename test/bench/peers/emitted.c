@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The controller that lqgen emits, with all its checks. KEEPS_Z and PREDICTS as in test/bench/measure.c. */
+/* The controller that lqgen emits, with all its checks. */
 #include "peer.h"
 
 #include HEADER
@@ -18,15 +18,5 @@ void peer_init(void)
 void peer_sample(void *unused, const float y[NY], float u[NU])
 {
     (void)unused;
-#if defined PREDICTS
-    (void)OF(control)(&self, u);
-    (void)OF(advance)(&self, y);
-#elif defined KEEPS_Z
-    (void)OF(control)(&self, y, u);
-    (void)OF(advance)(&self);
-#else
-    (void)OF(update)(&self, y);
-    (void)OF(control)(&self, u);
-    (void)OF(predict)(&self, u);
-#endif
+    (void)OF(step)(&self, y, u);
 }

@@ -1,143 +1,223 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Instructions of one sample (update, u = −K x̂, predict) on an emulated Cortex-M4F at -O2, median of the samples: what
-# lqgen emits, beside what others make of the same model, in float. Equal answers are checked first.
+# What one sample costs (update, u = −K x̂, predict) in float at -O2: what lqgen emits, beside what others make of the
+# same model. Equal answers are checked first.
 #
-#   test/bench/peers/run.sh             prints the table
-#   test/bench/peers/run.sh --update    writes record.md, too
+#   test/bench/peers/run.sh [core]… [model]… [DESIGN.toml]…     prints the tables
+#   test/bench/peers/run.sh --update                            writes record.md and record.svg, too
 #
-# Contestants: Eigen, fixed sizes, the formulas of the textbook (eigen.cpp); CMSIS-DSP's matrix functions, the same
-# formulas (cmsis.c); SymForce, which writes C++ for this model as lqgen writes C (symforce_code.py). Only the emitted
-# code checks anything: measurements, bounds, resets. Models: shipped designs without limits, in filter form, with a
-# constant gain, and with the covariance carried along.
+# A core is one of cortex-m0, cortex-m3, cortex-m4f, cortex-m7 and x86-64; without any it is all five. A model is the
+# name of a design file in models/ (plants of this benchmark's own) or in codegen/designs/, or a design file of the
+# user's; without any it is all of models/ and five of the shipped ones. Limits, gates and requirements are left out,
+# because the others have none; the filter is in filter form, once with a constant gain and once with the covariance
+# carried along. What lqgen refuses in this form is left out, with a message.
 #
-# LQGEN names an lqgen that is there already. FOLDER is where all work is done, default build/bench-peers. CMSIS-DSP and
-# SymForce come from PyPI, by hash. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi
-# libstdc++-arm-none-eabi-newlib qemu-system-arm libeigen3-dev python3-venv.
+# Contestants. TinyLQG: `step` of the emitted header in straight lines (plain), the same with fused multiply-adds where
+# the hardware has them, its cheapest form (`realisation`), and its compact style. Eigen, fixed sizes: the better one of
+# the textbook (eigen.cpp) and of what we could make of it (eigen_tuned.cpp). CMSIS-DSP's matrix functions (cmsis.c).
+# SymForce, which writes C++ for this model as lqgen writes C (symforce_code.py). The compiler fuses multiply-adds of
+# all but TinyLQG where it can. Only the emitted code checks anything: measurements, bounds, resets.
+#
+# Measures. Instructions: counted by QEMU, exactly; the median of 301 samples. Cycles: estimated for the Cortex-M4F,
+# see cycles.py. Flash and RAM: what the linker brings for the two functions of a contestant. Stack: the deepest reach
+# below the caller. x86-64: time of a sample as a ratio to that of TinyLQG's plain code, medians of 201 rounds in which
+# all contestants take turns (race.c).
+#
+# LQGEN names an lqgen that is there already. FOLDER is where all work is done, default build/bench-peers; what has not
+# changed since the last run there is not measured again, except for times. From nothing it takes about an hour on two
+# processors. CMSIS-DSP, SymForce and the tools come from PyPI, by hash. Debian's packages: gcc-arm-none-eabi
+# libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm libeigen3-dev python3-venv g++.
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=../../../codegen/cmake/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../../codegen/cmake/setup.sh"
 bench=$lqg_root/test/bench peers=$lqg_root/test/bench/peers folder=${FOLDER:-$lqg_root/build/bench-peers}
 # shellcheck source-path=SCRIPTDIR source=../cores.sh
 source "$bench/cores.sh"
+# shellcheck source-path=SCRIPTDIR source=build.sh
+source "$peers/build.sh"
 
-# That of balancing_robot is carried as U diag(d) Uᵀ only.
-models=(constant:{double_integrator,dc_motor,two_mass,balancing_robot,quadrotor}
-        carried:{double_integrator,dc_motor,two_mass,quadrotor})
-contestants=(emitted cheapest eigen cmsis symforce)
+peer_cores=(cortex-m0 cortex-m3 cortex-m4f cortex-m7 x86-64)
+shipped=(double_integrator dc_motor two_mass balancing_robot quadrotor)
 
-fetch_peers() {
-  cmsis=$folder/cmsis
-  if [ ! -e "$cmsis/Include" ]; then
-    mkdir -p "$cmsis"
-    "$lqg_root/test/sdist.sh" setuptools.build_meta cmsisdsp 1.10.3 "$peers/cmsisdsp.txt" "$cmsis" 1
-  fi
-  python=$folder/venv/bin/python
-  if ! "$python" -c 'import symforce' 2>/dev/null; then
-    python3 -m venv --clear "$folder/venv"
-    "$python" -m pip --quiet --disable-pip-version-check install --require-hashes --requirement "$peers/symforce.txt"
-  fi
+# ---- many things at once -----------------------------------------------------------------------------------------
+
+running=0
+
+start() {
+  [ $running -lt "$(getconf _NPROCESSORS_ONLN)" ] || wait_for_one
+  "$@" &
+  running=$((running + 1))
 }
 
-# design <name> <line of [kalman]…>: the shipped design without what the others do not have, in $here.
-design() {
-  local name=$1
-  shift
-  sed -e '/^\[\(limits\|require\)\]/,/^\[/{/^\[\(limits\|require\)\]/d;/^\[/!d}' \
-    -e '/^\(gain\|covariance\|form\|gate\|spikes\|realisation\) *=/d' \
-    -e "s/^\[kalman\]/&\n$1/" -e "s/^\[code\]/&\n${2:-}/" \
-    "$lqg_root/codegen/designs/$name.toml" >"$here/$name.toml"
-  "$LQGEN" "$here/$name.toml" -o "$here" --quiet --style unrolled --real float --only h,json
+wait_for_one() {
+  wait -n || exit 1
+  running=$((running - 1))
 }
 
-make_model() {
-  if [ "$kind" = constant ]; then
-    design "$1" 'gain = "steady"' 'realisation = "cheapest"'
-    mv "$here/$1.h" "$here/cheapest.h"
-    design "$1" 'gain = "steady"'
-  else
-    design "$1" 'gain = "online"\ncovariance = "plain"'
-  fi
-  "$python" "$peers/model.py" "$here/$1.json" "$kind" >"$here/model.h"
-}
-
-# build <contestant> <name>: $here/CONTESTANT.elf
-build() {
-  local flags=(-I"$here" '-DMODEL="model.h"' "-DNAME=$2")
-  local cxx=("${compiler[0]/gcc/g++}" "${compiler[@]:1}" -std=c++17 -DNDEBUG)
-  cxx+=(-fno-exceptions -fno-rtti -fno-threadsafe-statics)
-  [ "$kind" = constant ] || flags+=(-DCARRIED)
-  if [ "$1" = cheapest ]; then
-    flags+=('-DHEADER="cheapest.h"')
-    if grep -q "_advance(" "$here/cheapest.h"; then
-      flags+=(-DKEEPS_Z)
-      grep -q "_control(.* y\[" "$here/cheapest.h" || flags+=(-DPREDICTS)
-    fi
-  else
-    flags+=("-DHEADER=\"$2.h\"")
-  fi
-  case $1 in
-    emitted | cheapest) "${compiler[@]}" "${flags[@]}" -c "$peers/emitted.c" -o "$here/$1.o" ;;
-    cmsis)
-      # Without what CMSIS-DSP takes from CMSIS Core: intrinsics that these functions do not use.
-      "${compiler[@]}" "${flags[@]}" -w -std=gnu11 -D__GNUC_PYTHON__ -DARM_MATH_LOOPUNROLL \
-        -I"$cmsis/Include" -I"$cmsis/PrivateInclude" \
-        -r -nostdlib "$peers/cmsis.c" "$cmsis"/Source/MatrixFunctions/arm_mat_{mult,inverse,trans,add,sub}_f32.c \
-        "$cmsis"/Source/BasicMathFunctions/arm_{add,sub,negate,scale}_f32.c \
-        "$cmsis"/Source/SupportFunctions/arm_{copy,fill}_f32.c -o "$here/$1.o"
-      ;;
-    eigen) "${cxx[@]}" "${flags[@]}" -isystem "$eigen" -c "$peers/eigen.cpp" -o "$here/$1.o" ;;
-    symforce)
-      "$python" "$peers/symforce_code.py" "$here/$2.json" "$kind" "$here/symforce" >/dev/null
-      "${cxx[@]}" "${flags[@]}" -isystem "$eigen" -I"$here/symforce" -c "$peers/symforce.cpp" -o "$here/$1.o"
-      ;;
-  esac
-  "${compiler[@]}" "${flags[@]}" -DWITH_SAMPLES -c "$peers/measure.c" -o "$here/measure.o"
-  "${cxx[@]}" "$here/measure.o" "$folder"/{counter,startup}.o "$here/$1.o" "${linked[@]}" -lm -o "$here/$1.elf"
-}
-
-# count <contestant> <name>: prints the instructions, once the answers agree.
-count() {
-  local instructions error
-  build "$@"
-  # shellcheck disable=SC1090  # it has just been made
-  source <(timeout 600 "${machine[@]}" "$here/$1.elf" || echo error=1000000)
-  [ "$error" -lt 1000 ] || lqg_stop "$2, $kind: $1 answers something else, by $error millionths"
-  echo "$instructions"
-}
-
-print() {
-  local model kind name here counts contestant line
-  echo "| model | gain | TinyLQG | its cheapest form | Eigen | CMSIS-DSP | SymForce |"
-  echo "| --- | --- | ---: | ---: | ---: | ---: | ---: |"
-  for model in "${models[@]}"; do
-    kind=${model%:*} name=${model#*:} here=$folder/${model/:/-}
-    mkdir -p "$here"
-    make_model "$name"
-    counts=()
-    for contestant in "${contestants[@]}"; do
-      if [ "$kind $contestant" = "carried cheapest" ]; then
-        counts+=(–)
-      else
-        counts+=("$(count "$contestant" "$name")")
-      fi
-    done
-    line=$(printf ' %s |' "${counts[@]}")
-    echo "| $name | $kind |$line"
+wait_for_all() {
+  while [ $running -gt 0 ]; do
+    wait_for_one
   done
 }
+
+# each_model <command> [argument]…: with design, name, kind and here; without what lqgen refuses once it is known.
+each_model() {
+  local design name kind here
+  for design in "${designs[@]}"; do
+    name=$(sed -n '/^[[:space:]]*name *= *"\([a-z0-9_]*\)".*/{s//\1/p;q}' "$design")
+    for kind in constant carried; do
+      here=$folder/models/$name-$kind
+      mkdir -p "$here"
+      "$@"
+    done
+  done
+}
+
+# ---- the measurement ---------------------------------------------------------------------------------------------
+
+# print_sections <what> <pattern> <program>
+print_sections() {
+  "$size" -A "$3" | awk -v what="$1" -v pattern="^\\\\.($2)" \
+    '$1 ~ pattern { sum += $2 } END { print what "=" sum + 0 }'
+}
+
+# measure_on_core <contestant>: its results as assignments.
+measure_on_core() {
+  local flags results error instructions traced off
+  compile "$1"
+  "${cxx[@]}" "$made.o" "$work/no_memory.o" "${linked[@]}" -Wl,-e,peer_sample,-u,peer_init "$library" -lm \
+    -o "$made.footprint.elf"
+  flags_of_model
+  "${compiler[@]}" "${flags[@]}" -DWITH_SAMPLES -c "$peers/measure.c" -o "$made.measure.o"
+  "${cxx[@]}" "$made.measure.o" "$work"/{counter,startup,no_memory}.o "$made.o" "${linked[@]}" "$library" -lm \
+    -o "$made.elf"
+  results=$(timeout 900 "${machine[@]}" "$made.elf") || lqg_stop "$core, $name, $kind: $1 does not end well"
+  if [ "$core" = cortex-m4f ]; then
+    results+=$'\n'$("$python" "$peers/cycles.py" "$made.elf")
+  fi
+  # shellcheck disable=SC1090  # it has just been made
+  source <(echo "$results")
+  [ "$error" -lt 1000 ] || lqg_stop "$core, $name, $kind: $1 answers something else, by $error millionths"
+  off=$((20 * (${traced:-$instructions} - instructions)))
+  [ "${off#-}" -lt "$instructions" ] || # more than 5 %
+    lqg_stop "$core, $name, $kind, $1: QEMU counts $instructions instructions, cycles.py traces $traced"
+  echo "$results"
+  print_sections flash 'text|rodata|data|ARM.exidx' "$made.footprint.elf"
+  print_sections ram 'data|bss' "$made.footprint.elf"
+}
+
+build_for_pc() {
+  compile "$1"
+  gcc -shared "$made.o" "$library" -lm -o "$made.so"
+}
+
+# renew <contestant> <command>: $made.txt, unless it stands for all that goes into it.
+renew() {
+  local made=$here/$core/$1 library key
+  key=$(key_of "$1")
+  [ "$key" != "$(cat "$made.key" 2>/dev/null)" ] || return 0
+  "$2" "$1" >"$made.txt"
+  echo "$key" >"$made.key"
+}
+
+measure_model() {
+  local contestants contestant command=measure_on_core
+  [ -e "$here/plain.h" ] || return 0
+  [ "$core" != x86-64 ] || command=build_for_pc
+  mkdir -p "$here/$core"
+  contestants_of_core
+  for contestant in "${contestants[@]}"; do
+    start renew "$contestant" $command
+  done
+}
+
+# print_results: lines "core model kind contestant measure value".
+print_results() {
+  local contestants contestant
+  [ -e "$here/plain.h" ] || return 0
+  contestants_of_core
+  if [ "$core" = x86-64 ]; then
+    print_race
+    return
+  fi
+  for contestant in "${contestants[@]}"; do
+    sed -n "s/^\([a-z]*\)=\(.*\)/$core $name $kind $contestant \1 \2/p" "$here/$core/$contestant.txt"
+  done
+}
+
+print_race() {
+  local flags contestant ns ratio error arguments=()
+  flags_of_model
+  gcc -O2 "${flags[@]}" -DWITH_SAMPLES "$peers/race.c" -ldl -o "$here/$core/race"
+  for contestant in "${contestants[@]}"; do
+    arguments+=("$contestant=$here/$core/$contestant.so")
+  done
+  "$here/$core/race" "${arguments[@]}" >"$here/$core/raced"
+  while read -r contestant ns ratio error; do
+    [ "$error" -lt 1000 ] || lqg_stop "$core, $name, $kind: $contestant answers something else, by $error millionths"
+    echo "$core $name $kind $contestant ns $ns"
+    echo "$core $name $kind $contestant ratio $ratio"
+  done <"$here/$core/raced"
+}
+
+measure() {
+  local core
+  each_model start make_model
+  wait_for_all
+  for core in "${cores[@]}"; do
+    select_target "$core"
+    compile_once
+    each_model measure_model
+  done
+  wait_for_all
+  for core in "${cores[@]}"; do
+    select_target "$core"
+    each_model print_results
+  done >"$folder/results.txt"
+}
+
+# ---- the command line --------------------------------------------------------------------------------------------
 
 eigen_version() {
   sed -n 's/^#define EIGEN_\(WORLD\|MAJOR\|MINOR\)_VERSION \([0-9]*\)/\2/p' "$eigen/Eigen/src/Core/util/Macros.h" |
     paste -s -d .
 }
 
-options=(-O2) eigen=/usr/include/eigen3
-case ${1:-} in
-  "" | --update) ;;
-  -h | --help) lqg_print_help "${BASH_SOURCE[0]}" && exit ;;
-  *) lqg_stop "expected --update or nothing, found $1" ;;
-esac
+print_versions() {
+  echo "Made by \`test/bench/peers/run.sh --update\`, which says what is compared and measured, with"
+  echo "$(arm-none-eabi-gcc --version | head -n 1) and $(gcc --version | head -n 1), ${options[*]};"
+  echo "$("$LQGEN" --version | head -n 1), Eigen $(eigen_version), CMSIS-DSP $cmsis_version," \
+    "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")."
+}
+
+options=(-O2) eigen=/usr/include/eigen3 update='' cores=() designs=()
+for argument in "$@"; do
+  case $argument in
+    --update) update=yes ;;
+    -h | --help) lqg_print_help "${BASH_SOURCE[0]}" && exit ;;
+    *.toml)
+      [ -e "$argument" ] || lqg_stop "no design file $argument"
+      designs+=("$(realpath "$argument")")
+      ;;
+    *)
+      if [[ " ${peer_cores[*]} " == *" $argument "* ]]; then
+        cores+=("$argument")
+      elif [ -e "$peers/models/$argument.toml" ]; then
+        designs+=("$peers/models/$argument.toml")
+      elif [ -e "$lqg_root/codegen/designs/$argument.toml" ]; then
+        designs+=("$lqg_root/codegen/designs/$argument.toml")
+      else
+        lqg_stop "expected --update, a core (${peer_cores[*]}), a model or a design file, found $argument"
+      fi
+      ;;
+  esac
+done
+[ -z "$update" ] || [ $# = 1 ] || lqg_stop "--update writes the record of all cores and models: expected nothing else"
+[ ${#cores[@]} -gt 0 ] || cores=("${peer_cores[@]}")
+if [ ${#designs[@]} = 0 ]; then
+  shipped=("${shipped[@]/#/$lqg_root/codegen/designs/}")
+  designs=("$peers"/models/*.toml "${shipped[@]/%/.toml}")
+fi
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 select_core cortex-m4f
@@ -145,19 +225,11 @@ absent=$(missing_tools)
 [ -z "$absent" ] || lqg_stop "Not found:$absent"
 lqg_find_lqgen
 fetch_peers
-"${compiler[@]}" "-DMEGAHERTZ=$megahertz" -c "$bench/counter_cortex-m.c" -o "$folder/counter.o"
-"${compiler[@]}" -c "$startup" -o "$folder/startup.o"
-print >"$folder/table.md"
-if [ "${1:-}" = --update ]; then
-  {
-    echo "# Instructions of one sample, beside others"
-    echo
-    echo "Made by \`test/bench/peers/run.sh --update\`, which says what is compared:"
-    echo "$("${compiler[0]}" --version | head -n 1), ${options[*]};"
-    echo "Eigen $(eigen_version), CMSIS-DSP 1.10.3, SymForce 0.12.0."
-    echo "Only TinyLQG checks what comes in and what it computes."
-    echo
-    cat "$folder/table.md"
-  } >"$peers/record.md"
+measure
+"$python" "$peers/tables.py" "$folder/results.txt" >"$folder/tables.md"
+if [ -n "$update" ]; then
+  { echo "# One sample, beside others" && echo && print_versions && echo && cat "$folder/tables.md"; } \
+    >"$peers/record.md"
+  "$python" "$peers/plot.py" "$folder/results.txt" "$peers/record.svg"
 fi
-cat "$folder/table.md"
+cat "$folder/tables.md"

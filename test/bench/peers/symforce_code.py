@@ -10,11 +10,11 @@ from pathlib import Path
 
 import symforce
 
-symforce.set_epsilon_to_number()
+symforce.set_epsilon_to_number()  # before the rest of it is imported
 
-import symforce.symbolic as sf  # noqa: E402  (epsilon comes first)
-from symforce import codegen  # noqa: E402
-from symforce.values import Values  # noqa: E402
+import symforce.symbolic as sf
+from symforce import codegen
+from symforce.values import Values
 
 
 class Numbers:
@@ -63,7 +63,7 @@ def main():
     numbers = Numbers()
     A, B, C = (numbers.matrix(plant[key]) for key in "ABC")
     K = numbers.matrix(design["lqr"]["K"])
-    nx, nu, ny = len(plant["A"]), len(plant["B"][0]), len(plant["C"])
+    nx, ny = len(plant["A"]), len(plant["C"])
     x, y = symbols("x", nx), symbols("y", ny)
     if carried:
         V = [numbers.entry(noise["V"][i][i]) for i in range(ny)]
