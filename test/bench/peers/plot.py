@@ -2,6 +2,8 @@
 """plot.py RESULTS FILE.svg: each model's cost over that of the best peer, on a logarithmic scale. The same results make
 the same bytes."""
 
+import io
+import re
 import sys
 
 import matplotlib as mpl
@@ -39,9 +41,16 @@ def draw(axes, results, kind, core, measure):
     axes.margins(x=0.03)
 
 
+def laid_out(line):
+    """At most 120 columns: an attribute a line."""
+    return line if len(line) <= 120 else re.sub(r'" (?=[\w:-]+=")', '"\n  ', line)
+
+
 def main():
     results = Results(sys.argv[1])
-    mpl.rcParams.update({"svg.hashsalt": "peers", "svg.fonttype": "none", "font.size": 9})
+    mpl.rcParams.update(
+        {"svg.hashsalt": "peers", "svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans"], "font.size": 9}
+    )
     figure, panels = plt.subplots(2, 2, figsize=(10, 7), sharey=True, layout="constrained")
     for row, (kind, title) in zip(panels, KINDS.items()):
         for axes, (core, measure, name) in zip(row, PANELS):
@@ -49,7 +58,11 @@ def main():
             axes.set_title(f"{title}: {name}")
     panels[0][0].legend(loc="best", frameon=False)
     figure.supylabel("TinyLQG over the best of Eigen, CMSIS-DSP and SymForce")
-    figure.savefig(sys.argv[2], metadata={"Date": None})
+    drawn = io.StringIO()
+    figure.savefig(drawn, format="svg", metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))
+    lines = [laid_out(line.rstrip()) for line in drawn.getvalue().splitlines()]
+    with open(sys.argv[2], "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
 
 
 main()
