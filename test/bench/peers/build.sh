@@ -47,8 +47,17 @@ emit() {
 # A header without the comment at its top, which names the design file.
 code_of() { sed -n '/^#ifndef/,$p' "$here/$1.h"; }
 
-# The emitted headers, the numbers for the others, and what SymForce writes for them. Says so where lqgen refuses.
+# The emitted headers, the numbers for the others, and what SymForce writes for them, unless they stand for all that
+# goes into them. Says so where lqgen refuses.
 make_model() {
+  local key
+  key=$(sha256sum "$LQGEN" "$design" "$peers"/{build.sh,model.py,symforce_code.py})
+  [ "$key" != "$(cat "$here/key" 2>/dev/null)" ] || return 0
+  rm -f "$here/plain.h"
+  if [ "$kind" = carried ] && grep -q '^covariance *= *"ud"' "$design"; then
+    echo "$name, carried, is left out: it needs the factors U diag(d) Uᵀ, which the others have not" >&2
+    return
+  fi
   if ! emit plain '' unrolled; then
     echo "$name, $kind, is left out: $(head -n 1 "$here/plain/said")" >&2
     return
@@ -59,9 +68,10 @@ make_model() {
   ! cmp -s <(code_of plain) <(code_of cheapest) || rm "$here/cheapest.h"
   "$python" "$peers/model.py" "$here/plain/$name.json" "$kind" >"$here/model.h" || exit 1
   write_by_symforce
+  echo "$key" >"$here/key"
 }
 
-# Minutes for 12 states without zeros: kept for as long as the model stays.
+# A minute for 12 states without zeros: kept for as long as the model stays.
 write_by_symforce() {
   local key
   key=$(sha256sum "$peers/symforce_code.py" "$peers/requirements.txt" "$here/model.h")
@@ -150,9 +160,9 @@ compile() {
   esac
 }
 
-# Of all that goes into a contestant, in which $made stands for its results.
+# Of all that goes into a contestant.
 key_of() {
-  local parts=("$here/model.h" "$peers"/{build.sh,peer.h,error.h,measure.c,cycles.py,no_memory.c})
+  local parts=("$here/model.h" "$peers"/{build.sh,peer.h,loop.h,measure.c,cycles.py,no_memory.c})
   case $1 in
     plain | compact | cheapest | fused)
       parts+=("$here/$1.h" "$peers/emitted.c" "$lqg_root"/include/lqg/*.h "$lqg_root"/src/*.[ch])

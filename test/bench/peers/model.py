@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""model.py NAME.json constant|carried > MODEL: the numbers of an emitted controller for the other contestants, the
-measurements of a loop with noise, and its last u, both by a filter in double."""
+"""model.py NAME.json constant|carried > MODEL: the numbers of an emitted controller for the other contestants, noises
+for its loop, and the last u by a filter in double."""
 
 import json
 import random
@@ -37,18 +37,16 @@ def inverse(matrix):
 
 
 def run(model, carried):
-    """The measurements of a loop with noises of the size that the filter expects, one row a sample, and u in the last of
-    them. The plant is the model itself."""
+    """Noises of the size that the filter expects, one row a sample, and u in the last sample of the loop with them. The
+    plant is the model itself."""
     A, B, C, K, V, W = (model[key] for key in "ABCKVW")
     random_numbers = random.Random(1)
     w = [[random_numbers.gauss(0, W[i][i] ** 0.5) for i in range(len(A))] for _ in range(SAMPLES)]
     v = [[random_numbers.gauss(0, V[i][i] ** 0.5) for i in range(len(C))] for _ in range(SAMPLES)]
     x = true = [[0.0] for _ in A]
     P = model["P0"]
-    measured = []
     for k in range(SAMPLES):
         y = combined(product(C, true), transposed([v[k]]))
-        measured += transposed(y)
         gain = model["L"]
         if carried:
             PC = product(P, transposed(C))
@@ -60,7 +58,7 @@ def run(model, carried):
         P = combined(product(A, P, transposed(A)), W)
         P = [[(a + b) / 2 for a, b in zip(*rows)] for rows in zip(P, transposed(P))]
         true = combined(combined(product(A, true), product(B, u)), transposed([w[k]]))
-    return measured, u
+    return w, v, u
 
 
 def array(name, matrix):
@@ -73,6 +71,8 @@ def array(name, matrix):
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         design = json.load(file)
+    if not {"plant", "noise", "kalman", "lqr"} <= design.keys():
+        sys.exit(f"{sys.argv[1]}: expected a filter and a regulator, found only one of them")
     plant, noise, kalman = design["plant"], design["noise"], design["kalman"]
     model = {key: plant[key] for key in "ABC"} | {"K": design["lqr"]["K"], "V": noise["V"]}
     G = plant.get("G", [[float(i == j) for j in range(len(plant["A"]))] for i in range(len(plant["A"]))])
@@ -82,15 +82,16 @@ def main():
     if any(any(row) for row in plant.get("D", [])) or len(model["K"][0]) != len(plant["A"]):
         sys.exit(f"{sys.argv[1]}: expected no D and a law of x alone, found another")
     carried = sys.argv[2] == "carried"
-    measured, u = run(model, carried)
+    w, v, u = run(model, carried)
     print(f"enum {{ NX = {len(plant['A'])}, NU = {len(plant['B'][0])}, NY = {len(plant['C'])} }};")
     for name in "ABCK" + ("VW" if carried else "L"):
         print(array(name, model[name]))
     if carried:
         print(array("P0", model["P0"]))
     print("#ifdef WITH_SAMPLES")
-    lines = ",\n    ".join("{" + ", ".join(f"{entry:.9e}f" for entry in row) + "}" for row in measured)
-    print(f"static const float y_in[][NY] = {{\n    {lines}}};")
+    for name, rows, columns in (("w_in", w, "NX"), ("v_in", v, "NY")):
+        lines = ",\n    ".join("{" + ", ".join(f"{entry:.9e}f" for entry in row) + "}" for row in rows)
+        print(f"static const float {name}[][{columns}] = {{\n    {lines}}};")
     print(array("u_end", u))
     print("#endif")
 

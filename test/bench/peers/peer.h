@@ -8,7 +8,7 @@
 #ifndef BENCH_PEER_H
 #define BENCH_PEER_H
 
-#include MODEL /* NX, NU, NY, A, B, C, K, and L or V, W, P0; WITH_SAMPLES: y_in, u_end, too */
+#include MODEL /* NX, NU, NY, A, B, C, K, and L or V, W, P0; WITH_SAMPLES: w_in, v_in, u_end, too */
 
 #ifdef __cplusplus
 extern "C" {
