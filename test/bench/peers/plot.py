@@ -56,7 +56,7 @@ def main():
         for axes, (core, measure, name) in zip(row, PANELS):
             draw(axes, results, kind, core, measure)
             axes.set_title(f"{title}: {name}")
-    panels[0][0].legend(loc="best", frameon=False)
+    figure.legend(*panels[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
     figure.supylabel("TinyLQG over the best of Eigen, CMSIS-DSP and SymForce")
     drawn = io.StringIO()
     figure.savefig(drawn, format="svg", metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))

@@ -24,9 +24,10 @@
 # all contestants take turns (race.c).
 #
 # LQGEN names an lqgen that is there already. FOLDER is where all work is done, default build/bench-peers; what has not
-# changed since the last run there is not measured again, except for times. From nothing it takes about an hour on two
-# processors. CMSIS-DSP, SymForce and the tools come from PyPI, by hash. Debian's packages: gcc-arm-none-eabi
-# libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm libeigen3-dev python3-venv g++.
+# changed since the last run there is not measured again, except for times. From nothing it takes some 20 minutes of
+# processor time, and a minute for times alone. CMSIS-DSP, SymForce and the tools come from PyPI, by hash. Debian's
+# packages: gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm libeigen3-dev
+# python3-venv g++.
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=../../../codegen/cmake/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../../codegen/cmake/setup.sh"
@@ -188,6 +189,7 @@ print_versions() {
   echo "$(arm-none-eabi-gcc --version | head -n 1) and $(gcc --version | head -n 1), ${options[*]};"
   echo "$("$LQGEN" --version | head -n 1), Eigen $(eigen_version), CMSIS-DSP $cmsis_version," \
     "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")."
+  printf '\n![What TinyLQG needs over what the best of the others needs, for each model](record.svg)\n'
 }
 
 options=(-O2) eigen=/usr/include/eigen3 update='' cores=() designs=()
