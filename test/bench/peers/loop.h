@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The plant that a contestant controls, with the same noise for all of them: some controllers are unstable by themselves
- * and need its answer. And how far the last u is from that of a filter in double: the same answers are asked for before
- * anything is compared. */
+/* The plant that a contestant controls, with the same noise for all of them: some controllers are unstable by
+ * themselves and need its answer. And how far the last u is from that of a filter in double: the same answers are asked
+ * for before anything is compared. */
 #ifndef BENCH_PEER_LOOP_H
 #define BENCH_PEER_LOOP_H
 

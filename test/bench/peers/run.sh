@@ -187,7 +187,7 @@ eigen_version() {
 print_versions() {
   echo "Made by \`test/bench/peers/run.sh --update\`, which says what is compared and measured, with"
   echo "$(arm-none-eabi-gcc --version | head -n 1) and $(gcc --version | head -n 1), ${options[*]};"
-  echo "$("$LQGEN" --version | head -n 1), Eigen $(eigen_version), CMSIS-DSP $cmsis_version," \
+  echo "lqgen $("$LQGEN" --version | head -n 1), Eigen $(eigen_version), CMSIS-DSP $cmsis_version," \
     "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")."
   printf '\n![What TinyLQG needs over what the best of the others needs, for each model](record.svg)\n'
 }
