@@ -71,8 +71,11 @@ def array(name, matrix):
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         design = json.load(file)
-    if not {"plant", "noise", "kalman", "lqr"} <= design.keys():
-        sys.exit(f"{sys.argv[1]}: expected a filter and a regulator, found only one of them")
+    missing = [key for key in ("plant", "noise", "kalman", "lqr") if key not in design]
+    if missing:
+        sys.exit(
+            f"{sys.argv[1]}: expected a filter with its noise and a regulator, found no {' and no '.join(missing)}"
+        )
     plant, noise, kalman = design["plant"], design["noise"], design["kalman"]
     model = {key: plant[key] for key in "ABC"} | {"K": design["lqr"]["K"], "V": noise["V"]}
     G = plant.get("G", [[float(i == j) for j in range(len(plant["A"]))] for i in range(len(plant["A"]))])
