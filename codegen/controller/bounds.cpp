@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "controller/controller.hpp"
 #include "controller/rounding.hpp"
@@ -183,6 +184,22 @@ Bounds bounds_of(const Controller& controller) {
   for (int i = 0; i < controller.size.nxi; ++i)
     bounds.error(i) = limits(controller.integrated[static_cast<std::size_t>(i)]);
   return bounds;
+}
+
+bool has_finite_law(const Controller& controller) {
+  if (controller.bounds.x.empty() || controller.size.nxi || controller.has.input_change) return false;
+  const double largest = controller.target.is_double ? std::numeric_limits<double>::max()
+                                                     : static_cast<double>(std::numeric_limits<float>::max());
+  constexpr double for_rounding = 0.5;  // of the sums on their way
+  const std::vector<double> bounds = powers_of_two(controller.bounds.x);
+  const VectorXd b = Eigen::Map<const VectorXd>(bounds.data(), controller.size.nx);
+  if ((controller.x0.cwiseAbs().array() >= b.array()).any()) return false;
+  for (const Gains& law : controller.laws) {
+    VectorXd reach = design::to_doubles(law[0]).cwiseAbs() * b / largest;
+    if (law[1].size()) reach += design::to_doubles(law[1]).cwiseAbs().rowwise().sum();
+    if (!(reach.array() < for_rounding).all()) return false;
+  }
+  return true;
 }
 
 std::vector<double> powers_of_two(const std::vector<int>& exponents) {

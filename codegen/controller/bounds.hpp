@@ -18,6 +18,10 @@ struct Bounds {
 // Of a controller whose gains are there.
 Bounds bounds_of(const Controller& controller);
 
+// Whether the law asks for finite inputs whenever x̂ is within its bounds and r is finite. Whether ξ or the last input
+// are within theirs is not known before predict: a law of them may ask for anything.
+bool has_finite_law(const Controller& controller);
+
 // 2^exponents
 std::vector<double> powers_of_two(const std::vector<int>& exponents);
 

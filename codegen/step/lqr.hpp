@@ -64,7 +64,7 @@ Vector<S> control(const Model<S>& model, State<S>& state, Listener& listener) {
   for (int i = 0; i < model.nu; ++i) {
     S sum = law(model, state, r, i);
     listener.name(sum, "law", of_input(i));
-    auto finite = is_finite(sum);
+    auto finite = model.has_finite_law ? is_less(S(0), S(1)) : is_finite(sum);
     listener.name(finite, "finite", of_input(i));
     listener.raise(Event::input_limited, negation(finite));
     S value = select(finite, sum, S(0));

@@ -45,6 +45,7 @@ struct Model {
   int delayed = 0;           // the last of the nx states are this many inputs on their way, the oldest first
   Matrix<S> K;               // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
   Vector<S> u_min, u_max;    // nu, or empty: no limits
+  bool has_finite_law = false;  // what the law asks for is known to be finite: nobody has to look
   // A law with a memory.
   int nr = 0;                 // references
   Matrix<S> Nbar;             // nu × nr, or no columns

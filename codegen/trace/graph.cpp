@@ -107,6 +107,20 @@ int Graph::ask(int condition, const std::string& function, int b, int c, double 
   return insert(std::move(node));
 }
 
+void Graph::begin_rest() {
+  rest_ = static_cast<int>(nodes_.size());
+  known_.clear();
+}
+
+int Graph::resume(int value, const std::string& place, const std::string& name) {
+  Node node;
+  node.op = Op::resumed;
+  node.a = value;
+  node.text = place;
+  node.name = name;
+  return insert(std::move(node));
+}
+
 int Graph::make(Op op, int a, int b, int c) {
   const bool is_product = op == Op::multiply || op == Op::multiply_add || op == Op::multiply_subtract;
   // The number stands before the value, as in an equation, and of two numbers the one that folds.

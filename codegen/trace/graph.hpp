@@ -33,6 +33,7 @@ enum class Op {
   flag,      // a status, by its name in C; select chooses between statuses too
   same,      // a == b, of statuses
   asked,     // a condition: a, or what a function answers where a does not hold
+  resumed,   // a, or what stands in memory, at `text`, where a recovery came between
 };
 
 bool is_condition(Op op);
@@ -75,6 +76,13 @@ class Graph {
   int ask(int condition, const std::string& function, int b, int c, double bound);
   int make(Op op, int a, int b = -1, int c = -1);
 
+  // From here on a recovery may have come between, once in a graph: nothing is the same as what was made before.
+  void begin_rest();
+  // `value`, or after a recovery what C reads at `place`.
+  int resume(int value, const std::string& place, const std::string& name);
+  // The first node behind a recovery; without one there is none.
+  int rest() const { return rest_ < 0 ? static_cast<int>(nodes_.size()) : rest_; }
+
   bool is_constant(int node) const { return nodes_[node].op == Op::constant; }
   bool is_constant(int node, double value) const { return is_constant(node) && nodes_[node].value == value; }
 
@@ -111,6 +119,7 @@ class Graph {
   Target target_;
   std::string prefix_;
   std::vector<Node> nodes_;
+  int rest_ = -1;
   std::vector<Section> sections_;
   std::map<Key, int> known_;
   std::map<double, int> constants_;

@@ -45,20 +45,68 @@ std::string literal(double value, bool is_double) {
   return is_double ? out : out + "f";
 }
 
-Printer::Printer(const Graph& graph, const std::vector<int>& results) : graph_(graph), uses_(graph.nodes().size(), 0) {
-  for (const int result : results) ++uses_[static_cast<std::size_t>(result)];
-  for (std::size_t i = uses_.size(); i-- > 0;) {
-    if (uses_[i] == 0) continue;
-    const Node& node = graph.nodes()[i];
-    for (const int operand : {node.a, node.b, node.c})
-      if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : 1;
-  }
+Printer::Printer(const Graph& graph, const std::vector<int>& results, const std::vector<int>& results_of_rest)
+    : graph_(graph), uses_(graph.nodes().size(), 0), is_variable_(graph.nodes().size(), false),
+      has_variable_of_before_(graph.nodes().size(), false) {
+  std::vector<int> all = results;
+  all.insert(all.end(), results_of_rest.begin(), results_of_rest.end());
+  count_uses(all);
+  find_variables(results_of_rest);
   std::vector<bool> needed, declared;
   for (int node = 0; node < static_cast<int>(uses_.size()); ++node) {
     needed.push_back(needs(node));
-    declared.push_back(needs(node) && is_declared(node));
+    declared.push_back(needs(node) && is_declared(node) && !has_variable_of_before_[static_cast<std::size_t>(node)]);
   }
   names_ = names_of(graph, needed, declared);
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (has_variable_of_before_[i]) names_[i] = name_of(graph.nodes()[i].a);
+}
+
+void Printer::count_uses(const std::vector<int>& results) {
+  for (const int result : results) ++uses_[static_cast<std::size_t>(result)];
+  for (std::size_t i = uses_.size(); i-- > 0;) {
+    if (uses_[i] == 0) continue;
+    const Node& node = graph_.nodes()[i];
+    for (const int operand : {node.a, node.b, node.c})
+      if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : 1;
+  }
+}
+
+// What the rest reads of the values before it, by an expression that has no statement of its own or as it is.
+std::vector<bool> Printer::used_in_rest(const std::vector<int>& results_of_rest) const {
+  std::vector<bool> used(uses_.size(), false);
+  for (const int result : results_of_rest) used[static_cast<std::size_t>(result)] = true;
+  for (std::size_t i = uses_.size(); i-- > 0;) {
+    const Node& node = graph_.nodes()[i];
+    const bool is_of_rest = static_cast<int>(i) >= graph_.rest();
+    if (!needs(static_cast<int>(i)) || node.op == Op::resumed || !(is_of_rest || used[i])) continue;
+    if (!is_of_rest && is_declared(static_cast<int>(i))) continue;
+    for (const int operand : {node.a, node.b, node.c})
+      if (operand >= 0) used[static_cast<std::size_t>(operand)] = true;
+  }
+  return used;
+}
+
+void Printer::find_variables(const std::vector<int>& results_of_rest) {
+  const std::vector<bool> is_used_in_rest = used_in_rest(results_of_rest);
+  for (std::size_t i = static_cast<std::size_t>(graph_.rest()); i < uses_.size(); ++i) {
+    const Node& node = graph_.nodes()[i];
+    if (node.op != Op::resumed || !needs(static_cast<int>(i))) continue;
+    const std::size_t before = static_cast<std::size_t>(node.a);
+    const Node& value = graph_.nodes()[before];
+    if (value.op == Op::input && value.text == node.text && uses_[before] == 1) {
+      uses_[before] = 0;
+      continue;
+    }
+    is_variable_[i] = true;
+    if (value.op == Op::constant || is_parameter(value) || is_used_in_rest[before] || is_variable_[before]) continue;
+    is_variable_[before] = has_variable_of_before_[i] = true;
+  }
+}
+
+bool Printer::is_read_late(int node) const {
+  const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+  return at.op == Op::resumed && needs(node) && !needs(at.a);
 }
 
 std::string Printer::operand(int node) const { return print(node, unary + 1); }
@@ -66,7 +114,7 @@ std::string Printer::operand(int node) const { return print(node, unary + 1); }
 bool Printer::is_declared(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   if (at.op == Op::constant || at.op == Op::flag || is_parameter(at)) return false;
-  return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1;
+  return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1 || is_variable_[static_cast<std::size_t>(node)];
 }
 
 std::string Printer::print(int node, int level) const {
@@ -77,6 +125,7 @@ std::string Printer::print(int node, int level) const {
     return at.value < 0 ? bracketed(text, unary, level + 1) : text;
   }
   if (at.op == Op::asked) return bracketed(name_of(node) + " != 0", comparison, level);
+  if (at.op == Op::resumed) return name_of(node);
   return is_declared(node) ? name_of(node) : print_operation(node, level);
 }
 
@@ -169,6 +218,7 @@ std::string Printer::print_operation(int node, int level) const {
     case Op::either: return chained(" || ");
     case Op::both: return chained(" && ");
     case Op::negation: return "!" + print(at.a, unary + 1);
+    case Op::resumed: return needs(at.a) ? print(at.a, level) : at.text;
     default: return at.text;
   }
 }
@@ -207,13 +257,16 @@ std::string Printer::restated(int condition, const std::string& text, const std:
   return facts.empty() ? "" : "RESTATED(" + text + ", " + facts + ")";
 }
 
-std::string Printer::test(int condition, const std::vector<Store>& stores) const {
+std::string Printer::test(int condition, const std::vector<Store>* stores) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(condition)];
   const bool is_comparison = at.op == Op::finite || at.op == Op::less || at.op == Op::usable;
   const std::string text = is_comparison && !is_declared(condition) ? print_comparison(at) : expression(condition);
-  const std::string told = restated(condition, text, &stores);
+  const std::string told = restated(condition, text, stores);
   return told.empty() ? text : told;
 }
+
+std::string Printer::test(int condition, const std::vector<Store>& stores) const { return test(condition, &stores); }
+std::string Printer::test_before_rest(int condition) const { return test(condition, nullptr); }
 
 bool Printer::is_status(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
@@ -262,7 +315,8 @@ std::string Printer::declaration(int node) const {
                            : is_status(node)                                               ? "lqg_status_t"
                            : graph_.target().is_double                                     ? "double"
                                                                                            : "float";
-  return wrap("    const " + type + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";
+  const std::string variable = (is_variable_[static_cast<std::size_t>(node)] ? "    " : "    const ") + type;
+  return wrap(variable + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";
 }
 
 std::string Printer::assignment(const Store& store) const {
@@ -271,13 +325,42 @@ std::string Printer::assignment(const Store& store) const {
 }
 
 std::string Printer::statements(const std::vector<Store>& stores) const {
+  return printed(0, static_cast<int>(graph_.nodes().size()), stores, "");
+}
+
+std::string Printer::statements_before_rest(const std::vector<Store>& stores) const {
+  std::string variables;
+  for (int node = graph_.rest(); node < static_cast<int>(uses_.size()); ++node)
+    if (is_variable_[static_cast<std::size_t>(node)] && !has_variable_of_before_[static_cast<std::size_t>(node)])
+      variables += declaration(node);
+  return printed(0, graph_.rest(), stores, "") + (variables.empty() ? "" : "\n" + variables);
+}
+
+std::string Printer::read_again(int indent) const {
+  std::string out;
+  for (int node = graph_.rest(); node < static_cast<int>(uses_.size()); ++node)
+    if (is_variable_[static_cast<std::size_t>(node)])
+      out += std::string(static_cast<std::size_t>(indent), ' ') + name_of(node) + " = " +
+             graph_.nodes()[static_cast<std::size_t>(node)].text + ";\n";
+  return out;
+}
+
+std::string Printer::statements_of_rest(const std::vector<Store>& stores) const {
+  std::string loads;
+  for (int node = graph_.rest(); node < static_cast<int>(uses_.size()); ++node)
+    if (is_read_late(node)) loads += declaration(node);
+  return printed(graph_.rest(), static_cast<int>(uses_.size()), stores, loads);
+}
+
+// The nodes from `from` on, before `to`.
+std::string Printer::printed(int from, int to, const std::vector<Store>& stores, std::string loads) const {
   std::multimap<int, const Store*> ready;
   for (const Store& store : stores) ready.emplace(is_declared(store.node) ? store.node : -1, &store);
-  std::string loads, blocks;
+  std::string blocks;
   int section = 0;
-  for (int node = 0; node < static_cast<int>(graph_.nodes().size()); ++node) {
-    if (!needs(node) || !is_declared(node)) continue;
+  for (int node = from; node < to; ++node) {
     const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+    if (!needs(node) || !is_declared(node) || at.op == Op::resumed) continue;
     if (at.op == Op::input) {
       loads += declaration(node);
       continue;
@@ -287,9 +370,11 @@ std::string Printer::statements(const std::vector<Store>& stores) const {
     blocks += declaration(node);
     for (auto [store, end] = ready.equal_range(node); store != end; ++store) blocks += assignment(*store->second);
   }
-  std::string rest;  // a number, an input, or an expression that needs no name
-  for (const auto& [node, store] : ready)
-    if (node < 0 || graph_.nodes()[static_cast<std::size_t>(node)].op == Op::input) rest += assignment(*store);
+  std::string rest;  // a number, an input, what is there already, or an expression that needs no name
+  for (const auto& [node, store] : ready) {
+    const Op op = node < 0 ? Op::input : graph_.nodes()[static_cast<std::size_t>(node)].op;
+    if (op == Op::input || op == Op::resumed || node < from) rest += assignment(*store);
+  }
   return loads + blocks + (rest.empty() ? "" : "\n" + rest);
 }
 
@@ -309,6 +394,7 @@ Operations Printer::operations() const {
       case Op::divide: ++count.divisions; break;
       case Op::constant: constants.insert(graph_.nodes()[static_cast<std::size_t>(node)].value); break;
       case Op::input:
+      case Op::resumed:
       case Op::flag: break;
       case Op::negate: break;  // part of the operation before or after it
       default: ++count.selections;

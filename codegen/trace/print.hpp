@@ -25,20 +25,27 @@ struct Operations {
   int total() const { return additions + multiplications + multiply_adds + divisions; }
 };
 
-// Prints what `results` need, and nothing else.
+// Prints what `results` need, and nothing else; those of the rest of the graph, behind a recovery, come last.
 class Printer {
  public:
-  Printer(const Graph& graph, const std::vector<int>& results);
+  Printer(const Graph& graph, const std::vector<int>& results, const std::vector<int>& results_of_rest = {});
 
   // One statement a line, indented by four columns: the inputs first, then block after block. A result is stored as
   // soon as it is there, since a register that waits is one that something else lacks; all inputs have been read by
   // then.
   std::string statements(const std::vector<Store>& stores) const;
+  // Of a graph with a rest: what comes before it, which ends with the variables that a recovery may write to.
+  std::string statements_before_rest(const std::vector<Store>& stores) const;
+  // Behind the recovery: these variables are read again.
+  std::string read_again(int indent) const;
+  std::string statements_of_rest(const std::vector<Store>& stores) const;
   // A result as an expression: a name or a literal where it has one.
   std::string expression(int node) const { return print(node, 0); }
   // A condition, beside which a prover reads what it says of the places of the values, all `stores` being done:
   // RESTATED(x_0 * x_0 < 4.0f, BELOW(self->x[0], 2.0)). Inside of expressions it reads it of their names.
   std::string test(int condition, const std::vector<Store>& stores) const;
+  // The same of a condition before the rest, of the names of the values.
+  std::string test_before_rest(int condition) const;
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;
   // A statement that adds a status to `status`.
@@ -46,6 +53,8 @@ class Printer {
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
   // Whether it has a statement of its own; other operations are computed inside of the one that uses them.
   bool is_declared(int node) const;
+  // Whether a resumed value needs no variable before the rest: it is read there first.
+  bool is_read_late(int node) const;
   Operations operations() const;
 
  private:
@@ -63,11 +72,18 @@ class Printer {
   std::string question(int node) const;
   std::string status_choice(int node, const std::string& name, int indent) const;
   std::string declaration(int node) const;
+  std::string printed(int from, int to, const std::vector<Store>& stores, std::string loads) const;
+  std::string test(int condition, const std::vector<Store>* stores) const;
+  void count_uses(const std::vector<int>& results);
+  void find_variables(const std::vector<int>& results_of_rest);
+  std::vector<bool> used_in_rest(const std::vector<int>& results_of_rest) const;
   std::string assignment(const Store& store) const;
 
   const Graph& graph_;
   std::vector<int> uses_;
   std::vector<std::string> names_;  // of what is declared
+  // A resumed value and the one before it are one variable, unless the rest reads that one, too.
+  std::vector<bool> is_variable_, has_variable_of_before_;
 };
 
 }  // namespace lqg::trace

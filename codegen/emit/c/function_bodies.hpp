@@ -15,6 +15,7 @@ struct FunctionBodies {
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
   std::string init, recover, weigh, update, control, predict;
+  std::string step;                        // empty: it makes the calls of a sample
   std::vector<std::string> updates_alone;  // of each output that can_update_alone
   bool resets = false;                     // they call NAME_reset, or NAME_recover where P is carried
 };

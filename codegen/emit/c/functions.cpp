@@ -175,15 +175,21 @@ std::string control_function(const Controller& controller, const FunctionBodies&
        {"remembers", !has_filter && controller.keeps.any}});
 }
 
-std::string step_function(const Controller& controller) {
+std::string step_function(const Controller& controller, const FunctionBodies& bodies) {
   const bool acts = controller.has.regulator, is_predictor = controller.is_predictor;
   const std::string order = !acts          ? "update, predict"
                             : is_predictor ? "control, update, predict; assumes that the actuator applies u as it is"
                                            : "update, control, predict; assumes that the actuator applies u as it is";
-  return write_function(templates::step, controller, {{"order", order}},
+  const bool is_one_text = !bodies.step.empty();
+  const std::string body = is_one_text ? bodies.step
+                                       : write_body(templates::step_calls, controller, {},
+                                                    {{"control_first", acts && is_predictor},
+                                                     {"control_second", acts && !is_predictor}});
+  return write_function(templates::step, controller, {{"order", order}, {"body", body}},
                         {{"is_told_u", !acts && controller.size.nu},
-                         {"control_first", acts && is_predictor},
-                         {"control_second", acts && !is_predictor}});
+                         {"is_one_text", is_one_text},
+                         {"acts_in_one_text", is_one_text && acts},
+                         {"estimates_in_one_text", is_one_text && !acts}});
 }
 
 std::string covariance_function(const Controller& controller) {
@@ -227,7 +233,7 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
   if (controller.has.filter) out += weigh_function(controller, bodies) + update_function(controller, bodies);
   if (controller.has.regulator) out += control_function(controller, bodies);
   if (controller.has.filter)
-    out += predict_function(controller, bodies) + step_function(controller) + covariance_function(controller) +
+    out += predict_function(controller, bodies) + step_function(controller, bodies) + covariance_function(controller) +
            update_alone_functions(controller, bodies) + innovation_function(controller) +
            partial_update_function(controller) + set_state_function(controller);
   return out + set_input_function(controller);

@@ -14,17 +14,32 @@ namespace lqg::emit {
 
 namespace {
 
+trace::Printer printer_of(const TracedFunction& traced) {
+  return traced.before ? trace::Printer(*traced.graph, traced.results_before(), traced.results())
+                       : trace::Printer(*traced.graph, traced.results());
+}
+
 // A function's graph with what C has to know of it.
 struct Printed {
   const TracedFunction& function;
   const trace::Printer printer;
 
-  explicit Printed(const TracedFunction& traced) : function(traced), printer(*traced.graph, traced.results()) {}
+  explicit Printed(const TracedFunction& traced)
+      : function(traced), printer(printer_of(traced)) {}
 
   // Whether an input is read whose expression begins like this.
   bool reads(const std::string& beginning) const {
     const std::vector<trace::Node>& nodes = function.graph->nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i)
+      if ((nodes[i].op == trace::Op::input || nodes[i].op == trace::Op::resumed) &&
+          printer.needs(static_cast<int>(i)) && nodes[i].text.rfind(beginning, 0) == 0)
+        return true;
+    return false;
+  }
+  // Whether the rest reads one.
+  bool resumes(const std::string& beginning) const {
+    const std::vector<trace::Node>& nodes = function.graph->nodes();
+    for (std::size_t i = static_cast<std::size_t>(function.graph->rest()); i < nodes.size(); ++i)
       if (nodes[i].op == trace::Op::input && printer.needs(static_cast<int>(i)) &&
           nodes[i].text.rfind(beginning, 0) == 0)
         return true;
@@ -53,20 +68,25 @@ std::string equation_of_bounds(const Controller& controller, const std::string& 
          (test.find(" - ") != std::string::npos ? "; the rest is finite" : "");
 }
 
-// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides; then `answer` is returned in place of the
+// "    if (!(sum < 1.0f)) {", with what makes the state unsound besides.
+std::string if_unsound(const Controller& controller, const std::string& test, const std::string& faults) {
+  const std::string line =
+      "    if (!(" + test + ")" + (faults.empty() ? "" : " || ((status & " + faults + ") != 0u)") + ") {";
+  return (controller.target.is_prover ? line : trace::wrap(line, 8)) + "\n";
+}
+
+// Then `answer` is returned in place of the
 // status. A status whose address is known to others has a copy: the compiler then ends the function by a jump, and the
 // stack of the recovery is not on top of its own.
 std::string unless_sound(const Controller& controller, const Printed& printed, const std::string& answer) {
   const TracedFunction& function = printed.function;
   const std::string test = printed.printer.test(function.finite, function.stores);
-  const std::string faults = function.faults.empty() ? "" : " || ((status & " + function.faults + ") != 0u)";
-  const std::string line = "    if (!(" + test + ")" + faults + ") {";
   const bool has_x = printed.writes("self->x["), has_xi = printed.writes("self->xi[");
   const bool has_copy = !function.asked.empty();
   const std::string outcome = has_copy ? "outcome" : "status";
   return (has_copy ? "    lqg_status_t outcome = status;\n" : "") +
          ("    /* " + equation_of_bounds(controller, test, has_x, has_xi)) + " */\n" +
-         (controller.target.is_prover ? line : trace::wrap(line, 8)) + "\n        " + outcome + " = " + answer +
+         if_unsound(controller, test, function.faults) + "        " + outcome + " = " + answer +
          ";\n    }\n    return " + outcome + ";\n";
 }
 
@@ -77,18 +97,22 @@ std::string recovery_of(const Controller& controller, const TracedFunction& func
 }
 
 // One statement for each cause.
-std::string raised_statuses(const Printed& printed) {
-  std::string out = "    lqg_status_t status = LQG_OK;\n";
-  for (const int status : printed.function.statuses) out += printed.printer.raise(status);
+std::string raised(const Printed& printed, const std::vector<int>& statuses) {
+  std::string out;
+  for (const int status : statuses) out += printed.printer.raise(status);
   return out;
 }
+
+// Where no call is told of the status before.
+bool declares_status_late(const TracedFunction& function) { return function.asked.empty() && !function.before; }
 
 std::string status(const Controller& controller, const Printed& printed) {
   const TracedFunction& function = printed.function;
   const bool is_checked = function.finite >= 0;
   if (!is_checked && function.is_void) return "";
-  if (!is_checked && function.asked.empty() && function.statuses.empty()) return "    return LQG_OK;\n";
-  return (function.asked.empty() ? raised_statuses(printed) : "") +
+  if (!is_checked && declares_status_late(function) && function.statuses.empty()) return "    return LQG_OK;\n";
+  return (declares_status_late(function) ? "    lqg_status_t status = LQG_OK;\n" : "") +
+         (declares_status_late(function) || function.before ? raised(printed, function.statuses) : "") +
          (is_checked ? unless_sound(controller, printed, recovery_of(controller, function)) : "    return status;\n");
 }
 
@@ -96,7 +120,9 @@ std::string status(const Controller& controller, const Printed& printed) {
 std::string rows(const Controller& controller, const Printed& printed) {
   std::string out;
   if (printed.reads("law[")) out += "    const {real} *const law = {NAME}_LAW[{law_row}];\n";
-  if (printed.reads("gains[")) out += "    const {real} *const gains = {NAME}_GAINS[{filter_row}];\n";
+  if (printed.reads("gains["))
+    out += std::string("    const {real} *") + (printed.resumes("gains[") ? "" : "const ") +
+           "gains = {NAME}_GAINS[{filter_row}];\n";
   const char* const names[] = {"K", "Nbar", "H", "H_input"};
   for (std::size_t k = 0; k < std::size(names) && controller.style == design::Style::compact; ++k)
     if (printed.reads(std::string(names[k]) + "["))
@@ -105,6 +131,22 @@ std::string rows(const Controller& controller, const Printed& printed) {
                    {"MATRIX", upper(names[k])},
                    {"size", std::to_string(controller.laws.front()[k].size())}});
   return fill(out, common_words(controller));
+}
+
+// Up to the rest: what comes before it, and the recovery where that finds the state not sound.
+std::string up_to_rest(const Controller& controller, const Printed& printed) {
+  const TracedRecovery& before = *printed.function.before;
+  const std::string test = printed.printer.test_before_rest(before.finite);
+  const std::string call = !before.call.empty() ? before.call : recovery_of(controller, printed.function);
+  std::string out = printed.printer.statements_before_rest(before.stores) + "\n" + raised(printed, before.statuses);
+  out += "    /* " + equation_of_bounds(controller, test, true, false) + " */\n" +
+         if_unsound(controller, test, before.faults);
+  for (const trace::Store& store : before.recovers)
+    out += trace::wrap("        " + store.target + " = " + printed.printer.expression(store.node) + ";", 12) + "\n";
+  out += "        status = " + call + ";\n" + printed.printer.read_again(8);
+  if (printed.resumes("gains["))
+    out += fill("        gains = {NAME}_GAINS[{filter_row}];\n", common_words(controller));
+  return out + "    }\n" + (controller.target.is_prover ? "    /*@ slevel merge; */ ;\n" : "") + "\n";
 }
 
 bool needs_self(const Printed& printed, const std::string& rows, const std::string& last) {
@@ -125,8 +167,10 @@ std::string body(const Controller& controller, const TracedFunction& function,
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
   return "    LQG_STRICT_BODY\n" + unused + tables +
-         (!function.asked.empty() ? "    lqg_status_t status = LQG_OK;\n" : "") +
-         printed.printer.statements(function.stores) + (end.empty() ? "" : "\n") + end;
+         (declares_status_late(function) ? "" : "    lqg_status_t status = LQG_OK;\n") +
+         (function.before ? up_to_rest(controller, printed) + printed.printer.statements_of_rest(function.stores)
+                          : printed.printer.statements(function.stores)) +
+         (end.empty() ? "" : "\n") + end;
 }
 
 std::string recover_body(const Controller& controller) {

@@ -15,7 +15,7 @@ extern const char init[], reset[], recover[], weigh[], update[], update_alone[],
 extern const char linear_filter_form[], linear_predictor_form[], linear_state[];
 
 // Bodies, and parts of them.
-extern const char initial_state[], counters[], recover_body[], weigh_body[];
+extern const char initial_state[], counters[], recover_body[], weigh_body[], step_calls[];
 extern const char compact_init[], compact_update[], compact_update_alone[], compact_predict[], compact_control[],
     compact_act[], compact_recover[], compact_filter_of_sample[], compact_law_of_sample[];
 

@@ -43,6 +43,8 @@ FunctionBodies unrolled_bodies(const Controller& controller) {
     bodies.predict = controller.size.nu ? body(controller, traced.predict, {"self", "u"}, advance)
                                         : body(controller, traced.predict, {"self"}, advance);
     if (controller.has.regulator) bodies.control = body(controller, traced.control, {"self"});
+    bodies.step = controller.size.nu ? body(controller, traced.step, {"self", "y", "u"}, advance)
+                                     : body(controller, traced.step, {"self", "y"}, advance);
     for (const TracedFunction& update : traced.updates_alone)
       bodies.updates_alone.push_back(body(controller, update, {"self"}));
     if (controller.size.ny == 1) bodies.updates_alone = {only_update_body(controller)};

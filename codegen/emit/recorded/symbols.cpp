@@ -137,6 +137,35 @@ SymbolicState load_state(const Controller& controller, const SymbolicModel& mode
   return state;
 }
 
+SymbolicState resume_state(const Controller& controller, const SymbolicState& state, const std::vector<bool>& pattern) {
+  SymbolicState resumed = state;
+  const auto resume = [&](Expr& value, const char* array, int i, const std::string& name) {
+    value = Expr::of(trace::graph().resume(value.node, element(array, i), name));
+  };
+  const auto resume_vector = [&](Symbols& values, const char* array, const char* name, step::Place (*place)(int)) {
+    for (int i = 0; i < values.size(); ++i) resume(values(i), array, i, name + suffix_of(controller, place(i)));
+  };
+  const auto resume_covariance = [&](std::vector<Expr>& values, const char* array, const char* name, std::size_t from,
+                                     std::pair<int, int> (*place)(int)) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto [i, j] = place(static_cast<int>(k));
+      const std::string suffix = index_suffix(i, j, controller.size.nx);
+      if (pattern[from + k]) resume(values[k], array, static_cast<int>(k), name + suffix);
+    }
+  };
+  resume_vector(resumed.x, "self->x", "x", at_state);
+  resume_covariance(resumed.P, "self->P", "P", 0, place_in_triangle);
+  resume_covariance(resumed.U, "self->U", "U", 0, place_in_strict_triangle);
+  resume_covariance(resumed.D, "self->d", "d", state.U.size(), [](int k) { return std::pair(k, -1); });
+  resume_vector(resumed.u, "self->u_applied", "u_applied", at_input);
+  resume_vector(resumed.innovation, "self->innovation", "last_innovation", at_output);
+  resume_vector(resumed.r, "self->r", "r", at_reference);
+  resume_vector(resumed.xi, "self->xi", "xi", at_integral);
+  resume_vector(resumed.error, "self->error", "error", at_integral);
+  resume_vector(resumed.demand, "self->demand", "demand", at_input);
+  return resumed;
+}
+
 void store_state(TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern) {
   const auto store_vector = [&](const char* array, const Symbols& values) {
     for (int i = 0; i < values.size(); ++i) store(function, element(std::string("self->") + array, i), values(i));
@@ -146,9 +175,11 @@ void store_state(TracedFunction& function, const SymbolicState& state, const std
       if (pattern[from + k]) store(function, element(array, static_cast<int>(k)), values[k]);
   };
   store_vector("x", state.x);
-  store_covariance("self->P", state.P, 0);
-  store_covariance("self->U", state.U, 0);
-  store_covariance("self->d", state.D, state.U.size());
+  if (!pattern.empty()) {
+    store_covariance("self->P", state.P, 0);
+    store_covariance("self->U", state.U, 0);
+    store_covariance("self->d", state.D, state.U.size());
+  }
   store_vector("u_applied", state.u);
   store_vector("widening", state.widening);
   store_vector("innovation", state.innovation);

@@ -21,6 +21,10 @@ SymbolicState load_state(const Controller& controller, const SymbolicModel& mode
 // All of a state that is neither the estimate nor its covariance.
 void load_memory(const Controller& controller, const SymbolicModel& model, SymbolicState& state);
 
+// What the rest of a function has of a state after a recovery that may have written to it.
+SymbolicState resume_state(const Controller& controller, const SymbolicState& state, const std::vector<bool>& pattern);
+
+// `pattern` is empty: without the covariance.
 void store_state(TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern);
 
 }  // namespace lqg::emit

@@ -104,6 +104,10 @@ Symbols load(const Controller& controller, const std::string& array, const std::
 void store(TracedFunction& function, const std::string& target, const trace::Expr& value) {
   const trace::Node& node = function.graph->nodes()[static_cast<std::size_t>(value.node)];
   if (node.op == trace::Op::input && node.text == target) return;  // as it was
+  if (node.op == trace::Op::resumed) {
+    const trace::Node& before = function.graph->nodes()[static_cast<std::size_t>(node.a)];
+    if (before.op == trace::Op::input && before.text == target) return;
+  }
   function.stores.push_back({target, value.node});
 }
 

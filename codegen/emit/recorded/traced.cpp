@@ -85,6 +85,16 @@ std::vector<int> TracedFunction::results() const {
   return nodes;
 }
 
+std::vector<int> TracedFunction::results_before() const {
+  std::vector<int> nodes;
+  if (!before) return nodes;
+  for (const std::vector<trace::Store>* stores : {&before->stores, &before->recovers})
+    for (const trace::Store& store : *stores) nodes.push_back(store.node);
+  nodes.insert(nodes.end(), before->statuses.begin(), before->statuses.end());
+  if (before->finite >= 0) nodes.push_back(before->finite);
+  return nodes;
+}
+
 bool is_same_for_all(const Eigen::VectorXd& values) { return (values.array() == values(0)).all(); }
 
 TracedFunction trace_weigh(const Controller& controller) {
@@ -197,6 +207,7 @@ TracedController trace_controller(const Controller& controller) {
     const std::vector<bool> pattern = covariance_pattern(controller);
     traced.update = trace_update(controller, pattern);
     traced.predict = trace_predict(controller, pattern);
+    traced.step = trace_sample(controller, pattern);
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
       if (has_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
   }

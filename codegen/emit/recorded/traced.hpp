@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,16 @@
 #include "trace/print.hpp"
 
 namespace lqg::emit {
+
+// A test in the middle of a function: where the state is not sound a recovery comes, and the rest goes on with what that
+// has written.
+struct TracedRecovery {
+  std::vector<trace::Store> stores;    // of what comes before it
+  std::vector<trace::Store> recovers;  // what the recovery reads besides
+  std::vector<int> statuses;
+  int finite = -1;
+  std::string call, faults;  // as those of a TracedFunction
+};
 
 struct TracedFunction {
   std::shared_ptr<trace::Graph> graph;
@@ -27,15 +38,22 @@ struct TracedFunction {
   std::vector<int> gates;  // the conditions that the gate left the output out
   std::vector<int> lost;   // output by output, the condition that a partial update leaves it out
 
+  std::optional<TracedRecovery> before;  // what the function did before its rest, which all other members are of
+
   std::vector<int> results() const;
+  std::vector<int> results_before() const;
 };
 
 struct TracedController {
-  TracedFunction update, control, predict;
+  TracedFunction update, control, predict, step;
   std::vector<TracedFunction> updates_alone;
 };
 
 TracedController trace_controller(const Controller& controller);
+
+// The calls of a sample as one function, which finds the bits and the status that they find. `pattern` is that of the
+// covariance.
+TracedFunction trace_sample(const Controller& controller, const std::vector<bool>& pattern);
 
 // Whether output i is used, of its innovation and S. What is not the same for all outputs is limits[i], widen[i] or
 // narrow[i].
