@@ -103,9 +103,9 @@ auto control_expected(const LinearModel<S>& model, LinearState<S>& state, const 
 
 // z ← A z + B y with outputs that are finite; the condition says that z is.
 template <class S, class Listener>
-auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Listener& listener) {
+auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, BoundsCheck<S>& bounds,
+             Listener& listener) {
   listener.section("z ← A z + B y", -1, sum_of_z);
-  BoundsCheck<S> bounds;
   Vector<S> next(state.z.size());
   for (int i = 0; i < next.size(); ++i) {
     next(i) = add_product(add_product(S(0), model.A, i, state.z), model.B, i, y);
@@ -114,6 +114,33 @@ auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>
   }
   state.z = next;
   return bounds.is_within();
+}
+template <class S, class Listener>
+auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Listener& listener) {
+  BoundsCheck<S> bounds;
+  return advance(model, state, y, bounds, listener);
+}
+
+// Both as one, where everything is finite, which the condition tells: it holds only where those of both would.
+template <class S, class Listener>
+auto sample_expected(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Vector<S>& u,
+                     Listener& listener) {
+  listener.section(model.D.cols() ? "u = C z + D y" : "u = C z", -1, ";  sum_to_u_k = Σ u_i, i ≤ k, is finite where each u_i is");
+  BoundsCheck<S> bounds;
+  u.resize(model.C.rows());
+  for (int i = 0; i < u.size(); ++i) {
+    u(i) = add_product(add_product(S(0), model.C, i, state.z), model.D, i, y);
+    listener.name(u(i), "law", of_input(i));
+    bounds.add(S(u(i)), of_input(i, "u"), listener);
+  }
+  for (int j = 0; j < y.size(); ++j) {
+    bool shown = false;
+    for (int i = 0; i < model.D.rows() && j < model.D.cols(); ++i) shown = shown || !is_zero(S(model.D(i, j)));
+    for (int i = 0; i < model.B.rows(); ++i) shown = shown || !is_zero(S(model.B(i, j)));
+    if (!shown) bounds.add(S(y(j)), of_output(j, "y"), listener);
+  }
+  if (!model.predictor_form) state.y = y;
+  return advance(model, state, y, bounds, listener);
 }
 
 // x̂, the one that u is made of; in filter form of the y that control has heard.

@@ -71,8 +71,8 @@ class Graph {
   int constant(double value, const std::string& name);
   int input(const std::string& text, const std::string& name);
   int flag(const std::string& text);
-  // `condition`, or else what the call `function`, b, c) answers: "weigh(self, 0". Printed as two statements. In either
-  // case |b| < `bound` where the answer is yes.
+  // `condition`, or else that the call `function`, b, c), "weigh(self, 0", finds nothing to say: its status is added.
+  // Printed as two statements. In either case |b| < `bound` where the answer is yes.
   int ask(int condition, const std::string& function, int b, int c, double bound);
   int make(Op op, int a, int b = -1, int c = -1);
 

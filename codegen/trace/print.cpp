@@ -266,7 +266,7 @@ std::string Printer::test(int condition, const std::vector<Store>* stores) const
 }
 
 std::string Printer::test(int condition, const std::vector<Store>& stores) const { return test(condition, &stores); }
-std::string Printer::test_before_rest(int condition) const { return test(condition, nullptr); }
+std::string Printer::test_by_names(int condition) const { return test(condition, nullptr); }
 
 bool Printer::is_status(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
@@ -276,14 +276,16 @@ bool Printer::is_status(int node) const {
 std::string Printer::question(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   const std::string name = name_of(node), call = at.text + ", " + print(at.b, any) + ", " + print(at.c, any) + ")";
-  const std::string answer = !graph_.target().is_prover ? call
-                                                        : "RESTATED(" + call + ", BELOW(" + print(at.b, any) + ", " +
+  const std::string test = "reason == LQG_OK";
+  const std::string answer = !graph_.target().is_prover ? "(" + test + ")"
+                                                        : "RESTATED(" + test + ", BELOW(" + print(at.b, any) + ", " +
                                                               literal(at.value, true) + "))";
   // A prover follows both answers from here on, but not those to the questions before: they would multiply.
   const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
   // 1 or 0: of a bool GCC 12 makes two more instructions for each output.
   return merge + wrap("    int " + name + " = " + print(at.a, unary + 1) + " ? 1 : 0;", 8) + "\n    if (" + name +
-         " == 0) {\n" + wrap("        " + name + " = " + answer + " ? 1 : 0;", 12) + "\n    }\n";
+         " == 0) {\n" + wrap("        const lqg_status_t reason = " + call + ";", 12) + "\n        " + name + " = " +
+         answer + " ? 1 : 0;\n        status |= reason;\n    }\n";
 }
 
 // A status is chosen by statements: in C an expression that chooses among numbers has the type of the smallest one.

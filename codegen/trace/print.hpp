@@ -44,8 +44,8 @@ class Printer {
   // A condition, beside which a prover reads what it says of the places of the values, all `stores` being done:
   // RESTATED(x_0 * x_0 < 4.0f, BELOW(self->x[0], 2.0)). Inside of expressions it reads it of their names.
   std::string test(int condition, const std::vector<Store>& stores) const;
-  // The same of a condition before the rest, of the names of the values.
-  std::string test_before_rest(int condition) const;
+  // The same of the names of the values.
+  std::string test_by_names(int condition) const;
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;
   // A statement that adds a status to `status`.

@@ -15,7 +15,8 @@ std::string functions_of_filter_form(const Controller& controller, const TracedL
   return write_function(templates::linear_filter_form, controller,
                         {{"control_fault", body(controller, traced.control_fault, {"self"})},
                          {"control", body(controller, traced.control, {"self"})},
-                         {"advance", body(controller, traced.advance, {"self"})}});
+                         {"advance", body(controller, traced.advance, {"self"})},
+                         {"step", body(controller, traced.step, {"self"})}});
 }
 
 // sum − sum = 0, beside which a prover reads that each y is finite.
@@ -48,6 +49,7 @@ std::string functions_of_predictor_form(const Controller& controller, const Trac
   words["control_fault"] = body(controller, traced.control_fault, {"self"});
   words["control"] = body(controller, traced.control, {"self"});
   words["advance"] = body(controller, traced.advance, {"self", "y"});
+  words["step"] = body(controller, traced.step, {"self"});
   words["hear"] = body(controller, traced.hear, {"self"});
   return write_function(templates::linear_predictor_form, controller, words);
 }

@@ -46,7 +46,12 @@ struct Printed {
     return false;
   }
   bool writes(const std::string& beginning) const {
-    return std::any_of(function.stores.begin(), function.stores.end(),
+    return writes(function.stores, beginning) || (function.before && writes(function.before->stores, beginning));
+  }
+
+ private:
+  static bool writes(const std::vector<trace::Store>& stores, const std::string& beginning) {
+    return std::any_of(stores.begin(), stores.end(),
                        [&](const trace::Store& store) { return store.target.rfind(beginning, 0) == 0; });
   }
 };
@@ -75,19 +80,27 @@ std::string if_unsound(const Controller& controller, const std::string& test, co
   return (controller.target.is_prover ? line : trace::wrap(line, 8)) + "\n";
 }
 
-// Then `answer` is returned in place of the
-// status. A status whose address is known to others has a copy: the compiler then ends the function by a jump, and the
-// stack of the recovery is not on top of its own.
+// "        self->x[0] = next_position;"
+std::string stored(const Printed& printed, const std::vector<trace::Store>& stores) {
+  std::string out;
+  for (const trace::Store& store : stores)
+    out += trace::wrap("        " + store.target + " = " + printed.printer.expression(store.node) + ";", 12) + "\n";
+  return out;
+}
+
+// Then `answer` is the status.
 std::string unless_sound(const Controller& controller, const Printed& printed, const std::string& answer) {
   const TracedFunction& function = printed.function;
+  const std::string answered = "        status = " + answer + ";\n    }\n    return status;\n";
+  if (!function.stores_if_sound.empty()) {
+    const std::string test = printed.printer.test_by_names(function.finite);
+    return "    /* " + equation_of_bounds(controller, test, false, false) + " */\n    if (" + test + ") {\n" +
+           stored(printed, function.stores_if_sound) + "    } else {\n" + answered;
+  }
   const std::string test = printed.printer.test(function.finite, function.stores);
   const bool has_x = printed.writes("self->x["), has_xi = printed.writes("self->xi[");
-  const bool has_copy = !function.asked.empty();
-  const std::string outcome = has_copy ? "outcome" : "status";
-  return (has_copy ? "    lqg_status_t outcome = status;\n" : "") +
-         ("    /* " + equation_of_bounds(controller, test, has_x, has_xi)) + " */\n" +
-         if_unsound(controller, test, function.faults) + "        " + outcome + " = " + answer +
-         ";\n    }\n    return " + outcome + ";\n";
+  return "    /* " + equation_of_bounds(controller, test, has_x, has_xi) + " */\n" +
+         if_unsound(controller, test, function.faults) + answered;
 }
 
 // The call that answers where the state is not sound.
@@ -136,14 +149,12 @@ std::string rows(const Controller& controller, const Printed& printed) {
 // Up to the rest: what comes before it, and the recovery where that finds the state not sound.
 std::string up_to_rest(const Controller& controller, const Printed& printed) {
   const TracedRecovery& before = *printed.function.before;
-  const std::string test = printed.printer.test_before_rest(before.finite);
-  const std::string call = !before.call.empty() ? before.call : recovery_of(controller, printed.function);
+  const std::string test = printed.printer.test_by_names(before.finite);
   std::string out = printed.printer.statements_before_rest(before.stores) + "\n" + raised(printed, before.statuses);
   out += "    /* " + equation_of_bounds(controller, test, true, false) + " */\n" +
          if_unsound(controller, test, before.faults);
-  for (const trace::Store& store : before.recovers)
-    out += trace::wrap("        " + store.target + " = " + printed.printer.expression(store.node) + ";", 12) + "\n";
-  out += "        status = " + call + ";\n" + printed.printer.read_again(8);
+  out += stored(printed, before.recovers);
+  out += "        status = " + recovery_of(controller, printed.function) + ";\n" + printed.printer.read_again(8);
   if (printed.resumes("gains["))
     out += fill("        gains = {NAME}_GAINS[{filter_row}];\n", common_words(controller));
   return out + "    }\n" + (controller.target.is_prover ? "    /*@ slevel merge; */ ;\n" : "") + "\n";
@@ -163,7 +174,8 @@ std::string body(const Controller& controller, const TracedFunction& function,
   const std::string tables = rows(controller, printed), end = last + status(controller, printed);
   std::string unused;
   for (const std::string parameter : parameters) {
-    const bool is_used = parameter == "self" ? needs_self(printed, tables, last) : printed.reads(parameter + "[");
+    const bool is_used = parameter == "self" ? needs_self(printed, tables, last)
+                                             : printed.reads(parameter + "[") || printed.writes(parameter + "[");
     if (!is_used) unused += "    (void)" + parameter + ";\n";
   }
   return "    LQG_STRICT_BODY\n" + unused + tables +
@@ -186,12 +198,6 @@ std::string recover_body(const Controller& controller) {
 std::string weigh_body(const Controller& controller) {
   const TracedFunction traced = trace_weigh(controller);
   const Printed printed(traced);
-  std::string raised;
-  for (const int status : traced.statuses) {
-    std::string statement = printed.printer.raise(status);
-    statement.replace(statement.find("status |="), 1, "*s");
-    raised += statement;
-  }
   const auto table = [&](step::Quantity quantity) {
     std::string names;
     for (int i = 0; i < controller.size.ny; ++i)
@@ -204,8 +210,7 @@ std::string weigh_body(const Controller& controller) {
                      {"narrow", table(step::Quantity::gate_narrow)},
                      {"statements", printed.printer.statements(traced.stores)},
                      {"gated", printed.printer.operand(traced.gates.front())},
-                     {"raised", raised},
-                     {"answer", printed.printer.expression(traced.answer)}},
+                     {"raised", raised(printed, traced.statuses)}},
                     {{"has_limits", !is_same_for_all(controller.bounds.innovation)},
                      {"has_widen", !is_same_for_all(controller.gate.widen)},
                      {"has_narrow", !is_same_for_all(controller.gate.narrow)}});
@@ -267,8 +272,13 @@ FunctionBodies straight_line_bodies(const Controller& controller) {
       std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
       "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
   bodies.options =
-      R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
+      carries_covariance(controller)
+          ? R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
+#endif
+)"
+          : R"(#if defined __GNUC__ && !defined __clang__  /* loads numbers where they are needed: less register pressure */
+#pragma GCC optimize ("no-tree-ter", "no-tree-pre")
 #endif
 )";
   if (controller.keeps.any) bodies.init = initial_state(controller);

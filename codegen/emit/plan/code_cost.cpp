@@ -33,7 +33,6 @@ Listing listing_of(const TracedFunction& function, const trace::Printer& printer
     listing.declared.push_back(printer.needs(i) && printer.is_declared(i));
   }
   if (function.finite >= 0) listing.ends.push_back(function.finite);
-  if (function.answer >= 0) listing.ends.push_back(function.answer);
   listing.is_fused = function.graph->target().is_fused;
   listing.asks = !function.asked.empty();
   listing.answers = is_weigh;

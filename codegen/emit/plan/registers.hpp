@@ -14,7 +14,7 @@ struct Listing {
   const std::vector<trace::Node>& nodes;
   std::vector<bool> needed, declared;  // of each node: the results need it, it has a statement of its own
   std::vector<trace::Store> stores;
-  std::vector<int> ends;  // what is computed behind the last statement: statuses, tests, the answer
+  std::vector<int> ends;  // what is computed behind the last statement: statuses, tests
   bool is_fused = false;
   bool asks = false;             // it calls NAME_weigh, which may write to *self: all inputs are loaded before
   bool answers = false;          // it is NAME_weigh …

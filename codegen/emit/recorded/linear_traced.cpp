@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "emit/recorded/linear_traced.hpp"
 
+#include <utility>
+
 #include "controller/linear_model_of.hpp"
 #include "emit/recorded/trace_listener.hpp"
 
@@ -68,6 +70,23 @@ TracedFunction trace_advance(const Controller& controller) {
                     });
 }
 
+// Control and advance as one, where all is finite.
+TracedFunction trace_linear_sample(const Controller& controller) {
+  TracedFunction function =
+      trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
+        Symbols u;
+        into.finite = step::sample_expected(model, state, load_outputs(controller), u, listener).node;
+        store_all(into, "u", u);
+        store_all(into, "self->y", state.y);
+        std::vector<trace::Store> stores = std::move(into.stores);
+        into.stores.clear();
+        store_all(into, "self->z", state.z);
+        into.stores_if_sound = std::exchange(into.stores, std::move(stores));
+      });
+  function.recovery = controller.problem.name + (keeps_outputs(controller) ? "_step_fault(self, u)" : "_step_fault(self, y, u)");
+  return function;
+}
+
 TracedFunction trace_hear(const Controller& controller) {
   return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
     store_all(into, "heard", step::heard_outputs(model, state, load_outputs(controller), listener));
@@ -97,6 +116,7 @@ TracedLinear trace_linear(const Controller& controller) {
   traced.control = trace_control(controller);
   traced.control_fault = trace_control_fault(controller);
   traced.advance = trace_advance(controller);
+  traced.step = trace_linear_sample(controller);
   if (controller.is_predictor) traced.hear = trace_hear(controller);
   traced.estimate = trace_estimate(controller);
   traced.set_state = trace_set_z(controller);

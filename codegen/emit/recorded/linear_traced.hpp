@@ -11,6 +11,7 @@ struct TracedLinear {
   TracedFunction control_fault;  // … and of any; in filter form of the y that the other one has stored
   TracedFunction advance;        // with outputs that are finite
   TracedFunction hear;           // predictor form: heard[] of y[]
+  TracedFunction step;           // of a sample in which all is finite: control and advance
   TracedFunction estimate, set_state;
 };
 

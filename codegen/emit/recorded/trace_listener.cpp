@@ -63,7 +63,7 @@ void TraceListener::gate(const Condition& gated, int) {
 
 Condition TraceListener::ask_weigh(const Condition& expected, int output, const trace::Expr& innovation,
                                    const trace::Expr& variance) {
-  const std::string call = controller_.problem.name + "_weigh(self, &status, " + std::to_string(output);
+  const std::string call = controller_.problem.name + "_weigh(self, " + std::to_string(output);
   function_.asked.push_back(
       function_.graph->ask(expected.node, call, innovation.node, variance.node, controller_.bounds.innovation(output)));
   return {function_.asked.back()};

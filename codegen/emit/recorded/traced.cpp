@@ -75,10 +75,10 @@ TracedFunction trace_control(const Controller& controller) {
 
 std::vector<int> TracedFunction::results() const {
   std::vector<int> nodes;
-  for (const trace::Store& store : stores) nodes.push_back(store.node);
+  for (const std::vector<trace::Store>* kind : {&stores, &stores_if_sound})
+    for (const trace::Store& store : *kind) nodes.push_back(store.node);
   nodes.insert(nodes.end(), statuses.begin(), statuses.end());
   if (finite >= 0) nodes.push_back(finite);
-  if (answer >= 0) nodes.push_back(answer);
   nodes.insert(nodes.end(), gates.begin(), gates.end());
   nodes.insert(nodes.end(), asked.begin(), asked.end());
   nodes.insert(nodes.end(), lost.begin(), lost.end());
@@ -114,7 +114,7 @@ TracedFunction trace_weigh(const Controller& controller) {
   of_output(weighing.narrow, controller.gate.narrow, "narrow[i]", "narrower");
   Expr widening = input("self->widening[i]", "widening");
   const Expr innovation = input("innovation", "innovation"), variance = input("S", "variance");
-  function.answer = step::weigh_unexpected(weighing, widening, innovation, variance, -1, listener).node;
+  step::weigh_unexpected(weighing, widening, innovation, variance, -1, listener);
   store(function, "self->widening[i]", widening);
   return function;
 }

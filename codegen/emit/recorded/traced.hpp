@@ -20,19 +20,19 @@ struct TracedRecovery {
   std::vector<trace::Store> recovers;  // what the recovery reads besides
   std::vector<int> statuses;
   int finite = -1;
-  std::string call, faults;  // as those of a TracedFunction
+  std::string faults;  // as those of a TracedFunction
 };
 
 struct TracedFunction {
   std::shared_ptr<trace::Graph> graph;
   std::vector<trace::Store> stores;
+  std::vector<trace::Store> stores_if_sound;  // which wait for the test that all is finite
   std::vector<int> statuses;       // joined by |
   int finite = -1;                 // condition; −1: cannot become infinite
   std::string recovery;            // the call that answers where it is not finite; empty: NAME_reset or NAME_recover
   std::string faults;              // a bit of the status with which it is not finite either
   bool checks_covariance = false;  // P may be at fault, not x̂: NAME_recover
   bool is_void = false;
-  int answer = -1;  // the condition that it returns, in place of a status
   // The questions to NAME_weigh, which add to the status and count even where nothing else needs their answers.
   std::vector<int> asked;
   std::vector<int> gates;  // the conditions that the gate left the output out
@@ -55,7 +55,7 @@ TracedController trace_controller(const Controller& controller);
 // covariance.
 TracedFunction trace_sample(const Controller& controller, const std::vector<bool>& pattern);
 
-// Whether output i is used, of its innovation and S. What is not the same for all outputs is limits[i], widen[i] or
+// Why output i is not used, of its innovation and S: it is where the status is LQG_OK. What is not the same for all outputs is limits[i], widen[i] or
 // narrow[i].
 TracedFunction trace_weigh(const Controller& controller);
 bool is_same_for_all(const Eigen::VectorXd& values);
