@@ -78,6 +78,7 @@ hashes_t FUNCTION_OF(NAME)(void)
 #undef NAME
 #undef UPPER_NAME
 #undef MEMBERS
+#undef COUNTERS
 #undef UPDATES
 #undef CONTROLS
 #undef ADVANCES

@@ -13,11 +13,14 @@ if(NOT members)
   message(FATAL_ERROR "${HEADER}: expected a struct ${NAME}_t with members, found none")
 endif()
 set(hashed_members)
+set(counters)
 foreach(member IN LISTS members)
   string(REGEX REPLACE ".* " "" name "${member}")
   if(member STREQUAL "${REAL} ${name}")
     string(APPEND hashed_members " HASH_MEMBER(${name})")
-  elseif(NOT member MATCHES "^unsigned (long )?${name}$")  # counters
+  elseif(member MATCHES "^unsigned (long )?${name}$")
+    string(APPEND counters " COUNTER_MEMBER(${name})")
+  else()
     message(FATAL_ERROR "${HEADER}: expected members of type ${REAL} or unsigned in ${NAME}_t, found \"${member}\"")
   endif()
 endforeach()
@@ -37,5 +40,6 @@ file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 #define NAME ${NAME}
 #define UPPER_NAME ${upper_name}
 #define MEMBERS${hashed_members}
+#define COUNTERS${counters}
 ${does}#include \"controller.h\"
 ")

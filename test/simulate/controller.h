@@ -112,6 +112,7 @@ int FUNCTION_OF(NAME)(FILE *file)
 #undef NAME
 #undef UPPER_NAME
 #undef MEMBERS
+#undef COUNTERS
 #undef UPDATES
 #undef CONTROLS
 #undef ADVANCES
