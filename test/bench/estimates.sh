@@ -56,7 +56,7 @@ find_library() {
 
 # compare <title> <design> <option of lqgen>…
 compare() {
-  local title=$1 design=$2 name made library variant=() names stated_flash stated_stack flash stack
+  local title=$1 design=$2 name roots made library variant=() names stated_flash stated_stack flash stack
   shift 2
   name=$(sed -n '/^\[/q;s/^[[:space:]]*name *= *"\([a-z0-9_]*\)".*/\1/p' "$design")
   made=$folder/controller
@@ -70,13 +70,17 @@ compare() {
   ! grep -q '"arithmetic": "fused"' "$made/$name.json" || variant+=(-DLQG_FUSED)
   ! grep -q "^static inline .*${name}_advance(" "$made/$name.h" || names+=(-DKEEPS_Z)
   grep -q " ${name}_control(" "$made/$name.h" || names+=(-DESTIMATES)
+  roots=${name}_step
+  if grep -q '"style": "compact"' "$made/$name.json"; then
+    names+=(-DCALLS) roots="${name}_update ${name}_control ${name}_predict"
+  fi
   find_library "$folder/library${variant[*]}" "${variant[@]}"
   "${compiler[@]}" "${variant[@]}" "${names[@]}" "$bench/footprint.c" -Wl,-e,roots "${linked[@]}" "$library" -lm \
     -o "$folder/footprint.elf"
   flash=$("$size" -A "$folder/footprint.elf" |
     awk '$1 ~ /^\.(text|rodata|data|ARM\.exidx)/ { sum += $2 } END { print sum }')
   stack=$(arm-none-eabi-objdump -d --no-show-raw-insn "$folder/footprint.elf" |
-    awk -f "$bench/stack.awk" -v roots="${name}_update ${name}_control ${name}_predict ${name}_advance")
+    awk -f "$bench/stack.awk" -v roots="$roots")
   stated_flash=$(json_value "$made/$name.json" flash) stated_stack=$(json_value "$made/$name.json" stack)
   awk -v title="$title" -v a="$stated_flash" -v b="$flash" -v c="$stated_stack" -v d="$stack" \
     -v most_flash=$most_flash -v most_stack=$most_stack -v allowed=$allowed '

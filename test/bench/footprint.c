@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A program that is nothing but the controller in HEADER: what the linker brings for its four functions,
- * constants and library functions included, is its flash. The table of the functions itself, from which the
- * linker starts, lies in a section of its own. */
+/* A program that is nothing but the controller in HEADER: what the linker brings for init and step, constants and
+ * library functions included, is its flash. With CALLS it makes the calls of a sample instead; KEEPS_Z and ESTIMATES
+ * are those of measure.c. The table of the functions itself, from which the linker starts, lies in a section of its
+ * own. */
 #include HEADER
 
 #define PASTE(a, b) a##_##b
@@ -14,7 +15,9 @@ extern function *const roots[];
 
 __attribute__((section(".roots"))) function *const roots[] = {
     (function *)OF(init),
-#ifdef KEEPS_Z
+#if !defined CALLS
+    (function *)OF(step),
+#elif defined KEEPS_Z
     (function *)OF(control),
     (function *)OF(advance),
 #else

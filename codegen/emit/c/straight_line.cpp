@@ -14,11 +14,6 @@ namespace lqg::emit {
 
 namespace {
 
-trace::Printer printer_of(const TracedFunction& traced) {
-  return traced.before ? trace::Printer(*traced.graph, traced.results_before(), traced.results())
-                       : trace::Printer(*traced.graph, traced.results());
-}
-
 // A function's graph with what C has to know of it.
 struct Printed {
   const TracedFunction& function;
@@ -266,13 +261,23 @@ std::string initial_state(const Controller& controller) {
   return write_body(templates::initial_state, controller, {{"values", values}});
 }
 
+namespace {
+
+// Where a compiler that moves statements has more values at once than registers.
+bool keeps_order(const Controller& controller) {
+  constexpr int most_states = 10;
+  return carries_covariance(controller) || std::max(controller.size.nx, controller.size.nz) > most_states;
+}
+
+}  // namespace
+
 FunctionBodies straight_line_bodies(const Controller& controller) {
   FunctionBodies bodies;
   bodies.includes =
       std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
       "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
   bodies.options =
-      carries_covariance(controller)
+      keeps_order(controller)
           ? R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif

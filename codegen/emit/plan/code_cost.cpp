@@ -18,16 +18,27 @@ namespace {
 
 // ---- straight-line code
 
-// What a compiler does not do as it is counted here; most of it where P is carried as it is, fused or in double.
+// What a compiler does not do as it is counted here; most of it where P is carried as it is, in double.
 long with_margin(const Controller& controller, long bytes) {
-  const bool is_hard =
-      controller.filter == step::Filter::plain && (controller.target.is_fused || controller.target.is_double);
+  if (controller.filter == step::Filter::steady && !controller.target.is_double && !controller.linear)
+    return bytes + bytes / (controller.target.is_fused ? 64 : 32);
+  const bool is_hard = controller.filter == step::Filter::plain && controller.target.is_double;
   return bytes + bytes / 16 + (is_hard ? bytes / 32 : 0);
 }
 
 Listing listing_of(const TracedFunction& function, const trace::Printer& printer, bool is_weigh, int ny) {
   const std::vector<trace::Node>& nodes = function.graph->nodes();
   Listing listing{nodes, {}, {}, function.stores, function.statuses};
+  listing.stores.insert(listing.stores.end(), function.stores_if_sound.begin(), function.stores_if_sound.end());
+  if (function.before) {
+    const TracedRecovery& before = *function.before;
+    listing.stores.insert(listing.stores.end(), before.stores.begin(), before.stores.end());
+    listing.ends.insert(listing.ends.end(), before.statuses.begin(), before.statuses.end());
+    listing.ends.push_back(before.finite);
+    for (int i = function.graph->rest(); i < static_cast<int>(nodes.size()); ++i)
+      listing.read_again += nodes[static_cast<std::size_t>(i)].op == trace::Op::resumed && printer.needs(i) && !printer.is_read_late(i);
+    listing.written_before += static_cast<long>(before.recovers.size());
+  }
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
     listing.needed.push_back(printer.needs(i));
     listing.declared.push_back(printer.needs(i) && printer.is_declared(i));
@@ -40,26 +51,32 @@ Listing listing_of(const TracedFunction& function, const trace::Printer& printer
   return listing;
 }
 
-long selections_in(const Listing& listing) {
-  long selections = 0;
-  for (std::size_t i = 0; i < listing.nodes.size(); ++i)
-    selections += listing.needed[i] && listing.nodes[i].op == trace::Op::select;
-  return selections;
+Listing listing_of(const Controller& controller, const TracedFunction& function, bool is_weigh = false) {
+  Listing listing = listing_of(function, printer_of(function), is_weigh, controller.size.ny);
+  if (carries_covariance(controller))
+    listing.carries = controller.filter == step::Filter::plain ? Carried::plain_covariance : Carried::factors;
+  return listing;
 }
 
 // Its own flash and frame; its operations are added to `cost`.
 FunctionCost add_function(CodeCost& cost, const Controller& controller, const TracedFunction& function,
                           bool is_weigh = false) {
   if (!function.graph) return {};
-  const trace::Printer printer(*function.graph, function.results());
-  Listing listing = listing_of(function, printer, is_weigh, controller.size.ny);
-  // GCC holds what follows a question for rare where nothing else depends on the answers, and saves bytes there.
-  const long questions = static_cast<long>(function.asked.size());
-  listing.merges_products = !controller.target.is_fused && !controller.target.is_double &&
-                            controller.filter == step::Filter::steady && questions > 1 &&
-                            selections_in(listing) == questions;
+  const Listing listing = listing_of(controller, function, is_weigh);
   const FunctionCost own = controller.target.is_double ? cost_in_double(listing) : cost_in_float(listing);
-  cost.multiply_adds += printer.operations().total();
+  cost.multiply_adds += printer_of(function).operations().total();
+  cost.flash += own.flash;
+  return own;
+}
+
+// The same of a step that is the text of these calls.
+FunctionCost add_step(CodeCost& cost, const Controller& controller, const TracedFunction& step,
+                      std::initializer_list<const TracedFunction*> calls) {
+  std::vector<Listing> listings;
+  for (const TracedFunction* call : calls)
+    if (call->graph) listings.push_back(listing_of(controller, *call));
+  const FunctionCost own = cost_of_step(listing_of(controller, step), listings, controller.target.is_double);
+  cost.multiply_adds += printer_of(step).operations().total();
   cost.flash += own.flash;
   return own;
 }
@@ -143,16 +160,19 @@ CodeCost cost_of_linear_form(const Controller& controller) {
   const Beginning beginning = beginning_of(controller);
   const long calls = controller.target.is_double ? stack_of_double + 32 : 0;
   CodeCost cost, aside;  // aside: for the sample that is not as the others
-  const long control = add_function(cost, controller, traced.control).stack;
-  const long advance = add_function(cost, controller, traced.advance).stack;
+  const long step = add_step(cost, controller, traced.step, {&traced.control, &traced.advance}).stack;
+  const long advance = add_function(aside, controller, traced.advance).stack;
   const long control_fault = add_function(aside, controller, traced.control_fault).stack;
   long hear = add_function(aside, controller, traced.hear).stack;
   if (controller.is_predictor) {
-    add_function(aside, controller, traced.advance);              // compilers put it into both of its callers
     hear += 24 + bytes_of_real(controller) * controller.size.ny;  // heard[], return address
   }
   cost.ram = state_bytes(controller);
-  cost.stack = std::max({control + calls, advance + calls, control_fault + calls, hear + calls, beginning.stack});
+  // NAME_step_fault, called last, keeps self and the status while it calls.
+  constexpr long stack_of_fault = 36, flash_of_fault = 24;
+  const long fault = stack_of_fault + std::max({advance, control_fault, hear, beginning.stack});
+  cost.stack = controller.target.is_double ? step + calls : std::max(step, fault);
+  aside.flash += flash_of_fault;
   cost.flash =
       with_margin(controller, cost.flash + aside.flash) + beginning.flash + bytes_of_software_floats(controller, false);
   return cost;
@@ -168,12 +188,12 @@ CodeCost cost_of_unrolled(const Controller& controller) {
       carries_covariance(controller) ? add_function(aside, controller, trace_begin_covariance(controller)).stack : 0;
   // Kept for the integrals.
   const long heard = (controller.target.is_fused ? 8 : 4) * (controller.size.nxi + controller.size.nr);
-  const long update =
-      add_function(cost, controller, traced.update).stack + (traced.update.asked.empty() ? 0 : weigh) + heard;
-  const long control = add_function(cost, controller, traced.control).stack;
-  const long predict = add_function(cost, controller, traced.predict).stack;
+  // It waits for what it calls: NAME_weigh, and in the middle NAME_reset or NAME_recover, which may call that.
+  const long step = controller.has.filter
+      ? add_step(cost, controller, traced.step, {&traced.update, &traced.control, &traced.predict}).stack + heard
+      : add_function(cost, controller, traced.control).stack;
   cost.ram = state_bytes(controller);
-  cost.stack = std::max({update + calls, control + calls, predict + calls, recover + std::max(calls, beginning.stack)});
+  cost.stack = step + std::max(weigh + calls, recover + std::max(calls, beginning.stack));
   const auto entries = [&](const std::vector<Gains>& gains) {
     return static_cast<long>(controller::changing_places(gains, controller.target.is_double).size() * gains.size());
   };
@@ -182,7 +202,7 @@ CodeCost cost_of_unrolled(const Controller& controller) {
     for (const Eigen::VectorXd* values :
          {&controller.bounds.innovation, &controller.gate.widen, &controller.gate.narrow})
       if (!is_same_for_all(*values)) tables += controller.size.ny;
-  const long counters = 28 * (controller.keeps.sample + controller.keeps.gain_row);
+  const long counters = 28 * controller.keeps.sample + 124 * controller.keeps.gain_row;
   cost.flash = with_margin(controller, cost.flash + aside.flash + counters) + beginning.flash +
                bytes_of_real(controller) * tables +
                bytes_of_software_floats(controller, carries_covariance(controller));

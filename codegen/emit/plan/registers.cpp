@@ -56,17 +56,22 @@ class Order {
       ready.emplace(listing_.declared[at(store.node)] ? store.node : -1, &store);
     for (int i = 0; i < static_cast<int>(listing_.nodes.size()); ++i) {
       if (!listing_.needed[at(i)] || !listing_.declared[at(i)] || node(i).op == Op::input) continue;
+      if (is_late_input(i)) ++traffic_.inputs, steps.push_back({{}, i, -1});
       make(i);
       for (auto [store, end] = ready.equal_range(i); store != end; ++store) put(*store->second);
     }
     for (const auto& [i, store] : ready)
-      if (i < 0 || node(i).op == Op::input) put(*store);
+      if (i < 0 || node(i).op == Op::input || node(i).op == Op::resumed) put(*store);
     for (const int end : listing_.ends) make(end);
   }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Node& node(int i) const { return listing_.nodes[at(i)]; }
+
+  // Of a value that a recovery may write to: no instruction, unless it is read only behind it.
+  bool is_same_variable(int i) const { return node(i).op == Op::resumed && listing_.needed[at(node(i).a)]; }
+  bool is_late_input(int i) const { return node(i).op == Op::resumed && !is_same_variable(i); }
 
   bool is_number(int i) const {
     if (node(i).op == Op::select) return is_number(node(i).b);  // it may choose between statuses
@@ -91,6 +96,8 @@ class Order {
   void make(int i) {
     const Op op = node(i).op;
     if (op == Op::constant || op == Op::input || op == Op::flag || made_[at(i)]) return;
+    if (is_same_variable(i)) return make(node(i).a);
+    if (op == Op::resumed) return;
     made_[at(i)] = true;
     Step step;
     for (const int operand : {node(i).a, node(i).b, node(i).c}) {
@@ -99,8 +106,7 @@ class Order {
       if (is_number(operand)) step.operands.push_back(same(operand));
     }
     if (is_number(i)) step.result = i;
-    const bool is_one =
-        is_sum_of_product(op) && (listing_.is_fused || (listing_.merges_products && traffic_.questions > 0));
+    const bool is_one = is_sum_of_product(op) && listing_.is_fused;
     if (is_one) step.overwritten = node(i).c;
     count(i, is_one);
     steps.push_back(std::move(step));
@@ -126,7 +132,10 @@ class Order {
   }
 
   // Of constants of one value, whatever their names, the first.
-  int same(int i) { return node(i).op == Op::constant ? constants_.try_emplace(node(i).value, i).first->second : i; }
+  int same(int i) {
+    if (is_same_variable(i)) return same(node(i).a);
+    return node(i).op == Op::constant ? constants_.try_emplace(node(i).value, i).first->second : i;
+  }
 
   const Listing& listing_;
   Traffic& traffic_;
@@ -168,6 +177,8 @@ class Registers {
   Value& value(int i) { return values_[static_cast<std::size_t>(i)]; }
   const Node& node(int i) const { return listing_.nodes[static_cast<std::size_t>(i)]; }
 
+  bool is_input(int i) const { return node(i).op == Op::input || node(i).op == Op::resumed; }
+
   long next_use(int i) { return value(i).used < value(i).uses.size() ? value(i).uses[value(i).used] : never; }
 
   void pass(int i, long step) {
@@ -177,7 +188,7 @@ class Registers {
   // It stands in memory anyway, and nothing is written there before its last use.
   bool is_in_memory(int i) {
     if (node(i).op == Op::constant) return true;
-    if (node(i).op != Op::input) return false;
+    if (!is_input(i)) return false;
     if (listing_.asks) return is_of_table(node(i));
     const auto overwritten = order_.stored.find(node(i).text);
     return overwritten == order_.stored.end() || value(i).uses.back() < overwritten->second;
@@ -190,16 +201,15 @@ class Registers {
       load_constant(i);
     else if (value(i).has_slot)
       ++traffic_.reloads;
-    else if (node(i).op == Op::input)
+    else if (is_input(i))
       ++traffic_.loads;
     occupy(i);
   }
 
   // An input that finds no room and can be loaded later is.
   void hold(int i, const std::vector<int>& kept) {
-    const bool is_input = node(i).op == Op::input;
-    if (is_input && is_in_memory(i) && held_.size() >= number_) return;
-    traffic_.loads += is_input;
+    if (is_input(i) && is_in_memory(i) && held_.size() >= number_) return;
+    traffic_.loads += is_input(i);
     make_room(kept);
     occupy(i);
   }

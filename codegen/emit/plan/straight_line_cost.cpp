@@ -148,28 +148,79 @@ long frame_in_double(const Listing& listing, const Traffic& count) {
 
 }  // namespace
 
-FunctionCost cost_in_float(const Listing& listing) {
-  // All 32 but one; NAME_weigh overwrites some more.
-  const Traffic count = traffic_of(listing, listing.asks ? (listing.is_fused ? 24 : 28) : 31);
+namespace {
+
+// All 32 but one; NAME_weigh overwrites some more.
+long registers_of(const Listing& listing, bool is_double) {
+  if (is_double) return 5;  // pairs of core registers
+  return listing.asks ? (listing.is_fused ? 24 : 28) : 31;
+}
+
+long statements_in_float(const Listing& listing, const Traffic& count) {
   // GCC gives a value one place for as long as it lives, where the traffic above is the least there can be.
   const long again = count.reloads + std::max(0L, count.loads - count.inputs);
   const long extra = listing.asks ? 0 : again / (listing.is_fused ? 4 : 8);
-  FunctionCost cost;
-  cost.flash = instruction * (count.operations + count.moves + count.loads + count.stores + count.reloads +
-                              count.spills + extra + count.constant_loads + count.immediates + count.pool) +
-               control_flow_in_float(listing, count);
-  cost.stack = frame_in_float(listing, count);
-  return cost;
+  return instruction * (count.operations + count.moves + count.loads + count.stores + count.reloads + count.spills +
+                        extra + count.constant_loads + count.immediates + count.pool);
+}
+
+long statements_in_double(const Listing& listing, const Traffic& count) {
+  return 12 * count.operations +
+         (listing.is_fused ? 4 * count.operations + (is_full(listing, count) ? 2 : 6) * count.fused : 0) +
+         4 * count.constant_loads + 8 * count.pool + 5 * (count.loads + count.stores) +
+         2 * (count.reloads + count.spills);
+}
+
+// Bytes of the frame of a step besides: what waits from one of its parts to the other.
+long kept_in_step_in_float(const Listing& step, const Traffic& count) {
+  if (!step.asks) return step.read_again > 0 ? 16 : 0;
+  if (step.carries == Carried::plain_covariance) return aligned(8 + count.slots + count.slots / 8);
+  if (step.carries == Carried::factors) return count.slots > 0 ? 16 : 0;
+  return step.is_fused && count.questions > 1 ? 8 : 0;
+}
+
+long kept_in_step_in_double(const Listing& step, const Traffic& count) {
+  if (step.carries == Carried::plain_covariance) return 4 * std::max(0L, count.slots - 26);
+  if (step.carries == Carried::factors) return step.is_fused ? -count.slots / 4 : 0;
+  if (!step.asks) return step.is_fused ? 0 : step.read_again > 0 ? 16 : 56;
+  if (!step.is_fused) return 8;
+  return count.questions == 1 ? 16 : -count.slots / 4;
+}
+
+// Bytes of a step besides that the least traffic does not show.
+long more_in_step(const Listing& step, const Traffic& count, bool is_double, long flash) {
+  if (is_double) return 0;
+  if (step.carries == Carried::plain_covariance) return count.slots == 0 ? 96 : count.slots > 60 ? flash / 16 : 0;
+  return step.asks ? 24 : step.read_again == 0 && step.is_fused ? 120 : 0;
+}
+
+long control_flow(const Listing& listing, const Traffic& count, bool is_double) {
+  return is_double ? control_flow_in_double(listing, count) : control_flow_in_float(listing, count);
+}
+
+}  // namespace
+
+FunctionCost cost_in_float(const Listing& listing) {
+  const Traffic count = traffic_of(listing, registers_of(listing, false));
+  return {statements_in_float(listing, count) + control_flow_in_float(listing, count), frame_in_float(listing, count)};
 }
 
 FunctionCost cost_in_double(const Listing& listing) {
-  const Traffic count = traffic_of(listing, 5);  // pairs of core registers
+  const Traffic count = traffic_of(listing, registers_of(listing, true));
+  return {statements_in_double(listing, count) + control_flow_in_double(listing, count),
+          aligned(frame_in_double(listing, count))};
+}
+
+FunctionCost cost_of_step(const Listing& step, const std::vector<Listing>& calls, bool is_double) {
+  const Traffic count = traffic_of(step, registers_of(step, is_double));
   FunctionCost cost;
-  cost.flash = 12 * count.operations +
-               (listing.is_fused ? 4 * count.operations + (is_full(listing, count) ? 2 : 6) * count.fused : 0) +
-               4 * count.constant_loads + 8 * count.pool + 5 * (count.loads + count.stores) +
-               2 * (count.reloads + count.spills) + control_flow_in_double(listing, count);
-  cost.stack = aligned(frame_in_double(listing, count));
+  cost.flash = is_double ? statements_in_double(step, count) : statements_in_float(step, count);
+  for (const Listing& call : calls)
+    cost.flash += control_flow(call, traffic_of(call, registers_of(call, is_double)), is_double);
+  cost.flash += (is_double ? 8 : instruction) * (step.read_again + step.written_before);
+  cost.flash += more_in_step(step, count, is_double, cost.flash);
+  cost.stack = is_double ? aligned(frame_in_double(step, count) + kept_in_step_in_double(step, count))
+                         : frame_in_float(step, count) + kept_in_step_in_float(step, count);
   return cost;
 }
 

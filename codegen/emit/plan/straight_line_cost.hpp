@@ -17,4 +17,7 @@ FunctionCost cost_in_float(const Listing& listing);
 // The C library computes doubles: each operation is a call.
 FunctionCost cost_in_double(const Listing& listing);
 
+// A step that is one text of what these calls do one by one.
+FunctionCost cost_of_step(const Listing& step, const std::vector<Listing>& calls, bool is_double);
+
 }  // namespace lqg::emit

@@ -95,6 +95,11 @@ std::vector<int> TracedFunction::results_before() const {
   return nodes;
 }
 
+trace::Printer printer_of(const TracedFunction& function) {
+  return function.before ? trace::Printer(*function.graph, function.results_before(), function.results())
+                         : trace::Printer(*function.graph, function.results());
+}
+
 bool is_same_for_all(const Eigen::VectorXd& values) { return (values.array() == values(0)).all(); }
 
 TracedFunction trace_weigh(const Controller& controller) {

@@ -44,6 +44,8 @@ struct TracedFunction {
   std::vector<int> results_before() const;
 };
 
+trace::Printer printer_of(const TracedFunction& function);
+
 struct TracedController {
   TracedFunction update, control, predict, step;
   std::vector<TracedFunction> updates_alone;
