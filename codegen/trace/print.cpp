@@ -278,8 +278,8 @@ std::string Printer::question(int node) const {
   const std::string name = name_of(node), call = at.text + ", " + print(at.b, any) + ", " + print(at.c, any) + ")";
   const std::string test = "reason == LQG_OK";
   const std::string answer = !graph_.target().is_prover ? "(" + test + ")"
-                                                        : "RESTATED(" + test + ", BELOW(" + print(at.b, any) + ", " +
-                                                              literal(at.value, true) + "))";
+                                                        : "(RESTATED(" + test + ", BELOW(" + print(at.b, any) + ", " +
+                                                              literal(at.value, true) + ")))";
   // A prover follows both answers from here on, but not those to the questions before: they would multiply.
   const std::string merge = graph_.target().is_prover ? "    /*@ slevel merge; */ ;\n" : "";
   // 1 or 0: of a bool GCC 12 makes two more instructions for each output.
@@ -351,7 +351,7 @@ std::string Printer::statements_of_rest(const std::vector<Store>& stores) const 
   std::string loads;
   for (int node = graph_.rest(); node < static_cast<int>(uses_.size()); ++node)
     if (is_read_late(node)) loads += declaration(node);
-  return printed(graph_.rest(), static_cast<int>(uses_.size()), stores, loads);
+  return printed(graph_.rest(), static_cast<int>(uses_.size()), stores, loads.empty() ? "" : "\n" + loads);
 }
 
 // The nodes from `from` on, before `to`.

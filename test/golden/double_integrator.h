@@ -454,7 +454,6 @@ static inline lqg_status_t double_integrator_step(double_integrator_t *self, con
         P_11_position = self->P[2];
     }
 
-
     /* u = −K x̂, within its limits */
     const float law_acceleration = -(589.38544f * x_position_position)
         - (68.209404f * x_speed_position);

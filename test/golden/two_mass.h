@@ -421,7 +421,6 @@ static inline lqg_status_t two_mass_step(two_mass_t *self, const float y[TWO_MAS
         posterior_v2 = self->x[3];
     }
 
-
     /* u = −K x̂ */
     const float law_force = -(2.4226158f * posterior_dy1) - (2.1417978f * posterior_v1)
         + (0.33327204f * posterior_dy2) - (1.9239638f * posterior_v2);

@@ -152,7 +152,7 @@ std::string up_to_rest(const Controller& controller, const Printed& printed) {
   out += "        status = " + recovery_of(controller, printed.function) + ";\n" + printed.printer.read_again(8);
   if (printed.resumes("gains["))
     out += fill("        gains = {NAME}_GAINS[{filter_row}];\n", common_words(controller));
-  return out + "    }\n" + (controller.target.is_prover ? "    /*@ slevel merge; */ ;\n" : "") + "\n";
+  return out + "    }\n" + (controller.target.is_prover ? "    /*@ slevel merge; */ ;\n" : "");
 }
 
 bool needs_self(const Printed& printed, const std::string& rows, const std::string& last) {

@@ -146,9 +146,22 @@ void test_step_makes_its_calls_in_the_order_of_the_form() {
   const std::string update = "loop_update(self, y);", control = "loop_control(self, u);",
                     predict = "loop_predict(self, u);";
   design.form = "filter";
-  expect_order(lqg::emit::header(controller_of(design)), {functions[4], update, control, predict});
+  expect_order(lqg::emit::header(controller_in(Style::compact, design)), {functions[4], update, control, predict});
   design.form = "predictor";
-  expect_order(lqg::emit::header(controller_of(design)), {functions[4], control, update, predict});
+  expect_order(lqg::emit::header(controller_in(Style::compact, design)), {functions[4], control, update, predict});
+}
+
+// Straight-line code has the text of the calls there, and where a bit may depend on the update's recovery it comes first.
+void test_step_is_one_text_in_the_order_of_the_form() {
+  DesignText design = double_integrator();
+  const std::string update = "/* x̂ ← x̂ + L innovation", recovery = "status = loop_reset(self, status);",
+                    read_again = "= self->x[0];", control = "/* u = −K x̂", predict = "/* x̂ ← A x̂ + B u";
+  design.form = "filter";
+  expect_order(lqg::emit::header(controller_in(Style::unrolled, design)),
+               {functions[4], update, recovery, read_again, control, predict, recovery});
+  design.form = "predictor";
+  expect_order(lqg::emit::header(controller_in(Style::unrolled, design)),
+               {functions[4], control, update, recovery, read_again, predict, recovery});
 }
 
 void test_what_a_controller_does_not_have_is_not_written() {
@@ -453,6 +466,7 @@ int main() {
   RUN_TEST(test_nothing_of_a_template_is_left_in_a_header);
   RUN_TEST(test_every_function_carries_its_contract);
   RUN_TEST(test_step_makes_its_calls_in_the_order_of_the_form);
+  RUN_TEST(test_step_is_one_text_in_the_order_of_the_form);
   RUN_TEST(test_what_a_controller_does_not_have_is_not_written);
   RUN_TEST(test_predictor_form_prints_the_gain_that_its_code_uses);
   RUN_TEST(test_the_gain_in_the_comment_is_that_of_the_design);
