@@ -125,7 +125,8 @@ auto advance(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>
 template <class S, class Listener>
 auto sample_expected(const LinearModel<S>& model, LinearState<S>& state, const Vector<S>& y, Vector<S>& u,
                      Listener& listener) {
-  listener.section(model.D.cols() ? "u = C z + D y" : "u = C z", -1, ";  sum_to_u_k = Σ u_i, i ≤ k, is finite where each u_i is");
+  listener.section(model.D.cols() ? "u = C z + D y" : "u = C z", -1,
+                   ";  sum_to_u_k = Σ u_i, i ≤ k, is finite where each u_i is");
   BoundsCheck<S> bounds;
   u.resize(model.C.rows());
   for (int i = 0; i < u.size(); ++i) {

@@ -48,6 +48,9 @@ struct Node {
   int section = 0;
 };
 
+// An input that is a parameter of the function: it has its name already.
+inline bool is_parameter(const Node& node) { return node.op == Op::input && node.name == node.text; }
+
 // What the target's numbers are: decides how constants fold.
 struct Target {
   bool is_double = false;

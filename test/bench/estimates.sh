@@ -10,8 +10,9 @@
 # each: stated, compiled, by how many per cent more was stated. Fails where less is stated than was compiled, or more
 # than 15 % and 24 bytes more: a frame grows by 8 bytes at once, and small ones are of 24.
 #
-# Flash is what the linker brings for init, update, control and predict, as in run.sh. Stack is the deepest reach of the
-# three below their caller along all calls that there are, taken or not: a reset is among them.
+# Flash is what the linker brings for init and step, as in run.sh. Stack is the deepest reach of step below its caller
+# along all calls that there are, taken or not: a reset is among them. In the compact style, whose step makes the calls
+# of a sample, both are of the calls alone.
 #
 # LQGEN names an lqgen that is there already; FOLDER is where all work is done, default build/estimates. Without the
 # compiler it says so and ends with status 0. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi.

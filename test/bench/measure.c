@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the controller in HEADER costs: instructions executed by each of its functions, and the stack that they use,
- * for the reference samples in VECTORS. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES says that it has
+/* What the controller in HEADER costs: instructions executed by each of its functions, for the reference samples in
+ * VECTORS, and the stack that step uses, with CALLS the functions that it calls. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES says that it has
  * no input. A controller that keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to
  * the first of them, or to the second with PREDICTS. */
 #include <math.h>
@@ -57,7 +57,7 @@ static int counts_right(void)
 
 /* ---- the samples ------------------------------------------------------------------------------------- */
 
-enum { UPDATE, CONTROL, PREDICT, FUNCTIONS };
+enum { UPDATE, CONTROL, PREDICT, STEP, FUNCTIONS };
 
 typedef struct {
     unsigned instructions[SAMPLES]; /* of the last run */
@@ -77,8 +77,32 @@ static void measure(record_t *record, unsigned sample, function *f, void *object
     record->most = larger(record->most, record->instructions[sample]);
 }
 
-/* All samples; output `left_out` is missing in every third, or none where there is no such output. */
-static void run(unsigned left_out)
+static void draw_outputs(REAL y[NY], unsigned sample, unsigned left_out)
+{
+    for (unsigned i = 0; i < NY; i++)
+        y[i] = i == left_out && sample % 3 == 1 ? (REAL)NAN : y_in[sample][i];
+}
+
+/* All samples by step, which applies what it asks for. */
+static void run_step(unsigned left_out)
+{
+    OF(t) self;
+    REAL y[NY];
+#ifdef ESTIMATES
+    REAL *const u = NULL;
+#else
+    REAL u[SIZE(NU)];
+#endif
+
+    OF(init)(&self);
+    for (unsigned k = 0; k < SAMPLES; k++) {
+        draw_outputs(y, k, left_out);
+        measure(&records[STEP], k, (function *)OF(step), &self, y, u);
+    }
+}
+
+/* All samples by the calls; output `left_out` is missing in every third, or none where there is no such output. */
+static void run_calls(unsigned left_out)
 {
     OF(t) self;
     REAL y[NY];
@@ -88,8 +112,7 @@ static void run(unsigned left_out)
 
     OF(init)(&self);
     for (unsigned k = 0; k < SAMPLES; k++) {
-        for (unsigned i = 0; i < NY; i++)
-            y[i] = i == left_out && k % 3 == 1 ? (REAL)NAN : y_in[k][i];
+        draw_outputs(y, k, left_out);
 #if defined PREDICTS
         measure(&records[CONTROL], k, (function *)OF(control), &self, u, NULL);
         measure(&records[PREDICT], k, (function *)OF(advance), &self, y, NULL);
@@ -109,22 +132,35 @@ static void run(unsigned left_out)
 
 /* ---- the report -------------------------------------------------------------------------------------- */
 
+static void run_all(void (*run)(unsigned left_out))
+{
+    for (unsigned left_out = 0; left_out < NY; left_out++)
+        run(left_out);
+    run(NY); /* the last, whose instructions stay in the records: the samples as they are */
+}
+
 int main(void)
 {
     start_counting();
     if (!counts_right())
         return 1;
+#ifdef CALLS
+    run_all(run_step);
     clear_stack();
-
-    for (unsigned left_out = 0; left_out < NY; left_out++)
-        run(left_out);
-    run(NY); /* the last, whose instructions stay in the records: the samples as they are */
+    run_all(run_calls);
+#else
+    run_all(run_calls);
+    clear_stack();
+    run_all(run_step);
+#endif
     print("update", median(records[UPDATE].instructions, SAMPLES));
     print("control", median(records[CONTROL].instructions, SAMPLES));
     print("predict", median(records[PREDICT].instructions, SAMPLES));
+    print("step", median(records[STEP].instructions, SAMPLES));
     print("most_update", records[UPDATE].most);
     print("most_control", records[CONTROL].most);
     print("most_predict", records[PREDICT].most);
+    print("most_step", records[STEP].most);
     print("stack", deepest_reach());
     print("ram", sizeof(OF(t)));
     return deepest_reach() == sizeof stack;

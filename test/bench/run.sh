@@ -22,8 +22,10 @@
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
 # library functions included. "most" is over the reference samples of the design's test and over the same with
 # each output in turn left out of every third sample, as NaN; the others are the median of the reference
-# samples. Stack is the deepest reach of update, control and predict below their caller, in bytes. Flash is what the
-# linker brings for init, update, control and predict: code, constants, library functions. What lqgen estimates, for a
+# samples. Step applies what it asks for: its samples
+# are others than those of the calls. Stack is the deepest reach of step below its caller, in bytes. Flash is what the
+# linker brings for init and step: code, constants, library functions. In the compact style, whose step makes the calls,
+# both are of the calls alone. What lqgen estimates, for a
 # Cortex-M4F, stands there in brackets.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
@@ -181,11 +183,12 @@ flash_of() {
 # add_row <made>, of which the caller has read the description.
 add_row() {
   local library variant=() names json=$1/$name.json estimated_flash='' estimated_stack=''
-  local update control predict most_update most_control most_predict stack ram
+  local update control predict step most_update most_control most_predict most_step stack ram
   [ "$real" = float ] || variant+=(-DLQG_REAL_DOUBLE)
   [ "$arithmetic" = plain ] || variant+=(-DLQG_FUSED)
   names=("-I$1" "-DHEADER=\"$name.h\"" '-DVECTORS="vectors.h"' "-DNAME=$name" "-DUPPER_NAME=${name^^}" "-DREAL=$real")
   [ -n "$has_input" ] || names+=(-DESTIMATES)
+  [ "$style" != compact ] || names+=(-DCALLS)
   [ -z "$keeps_z" ] || names+=(-DKEEPS_Z)
   [ -z "$predicts" ] || names+=(-DPREDICTS)
   find_library "$work/${real}_$arithmetic" "${variant[@]}"
@@ -198,7 +201,7 @@ add_row() {
     estimated_flash=" ($(json_value "$json" flash))" estimated_stack=" ($(json_value "$json" stack))"
   fi
   echo "| $title | $style | $real | $(json_value "$json" multiply_adds) | $update | $most_update |" \
-    "$control | $most_control | $predict | $most_predict |" \
+    "$control | $most_control | $predict | $most_predict | $step | $most_step |" \
     "$(flash_of "$work/footprint.elf")$estimated_flash | $ram | $stack$estimated_stack |"
 }
 
@@ -217,9 +220,9 @@ measure_core() {
   work=$folder/work/$core
   compile_once
   printf '## %s\n\n%s\n\n' "$core" "$(heading)"
-  echo "| design | style | real | multiply-adds | update | most | control | most | predict | most |" \
+  echo "| design | style | real | multiply-adds | update | most | control | most | predict | most | step | most |" \
     "flash | RAM | stack |"
-  echo "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+  echo "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
   for made in "${controllers[@]}"; do
     source "$made/description"
     if is_measured; then

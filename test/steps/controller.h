@@ -87,7 +87,7 @@ result_t FUNCTION_OF(NAME)(void)
         MEMBERS COUNTERS
 #undef HASH_MEMBER
 #undef COUNTER_MEMBER
-        result.differences += !same;
+            result.differences += !same;
         result.seen |= one;
         result.honest += one == LQG_OK;
     }

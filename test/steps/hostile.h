@@ -62,10 +62,14 @@ static inline REAL made_hostile(hostility_t *hostility, REAL value)
     static volatile const REAL zero = 0;
 
     switch (draw(hostility) % 24) {
-        case 0: return zero / zero;
-        case 1: return (value < 0 ? (REAL)-1 : (REAL)1) / zero;
-        case 2: return value * two_to((int)(draw(hostility) % 130));
-        default: return value;
+        case 0:
+            return zero / zero;
+        case 1:
+            return (value < 0 ? (REAL)-1 : (REAL)1) / zero;
+        case 2:
+            return value * two_to((int)(draw(hostility) % 130));
+        default:
+            return value;
     }
 }
 

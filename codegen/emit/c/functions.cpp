@@ -181,10 +181,10 @@ std::string step_function(const Controller& controller, const FunctionBodies& bo
                             : is_predictor ? "control, update, predict; assumes that the actuator applies u as it is"
                                            : "update, control, predict; assumes that the actuator applies u as it is";
   const bool is_one_text = !bodies.step.empty();
-  const std::string body = is_one_text ? bodies.step
-                                       : write_body(templates::step_calls, controller, {},
-                                                    {{"control_first", acts && is_predictor},
-                                                     {"control_second", acts && !is_predictor}});
+  const std::string body =
+      is_one_text ? bodies.step
+                  : write_body(templates::step_calls, controller, {},
+                               {{"control_first", acts && is_predictor}, {"control_second", acts && !is_predictor}});
   return write_function(templates::step, controller, {{"order", order}, {"body", body}},
                         {{"is_told_u", !acts && controller.size.nu},
                          {"is_one_text", is_one_text},

@@ -19,8 +19,7 @@ struct Printed {
   const TracedFunction& function;
   const trace::Printer printer;
 
-  explicit Printed(const TracedFunction& traced)
-      : function(traced), printer(printer_of(traced)) {}
+  explicit Printed(const TracedFunction& traced) : function(traced), printer(printer_of(traced)) {}
 
   // Whether an input is read whose expression begins like this.
   bool reads(const std::string& beginning) const {
@@ -150,8 +149,7 @@ std::string up_to_rest(const Controller& controller, const Printed& printed) {
          if_unsound(controller, test, before.faults);
   out += stored(printed, before.recovers);
   out += "        status = " + recovery_of(controller, printed.function) + ";\n" + printed.printer.read_again(8);
-  if (printed.resumes("gains["))
-    out += fill("        gains = {NAME}_GAINS[{filter_row}];\n", common_words(controller));
+  if (printed.resumes("gains[")) out += fill("        gains = {NAME}_GAINS[{filter_row}];\n", common_words(controller));
   return out + "    }\n" + (controller.target.is_prover ? "    /*@ slevel merge; */ ;\n" : "");
 }
 

@@ -36,7 +36,8 @@ Listing listing_of(const TracedFunction& function, const trace::Printer& printer
     listing.ends.insert(listing.ends.end(), before.statuses.begin(), before.statuses.end());
     listing.ends.push_back(before.finite);
     for (int i = function.graph->rest(); i < static_cast<int>(nodes.size()); ++i)
-      listing.read_again += nodes[static_cast<std::size_t>(i)].op == trace::Op::resumed && printer.needs(i) && !printer.is_read_late(i);
+      listing.read_again +=
+          nodes[static_cast<std::size_t>(i)].op == trace::Op::resumed && printer.needs(i) && !printer.is_read_late(i);
     listing.written_before += static_cast<long>(before.recovers.size());
   }
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
@@ -169,10 +170,12 @@ CodeCost cost_of_linear_form(const Controller& controller) {
   }
   cost.ram = state_bytes(controller);
   // NAME_step_fault, called last, keeps self and the status while it calls.
-  constexpr long stack_of_fault = 36, flash_of_fault = 24;
+  constexpr long stack_of_fault = 36, flash_of_fault = 48;
   const long fault = stack_of_fault + std::max({advance, control_fault, hear, beginning.stack});
   cost.stack = controller.target.is_double ? step + calls : std::max(step, fault);
   aside.flash += flash_of_fault;
+  aside.flash -= aside.flash / 8;                   // for size: they are cold
+  if (controller.is_predictor) aside.flash += 160;  // control and advance_fault
   cost.flash =
       with_margin(controller, cost.flash + aside.flash) + beginning.flash + bytes_of_software_floats(controller, false);
   return cost;
@@ -189,9 +192,10 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   // Kept for the integrals.
   const long heard = (controller.target.is_fused ? 8 : 4) * (controller.size.nxi + controller.size.nr);
   // It waits for what it calls: NAME_weigh, and in the middle NAME_reset or NAME_recover, which may call that.
-  const long step = controller.has.filter
-      ? add_step(cost, controller, traced.step, {&traced.update, &traced.control, &traced.predict}).stack + heard
-      : add_function(cost, controller, traced.control).stack;
+  const long step =
+      controller.has.filter
+          ? add_step(cost, controller, traced.step, {&traced.update, &traced.control, &traced.predict}).stack + heard
+          : add_function(cost, controller, traced.control).stack;
   cost.ram = state_bytes(controller);
   cost.stack = step + std::max(weigh + calls, recover + std::max(calls, beginning.stack));
   const auto entries = [&](const std::vector<Gains>& gains) {

@@ -16,13 +16,13 @@ struct Listing {
   const std::vector<trace::Node>& nodes;
   std::vector<bool> needed, declared;  // of each node: the results need it, it has a statement of its own
   std::vector<trace::Store> stores;
-  std::vector<int> ends;  // what is computed behind the last statement: statuses, tests
+  std::vector<int> ends;                    // what is computed behind the last statement: statuses, tests
   long read_again = 0, written_before = 0;  // a recovery in the middle: values behind and before it
   Carried carries = Carried::nothing;
   bool is_fused = false;
-  bool asks = false;             // it calls NAME_weigh, which may write to *self: all inputs are loaded before
-  bool answers = false;          // it is NAME_weigh …
-  bool is_alone = false;         // … of one output only
+  bool asks = false;      // it calls NAME_weigh, which may write to *self: all inputs are loaded before
+  bool answers = false;   // it is NAME_weigh …
+  bool is_alone = false;  // … of one output only
 };
 
 // Counts of a function, none of them in bytes.

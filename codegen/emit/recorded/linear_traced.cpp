@@ -83,7 +83,8 @@ TracedFunction trace_linear_sample(const Controller& controller) {
         store_all(into, "self->z", state.z);
         into.stores_if_sound = std::exchange(into.stores, std::move(stores));
       });
-  function.recovery = controller.problem.name + (keeps_outputs(controller) ? "_step_fault(self, u)" : "_step_fault(self, y, u)");
+  function.recovery =
+      controller.problem.name + (keeps_outputs(controller) ? "_step_fault(self, u)" : "_step_fault(self, y, u)");
   return function;
 }
 

@@ -27,8 +27,8 @@ struct TracedFunction {
   std::shared_ptr<trace::Graph> graph;
   std::vector<trace::Store> stores;
   std::vector<trace::Store> stores_if_sound;  // which wait for the test that all is finite
-  std::vector<int> statuses;       // joined by |
-  int finite = -1;                 // condition; −1: cannot become infinite
+  std::vector<int> statuses;                  // joined by |
+  int finite = -1;                            // condition; −1: cannot become infinite
   std::string recovery;            // the call that answers where it is not finite; empty: NAME_reset or NAME_recover
   std::string faults;              // a bit of the status with which it is not finite either
   bool checks_covariance = false;  // P may be at fault, not x̂: NAME_recover
