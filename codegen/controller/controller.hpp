@@ -65,12 +65,19 @@ struct Memory {
 // innovations if a gate needs them}.
 using Gains = std::vector<design::RealMatrix>;
 
-// What the emitted code costs. Multiply-adds and RAM are exact; flash and stack are estimates for a Cortex-M4F at -O2.
+struct CoreInstructions {
+  std::string core;  // by the name of its port: "cortex-m4f"
+  long instructions = 0;
+};
+
+// What the emitted code costs. Multiply-adds and RAM are exact; flash and stack are estimates for a Cortex-M4F at -O2,
+// so are the instructions for the cores that are named.
 struct CodeCost {
   long multiply_adds = 0;  // in one sample: update, control, predict; a lone add, multiply or division counts as one
   long ram = 0;            // bytes of the state
   long flash = 0;          // bytes of code and constants
   long stack = 0;          // bytes of the deepest function
+  std::vector<CoreInstructions> instructions;  // of an ordinary sample; empty where they are not estimated
 };
 
 // What each form that the design can have costs and loses, when it asks for another than the physical one.

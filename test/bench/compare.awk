@@ -1,5 +1,6 @@
 # awk -f compare.awk -v cores="rv32 rv64" record.md measured.md: what differs between two outputs of run.sh for these
-# cores. Fails where a figure has grown by more than 2 %, or where one of them has a row that the other has not.
+# cores. Fails where a figure has grown by more than 2 %, where one of them has a row that the other has not, or where
+# the instructions that lqgen states of a step are more than a fifth off.
 BEGIN {
     FS = " *[|] *"
     split(cores, list, " ")
@@ -24,8 +25,11 @@ BEGIN {
     } else {
         delete recorded[row]
         rows++
-        for (i = 5; i < NF; i++)
+        for (i = 5; i < NF; i++) {
             compare(row ": " title[i], figure[row, i], $i + 0)
+            if (title[i] == "step")
+                judge(row, $i)
+        }
     }
 }
 
@@ -43,6 +47,17 @@ END {
 function say(what) {
     print what
     differences++
+}
+
+# "123 (120)": counted, stated.
+function judge(row, text,    stated) {
+    if (text !~ /[(]/)
+        return
+    stated = substr(text, index(text, "(") + 1) + 0
+    if (stated > 1.2 * text || stated < 0.8 * text) {
+        say(row ": a step of " text + 0 " instructions, lqgen states " stated)
+        failed = 1
+    }
 }
 
 # What lqgen estimates stands behind a figure in brackets and does not count.

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What the controller in HEADER costs: instructions executed by each of its functions, for the reference samples in
- * VECTORS, and the stack that step uses, with CALLS the functions that it calls. NAME and UPPER_NAME are its names, REAL its scalar; ESTIMATES says that it has
- * no input. A controller that keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to
- * the first of them, or to the second with PREDICTS. */
+ * VECTORS, and the stack that step uses, with CALLS the functions that it calls. NAME and UPPER_NAME are its names, REAL
+ * its scalar; ESTIMATES says that it has no input, GATED that it has a gate with its `widening`. A controller that keeps
+ * z (KEEPS_Z) has control and advance, which count as control and predict; y goes to the first of them, or to the second
+ * with PREDICTS. */
 #include <math.h>
 #include <stdint.h>
 
@@ -83,7 +84,8 @@ static void draw_outputs(REAL y[NY], unsigned sample, unsigned left_out)
         y[i] = i == left_out && sample % 3 == 1 ? (REAL)NAN : y_in[sample][i];
 }
 
-/* All samples by step, which applies what it asks for. */
+/* All samples by step, which applies what it asks for. Where none is left out, a gate (GATED) is as narrow as after a
+ * while: as long as it is wide every output is weighed. */
 static void run_step(unsigned left_out)
 {
     OF(t) self;
@@ -97,6 +99,10 @@ static void run_step(unsigned left_out)
     OF(init)(&self);
     for (unsigned k = 0; k < SAMPLES; k++) {
         draw_outputs(y, k, left_out);
+#ifdef GATED
+        for (unsigned i = 0; i < NY && left_out == NY; i++)
+            self.widening[i] = 1;
+#endif
         measure(&records[STEP], k, (function *)OF(step), &self, y, u);
     }
 }

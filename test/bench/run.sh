@@ -22,11 +22,11 @@
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
 # library functions included. "most" is over the reference samples of the design's test and over the same with
 # each output in turn left out of every third sample, as NaN; the others are the median of the reference
-# samples. Step applies what it asks for: its samples
-# are others than those of the calls. Stack is the deepest reach of step below its caller, in bytes. Flash is what the
-# linker brings for init and step: code, constants, library functions. In the compact style, whose step makes the calls,
-# both are of the calls alone. What lqgen estimates, for a
-# Cortex-M4F, stands there in brackets.
+# samples. Step applies what it asks for, so that its samples are others than those of the calls; its median is that with
+# a gate as it is after a while. Stack is the deepest reach of step below its caller, in bytes. Flash is what the linker
+# brings for init and step: code, constants, library functions. In the compact style, whose step makes the calls, both
+# are of the calls alone. What lqgen estimates stands there in brackets: of step for each core, of flash and stack for a
+# Cortex-M4F.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 bench=$lqg_root/test/bench folder=${FOLDER:-$lqg_root/build/bench}
@@ -182,7 +182,7 @@ flash_of() {
 
 # add_row <made>, of which the caller has read the description.
 add_row() {
-  local library variant=() names json=$1/$name.json estimated_flash='' estimated_stack=''
+  local library variant=() names json=$1/$name.json estimated_flash='' estimated_stack='' stated
   local update control predict step most_update most_control most_predict most_step stack ram
   [ "$real" = float ] || variant+=(-DLQG_REAL_DOUBLE)
   [ "$arithmetic" = plain ] || variant+=(-DLQG_FUSED)
@@ -191,17 +191,19 @@ add_row() {
   [ "$style" != compact ] || names+=(-DCALLS)
   [ -z "$keeps_z" ] || names+=(-DKEEPS_Z)
   [ -z "$predicts" ] || names+=(-DPREDICTS)
+  ! grep -q ' widening\[' "$1/$name.h" || names+=(-DGATED)
   find_library "$work/${real}_$arithmetic" "${variant[@]}"
   link_controller footprint -Wl,-e,roots
   link_controller measure "$work/counter.o" "$work/startup.o"
   timeout 600 "${machine[@]}" "$work/measure.elf" >"$work/measured" ||
     lqg_stop "$core, $title, $style, $real: the measurement failed"
   source "$work/measured"
+  stated=$(json_value "$json" "$core")
   if [ "$core" = cortex-m4f ]; then
     estimated_flash=" ($(json_value "$json" flash))" estimated_stack=" ($(json_value "$json" stack))"
   fi
   echo "| $title | $style | $real | $(json_value "$json" multiply_adds) | $update | $most_update |" \
-    "$control | $most_control | $predict | $most_predict | $step | $most_step |" \
+    "$control | $most_control | $predict | $most_predict | $step${stated:+ ($stated)} | $most_step |" \
     "$(flash_of "$work/footprint.elf")$estimated_flash | $ram | $stack$estimated_stack |"
 }
 

@@ -6,6 +6,7 @@
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
 #include "controller/state_fields.hpp"
+#include "emit/plan/instructions.hpp"
 #include "emit/plan/library_cost.hpp"
 #include "emit/plan/sizes.hpp"
 #include "emit/plan/straight_line_cost.hpp"
@@ -76,7 +77,9 @@ FunctionCost add_step(CodeCost& cost, const Controller& controller, const Traced
   std::vector<Listing> listings;
   for (const TracedFunction* call : calls)
     if (call->graph) listings.push_back(listing_of(controller, *call));
-  const FunctionCost own = cost_of_step(listing_of(controller, step), listings, controller.target.is_double);
+  const Listing listing = listing_of(controller, step);
+  const FunctionCost own = cost_of_step(listing, listings, controller.target.is_double);
+  cost.instructions = instructions_of(listing, controller.target.is_double);
   cost.multiply_adds += printer_of(step).operations().total();
   cost.flash += own.flash;
   return own;
@@ -196,6 +199,8 @@ CodeCost cost_of_unrolled(const Controller& controller) {
       controller.has.filter
           ? add_step(cost, controller, traced.step, {&traced.update, &traced.control, &traced.predict}).stack + heard
           : add_function(cost, controller, traced.control).stack;
+  if (!controller.has.filter)
+    cost.instructions = instructions_of(listing_of(controller, traced.control), controller.target.is_double);
   cost.ram = state_bytes(controller);
   cost.stack = step + std::max(weigh + calls, recover + std::max(calls, beginning.stack));
   const auto entries = [&](const std::vector<Gains>& gains) {

@@ -98,6 +98,9 @@ std::vector<PageFigure> figures_of(const Controller& controller) {
   add(effort(controller));
   const CodeCost& cost = controller.cost;
   add(PageFigure{"Multiply-adds a sample", std::to_string(cost.multiply_adds)});
+  for (const auto& [core, instructions] : cost.instructions)
+    if (core == "cortex-m4f")
+      add(PageFigure{"Instructions a sample, Cortex-M4F", "about " + std::to_string(instructions)});
   add(slowest(controller));
   add(PageFigure{"RAM", std::to_string(cost.ram) + " bytes"});
   add(PageFigure{"Flash, at most", std::to_string(cost.flash) + " bytes",

@@ -243,6 +243,7 @@ Json code(const Controller& controller) {
               {"ram", controller.cost.ram},
               {"stack", controller.cost.stack},
               {"multiply_adds", controller.cost.multiply_adds}};
+  for (const auto& [core, instructions] : controller.cost.instructions) out["instructions"][core] = instructions;
   if (controller.forms) out["realisation"] = realisation(controller);
   return out;
 }

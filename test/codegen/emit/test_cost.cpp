@@ -8,6 +8,7 @@
 #include <unity.h>
 
 #include "design_text.hpp"
+#include "emit/plan/instructions.hpp"
 #include "emit/plan/registers.hpp"
 #include "trace/expr.hpp"
 
@@ -109,6 +110,50 @@ void test_shipped_designs_are_stated_as_they_were_compiled() {
   }
 }
 
+long instructions_on(const std::string& core, const std::vector<lqg::controller::CoreInstructions>& all) {
+  for (const auto& [name, instructions] : all)
+    if (name == core) return instructions;
+  return -1;
+}
+
+// y = a x: a library's multiplication and its input, by hand from the costs in instructions.cpp.
+void test_without_an_fpu_each_operation_is_a_call() {
+  Graph graph({});
+  const Recording recording(graph);
+  const Expr y = Expr(0.3) * input(graph, 0);
+  graph.name(y.node, "y");
+  const auto all = instructions_of(listing_of(graph, {{"y[0]", y.node}}, {y.node}), false);
+  TEST_ASSERT_EQUAL_INT(103 + 34, instructions_on("cortex-m0", all));
+  TEST_ASSERT_EQUAL_INT(21 + 17, instructions_on("cortex-m3", all));
+  TEST_ASSERT_TRUE(instructions_on("cortex-m4f", all) < instructions_on("cortex-m3", all));
+  TEST_ASSERT_EQUAL_INT(instructions_on("cortex-m4f", all), instructions_on("cortex-m33", all));
+}
+
+void test_doubles_are_calls_where_the_fpu_has_floats_only() {
+  Graph graph({true, false, false});
+  const Recording recording(graph);
+  const Expr y = Expr(0.3) * input(graph, 0);
+  graph.name(y.node, "y");
+  const auto all = instructions_of(listing_of(graph, {{"y[0]", y.node}}, {y.node}), true);
+  TEST_ASSERT_EQUAL_INT(37 + 45, instructions_on("cortex-m4f", all));
+  TEST_ASSERT_EQUAL_INT(180 + 121, instructions_on("rv32f", all));
+  TEST_ASSERT_TRUE(instructions_on("cortex-m7", all) < 37);
+  TEST_ASSERT_TRUE(instructions_on("rv64", all) < 37);
+}
+
+void test_fused_multiply_adds_are_not_stated_for_cores_without_them() {
+  Graph graph({false, true, false});
+  const Recording recording(graph);
+  const Expr y = Expr(0.3) * input(graph, 0);
+  graph.name(y.node, "y");
+  Listing listing = listing_of(graph, {{"y[0]", y.node}}, {y.node});
+  listing.is_fused = true;
+  const auto all = instructions_of(listing, false);
+  for (const char* core : {"cortex-m0", "cortex-m3", "rv32"}) TEST_ASSERT_EQUAL_INT(-1, instructions_on(core, all));
+  for (const char* core : {"cortex-m4f", "cortex-m7", "cortex-m33", "cortex-m55", "rv32f", "rv64"})
+    TEST_ASSERT_TRUE(instructions_on(core, all) > 0);
+}
+
 }  // namespace
 
 void setUp() {}
@@ -119,5 +164,8 @@ int main() {
   RUN_TEST(test_a_sum_of_products);
   RUN_TEST(test_values_that_find_no_register_are_spilled);
   RUN_TEST(test_shipped_designs_are_stated_as_they_were_compiled);
+  RUN_TEST(test_without_an_fpu_each_operation_is_a_call);
+  RUN_TEST(test_doubles_are_calls_where_the_fpu_has_floats_only);
+  RUN_TEST(test_fused_multiply_adds_are_not_stated_for_cores_without_them);
   return UNITY_END();
 }
