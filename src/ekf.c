@@ -137,7 +137,7 @@ lqg_status_t lqg_ekf_predict(const lqg_ekf_t *ekf, lqg_ekf_state_t *state, const
     lqg_begin(A, NULL, nx * nx);
     ekf->f(ekf->context, next, A, state->x, u);
     copy(state->x, next, nx);
-    lqg_factors_predict(state->U, state->d, nx, A, ekf->nw, ekf->G, ekf->W, scratch);
+    lqg_factors_predict(state->U, state->d, nx, A, NULL, ekf->nw, ekf->G, ekf->W, scratch);
 
     return recover(ekf, state, 1);
 }

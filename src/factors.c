@@ -63,14 +63,37 @@ lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[
     return inverse;
 }
 
+/* T_i = A_i U of a row that has `entries` in `columns`. */
+static void add_sparse_row(const lqg_real U[], unsigned nx, const lqg_real a[], const unsigned char columns[],
+                           unsigned entries, lqg_real T_i[])
+{
+    LQG_STRICT_BODY
+    lqg_begin(T_i, NULL, nx);
+    for (unsigned n = 0; n < entries; n++)
+        T_i[columns[n]] = a[n];
+    for (unsigned n = 0; n < entries; n++) {
+        const unsigned k = columns[n];
+        for (unsigned j = k + 1; j < nx; j++)
+            T_i[j] = multiply_add(a[n], U[LQG_STRICT_TRIANGLE(j) + k], T_i[j]);
+    }
+}
+
 /* T = [A U | G], nx × (nx + nw): with the weights [d | W] of its columns, A P Aᵀ + G diag(W) Gᵀ = T
  * diag(weight) Tᵀ. */
-static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], unsigned nw, const lqg_real G[],
-                          lqg_real T[])
+static void stack_factors(const lqg_real U[], unsigned nx, const lqg_real A[], const unsigned char pattern[],
+                          unsigned nw, const lqg_real G[], lqg_real T[])
 {
     for (unsigned i = 0; i < nx; i++) {
-        for (unsigned j = 0; j < nx; j++)
-            *T++ = row_times_U(A + i * nx, U, j);
+        if (pattern) {
+            add_sparse_row(U, nx, A, pattern + 1, *pattern, T);
+            A += *pattern;
+            pattern += 1 + *pattern;
+        } else {
+            for (unsigned j = 0; j < nx; j++)
+                T[j] = row_times_U(A, U, j);
+            A += nx;
+        }
+        T += nx;
         for (unsigned q = 0; q < nw; q++)
             *T++ = G[i * nw + q];
     }
@@ -104,13 +127,13 @@ static void orthogonalise(lqg_real U[], lqg_real d[], unsigned rows, unsigned co
     }
 }
 
-void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw, const lqg_real G[],
-                         const lqg_real W[], lqg_real work[])
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], const unsigned char pattern[],
+                         unsigned nw, const lqg_real G[], const lqg_real W[], lqg_real work[])
 {
     const unsigned columns = nx + nw;
     lqg_real *weight = work, *v = work + columns, *T = work + 2 * columns;
 
-    stack_factors(U, nx, A, nw, G, T);
+    stack_factors(U, nx, A, pattern, nw, G, T);
     copy(weight, d, nx);
     copy(weight + nx, W, nw);
     orthogonalise(U, d, nx, columns, T, weight, v);

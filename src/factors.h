@@ -23,9 +23,10 @@ lqg_real lqg_factors_variance(const lqg_real d[], unsigned nx, const lqg_real f[
  * is, to the bit. Returns 1/s, s = c P cᵀ + V; f becomes P cᵀ of the prior P: the gain is f/s. */
 lqg_real lqg_factors_update(lqg_real U[], lqg_real d[], unsigned nx, lqg_real f[], lqg_real V);
 
-/* U diag(d) Uᵀ ← A U diag(d) Uᵀ Aᵀ + G diag(W) Gᵀ, G nx × nw (Thornton). Scratch: work[(nx + 2)(nx + nw)]. */
-void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], unsigned nw, const lqg_real G[],
-                         const lqg_real W[], lqg_real work[]);
+/* U diag(d) Uᵀ ← A U diag(d) Uᵀ Aᵀ + G diag(W) Gᵀ, G nx × nw (Thornton). A is nx × nx, or what `pattern` says of it.
+ * Scratch: work[(nx + 2)(nx + nw)]. */
+void lqg_factors_predict(lqg_real U[], lqg_real d[], unsigned nx, const lqg_real A[], const unsigned char pattern[],
+                         unsigned nw, const lqg_real G[], const lqg_real W[], lqg_real work[]);
 
 LQG_STRICT_BEGIN
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The Kalman filter that keeps the covariance P of its error, as a lower triangle. */
 #include "bounds_check.h"
+#include "covariance.h"
 #include "gate.h"
 #include "kernel.h"
 #include "plant.h"
@@ -62,20 +63,6 @@ static lqg_status_t recover_from_update(const lqg_kalman_plain_t *kalman, lqg_ka
     return status | recover(kalman, state, is_within_bounds(&check), P_is_fit);
 }
 
-/* Σ_k P_jk v_k: along row j of the triangle as far as the diagonal, then down column j. */
-static lqg_real symmetric_row_product(const lqg_real P[], unsigned j, unsigned nx, const lqg_real v[])
-{
-    LQG_STRICT_BODY
-    lqg_real sum = 0;
-    unsigned at = LQG_TRIANGLE(j);
-
-    for (unsigned k = 0; k < nx; k++) {
-        sum = multiply_add(P[at], v[k], sum);
-        at += k < j ? 1 : k + 1;
-    }
-    return sum;
-}
-
 /* Takes output i, y_i, into x̂ and P, or leaves it out and says why. */
 static lqg_status_t update_output(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_state_t *state, unsigned i,
                                   lqg_real y_i, const gatekeeper_t *keeper)
@@ -86,8 +73,7 @@ static lqg_status_t update_output(const lqg_kalman_plain_t *kalman, lqg_kalman_p
     lqg_real *x = state->x, *P = state->P, *f = state->work;
 
     /* f = P cᵀ,  s = c P cᵀ + V_i */
-    for (unsigned j = 0; j < nx; j++)
-        f[j] = symmetric_row_product(P, j, nx, c);
+    lqg_covariance_project(P, nx, c, f);
     const lqg_real s = add_row_product(kalman->V[i], c, 0, nx, f);
 
     const lqg_real measured = lqg_plant_innovation(&kalman->plant, i, x, state->u_applied, y_i);
@@ -101,13 +87,7 @@ static lqg_status_t update_output(const lqg_kalman_plain_t *kalman, lqg_kalman_p
     const lqg_real correction = usable ? innovation : 0;
     const lqg_real inverse = usable ? 1 / s : 0;
 
-    /* gain = f / s,  x̂ ← x̂ + gain innovation,  P ← P − gain fᵀ */
-    for (unsigned j = 0; j < nx; j++) {
-        const lqg_real gain = f[j] * inverse;
-        x[j] = multiply_add(gain, correction, x[j]);
-        for (unsigned l = 0; l <= j; l++)
-            P[LQG_TRIANGLE(j) + l] = multiply_subtract(gain, f[l], P[LQG_TRIANGLE(j) + l]);
-    }
+    lqg_covariance_correct(P, x, nx, f, inverse, correction); /* with gain = f / s */
     return left_out ? left_out : gated;
 }
 
@@ -162,21 +142,6 @@ lqg_status_t lqg_kalman_plain_update_output(const lqg_kalman_plain_t *kalman, lq
     return recover_from_update(kalman, state, left_out);
 }
 
-/* P ← A P Aᵀ + W. AP[nx × nx] is scratch. */
-static void predict_covariance(const lqg_kalman_plain_t *kalman, lqg_real P[], lqg_real AP[])
-{
-    const unsigned nx = kalman->plant.nx;
-    const lqg_real *A = kalman->M ? kalman->A_free : kalman->plant.A;
-
-    for (unsigned i = 0; i < nx; i++)
-        for (unsigned j = 0; j < nx; j++)
-            AP[i * nx + j] = symmetric_row_product(P, j, nx, A + i * nx);
-
-    for (unsigned i = 0; i < nx; i++)
-        for (unsigned j = 0; j <= i; j++)
-            P[LQG_TRIANGLE(i) + j] = add_row_product(kalman->W[LQG_TRIANGLE(i) + j], AP, i, nx, A + j * nx);
-}
-
 lqg_status_t lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_kalman_plain_state_t *state,
                                       const lqg_real u[])
 {
@@ -185,7 +150,8 @@ lqg_status_t lqg_kalman_plain_predict(const lqg_kalman_plain_t *kalman, lqg_kalm
     bounds_check_t check = {0, 0, 0};
 
     lqg_plant_predict(&kalman->plant, kalman->M, state->x, state->u_applied, state->innovation, u, state->work);
-    predict_covariance(kalman, state->P, state->work);
+    lqg_covariance_predict(state->P, kalman->plant.nx, kalman->M ? kalman->A_free : kalman->plant.A,
+                           kalman->plant.pattern, kalman->W, state->work);
 
     lqg_bounds_check_add(&check, state->x, kalman->x_scale, kalman->plant.nx);
     const int x_is_fit = is_within_bounds(&check);

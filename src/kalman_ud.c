@@ -145,7 +145,8 @@ lqg_status_t lqg_kalman_ud_predict(const lqg_kalman_ud_t *kalman, lqg_kalman_ud_
     bounds_check_t check = {0, 0, 0};
 
     lqg_plant_predict(&kalman->plant, kalman->M, state->x, state->u_applied, state->innovation, u, state->work);
-    lqg_factors_predict(state->U, state->d, nx, A, kalman->nw, kalman->G, kalman->W, state->work);
+    lqg_factors_predict(state->U, state->d, nx, A, kalman->plant.pattern, kalman->nw, kalman->G, kalman->W,
+                        state->work);
 
     lqg_bounds_check_add(&check, state->x, kalman->x_scale, nx);
     const int x_is_fit = is_within_bounds(&check);

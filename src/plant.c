@@ -51,13 +51,29 @@ void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], cons
     }
 }
 
+/* Σ_j A_ij x_j of a row of which `pattern` says where it is not zero. */
+static lqg_real add_sparse_product(const lqg_real A[], const unsigned char pattern[], const lqg_real x[])
+{
+    LQG_STRICT_BODY
+    const unsigned char *end = next_row(pattern);
+    lqg_real sum = 0;
+
+    for (const unsigned char *column = pattern + 1; column != end; column++)
+        sum = multiply_add(*A++, x[*column], sum);
+    return sum;
+}
+
 void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[], lqg_real u_applied[],
                        lqg_real innovation[], const lqg_real u[], lqg_real work[])
 {
     const unsigned nx = plant->nx, nu = plant->nu, ny = plant->ny;
+    const lqg_real *A = plant->A;
+    const unsigned char *pattern = plant->pattern;
 
     for (unsigned i = 0; i < nx; i++) {
-        lqg_real next = add_row_product(0, plant->A, i, nx, x);
+        lqg_real next = pattern ? add_sparse_product(A, pattern, x) : add_row_product(0, A, 0, nx, x);
+        A += pattern ? *pattern : nx;
+        pattern = pattern ? next_row(pattern) : NULL;
         next = add_row_product(next, plant->B, i, nu, u);
         work[i] = M ? add_row_product(next, M, i, ny, innovation) : next;
     }

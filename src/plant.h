@@ -37,6 +37,12 @@ void lqg_plant_keep_residuals(const lqg_plant_t *plant, const lqg_real x[], cons
 void lqg_plant_predict(const lqg_plant_t *plant, const lqg_real M[], lqg_real x[], lqg_real u_applied[],
                        lqg_real innovation[], const lqg_real u[], lqg_real work[]);
 
+/* Where the next row begins in a pattern. */
+static inline const unsigned char *next_row(const unsigned char *row)
+{
+    return row + 1 + row[0];
+}
+
 /* What a caller MUST give of a plant and of what a filter remembers: nothing, unless LQG_ASSERT checks it. */
 static inline void check_plant(const lqg_plant_t *plant, const lqg_real x[], const lqg_real u_applied[])
 {
@@ -45,6 +51,7 @@ static inline void check_plant(const lqg_plant_t *plant, const lqg_real x[], con
     (void)u_applied;
     LQG_ASSERT(plant->nx >= 1 && plant->ny >= 1);
     LQG_ASSERT(plant->A && plant->C && (plant->B || !plant->nu));
+    LQG_ASSERT(!plant->pattern || (plant->nx >= 4 && plant->nx <= 255));
     LQG_ASSERT(x && (u_applied || !plant->D || !plant->nu));
 }
 

@@ -93,6 +93,10 @@ struct FormChoice {
   std::optional<FormCost> folded, modal;
 };
 
+// What straight-line code of a filter that carries P has once, and not again and again: nothing, the functions over P
+// that all outputs need, or also those over A, which run over the columns of P.
+enum class Sharing { nothing, outputs, columns };
+
 struct Controller {
   design::Problem problem;
   design::Solution solution;
@@ -116,6 +120,7 @@ struct Controller {
   std::optional<design::LinearForm> linear;       // the controller keeps z of this form; else it keeps x̂
   std::optional<FormChoice> forms;                // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic
+  Sharing sharing = Sharing::nothing;             // of straight-line code
   CodeCost cost;
 };
 

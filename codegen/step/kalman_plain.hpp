@@ -6,20 +6,33 @@
 
 namespace lqg::step {
 
-// S = C P Cᵀ + V, L = P Cᵀ / S, x̂ ← x̂ + L(y − C x̂ − D u), P ← P − L C P for output i; true if it was used.
+// cov(x̂, y_i) = P C_iᵀ
 template <class S, class Listener>
-auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  const int nx = model.nx;
+Vector<S> covariance_with_output(const Model<S>& model, const State<S>& state, int i, Listener& listener) {
   listener.section("cov(x̂, y) = P Cᵀ,  S = C P Cᵀ + V", i);
-  Vector<S> f(nx);
-  for (int j = 0; j < nx; ++j) {
+  Vector<S> f(model.nx);
+  for (int j = 0; j < model.nx; ++j) {
     S sum = state.P[triangle(j, 0)] * model.C(i, 0);
-    for (int k = 1; k < nx; ++k) sum = multiply_add(S(state.P[triangle(j, k)]), S(model.C(i, k)), sum);
+    for (int k = 1; k < model.nx; ++k) sum = multiply_add(S(state.P[triangle(j, k)]), S(model.C(i, k)), sum);
     listener.name(sum, "cov", of_state(j));
     f(j) = sum;
   }
+  return f;
+}
+
+// 1/S and the innovation, 0 where output i is left out.
+template <class S>
+struct PlainCorrection {
+  using Condition = decltype(is_less(S(), S()));
+  Condition usable;
+  S reciprocal, innovation;
+};
+
+template <class S, class Listener>
+PlainCorrection<S> plain_correction(const Model<S>& model, State<S>& state, const Vector<S>& f, const S& y, int i,
+                                    Listener& listener) {
   S variance = model.V(i);
-  for (int k = 0; k < nx; ++k) variance = multiply_add(S(model.C(i, k)), S(f(k)), variance);
+  for (int k = 0; k < model.nx; ++k) variance = multiply_add(S(model.C(i, k)), S(f(k)), variance);
   listener.name(variance, "variance");
 
   listener.section(model.D.cols() ? "innovation = y − C x̂ − D u; a gain of 0 leaves the output out"
@@ -32,20 +45,56 @@ auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int
   listener.name(reciprocal, "reciprocal");
   innovation = select(usable, innovation, S(0));
   listener.name(innovation, "innovation");
+  return {usable, reciprocal, innovation};
+}
 
-  listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ", i);
-  for (int j = nx - 1; j >= 0; --j) {  // from the last row up: few P Cᵀ outlive the entry of P that they may be
-    S gain = f(j) * reciprocal;
-    listener.name(gain, "gain", of_state(j));
-    state.x(j) = multiply_add(gain, innovation, S(state.x(j)));
-    listener.name(state.x(j), "x", of_state(j));
-    for (int l = j; l >= 0; --l) {
-      S& entry = state.P[triangle(j, l)];
-      entry = multiply_subtract(gain, S(f(l)), entry);
-      listener.name(entry, "P", of_entry(j, l));
-    }
+// L_j = cov(x̂_j, y)/S
+template <class S, class Listener>
+S plain_gain(const Vector<S>& f, const S& reciprocal, int j, Listener& listener) {
+  S gain = f(j) * reciprocal;
+  listener.name(gain, "gain", of_state(j));
+  return gain;
+}
+
+template <class S, class Listener>
+void correct_state(State<S>& state, const S& gain, const S& innovation, int j, Listener& listener) {
+  state.x(j) = multiply_add(gain, innovation, S(state.x(j)));
+  listener.name(state.x(j), "x", of_state(j));
+}
+
+// Row j of P ← P − L (P Cᵀ)ᵀ
+template <class S, class Listener>
+void correct_covariance_row(State<S>& state, const S& gain, const Vector<S>& f, int j, Listener& listener) {
+  for (int l = j; l >= 0; --l) {
+    S& entry = state.P[triangle(j, l)];
+    entry = multiply_subtract(gain, S(f(l)), entry);
+    listener.name(entry, "P", of_entry(j, l));
   }
-  return usable;
+}
+
+// S = C P Cᵀ + V, L = P Cᵀ / S, x̂ ← x̂ + L(y − C x̂ − D u), P ← P − L C P for output i; true if it was used.
+template <class S, class Listener>
+auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
+  const Vector<S> f = covariance_with_output(model, state, i, listener);
+  const PlainCorrection<S> correction = plain_correction(model, state, f, y, i, listener);
+  listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ", i);
+  for (int j = model.nx - 1; j >= 0; --j) {  // from the last row up: few P Cᵀ outlive the entry of P that they may be
+    const S gain = plain_gain(f, correction.reciprocal, j, listener);
+    correct_state(state, gain, correction.innovation, j, listener);
+    correct_covariance_row(state, gain, f, j, listener);
+  }
+  return correction.usable;
+}
+
+// The same of x̂ alone, of a cov(x̂, y) that is there: what P is corrected with is left to the caller.
+template <class S, class Listener>
+S update_plain_state(const Model<S>& model, State<S>& state, const Vector<S>& f, const S& y, int i,
+                     Listener& listener) {
+  const PlainCorrection<S> correction = plain_correction(model, state, f, y, i, listener);
+  listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation", i);
+  for (int j = 0; j < model.nx; ++j)
+    correct_state(state, plain_gain(f, correction.reciprocal, j, listener), correction.innovation, j, listener);
+  return correction.reciprocal;
 }
 
 // P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.
@@ -71,6 +120,17 @@ void predict_plain_covariance(const Model<S>& model, State<S>& state, BoundsChec
     }
   }
   state.P = next;
+}
+
+// x̂ ← A x̂ + B u where P has been predicted before.
+template <class S, class Listener>
+auto predict_plain_state(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
+  BoundsCheck<S> bounds;
+  predict_state(model, state, u, bounds, listener);
+  listener.section("the variances P_kk;  squares_to_P_kk adds P_kk");
+  for (int i = 0; i < model.nx; ++i)
+    bounds.add_variance(S(state.P[triangle(i, i)]), model.x_bound, of_entry(i, i, "P"), listener);
+  return bounds.is_within();
 }
 
 template <class S, class Listener>

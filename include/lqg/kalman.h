@@ -65,6 +65,11 @@ typedef struct {
     const lqg_real *B;  /* nx × nu; NULL when nu is 0 */
     const lqg_real *C;  /* ny × nx */
     const lqg_real *D;  /* ny × nu; NULL: 0 */
+
+    /* NULL: A has all its entries. Else A is only those that may differ from 0, row by row, for nx from 4 to 255: of
+     * each row their number, then their columns, ascending. The same holds for an A_free. Products with the others are
+     * left out, as in straight-line code. */
+    const unsigned char *pattern;
 } lqg_plant_t;
 
 /* ------------------------------------------------------------------------------------------- gate and watch */
@@ -216,7 +221,7 @@ typedef struct {
 #define LQG_KALMAN_PLAIN_STATE(state, nx, nu, ny)                                                                    \
     static lqg_real state##_memory[LQG_KALMAN_PLAIN_MEMORY(nx, nu, ny)];                                             \
     static lqg_kalman_plain_state_t state = LQG_KALMAN_PLAIN_STATE_IN(state##_memory, nx, nu, ny)
-#define LQG_KALMAN_PLAIN_WORK(nx, ny) LQG_LARGER((nx) * (nx), (nx) + (ny))
+#define LQG_KALMAN_PLAIN_WORK(nx, ny) LQG_LARGER((nx) * (nx) + 4 * (nx), (nx) + (ny))
 #define LQG_KALMAN_PLAIN_MEMORY(nx, nu, ny)                                                                          \
     ((nx) + LQG_TRIANGLE(nx) + (nu) + 2 * (ny) + LQG_KALMAN_PLAIN_WORK(nx, ny))
 #define LQG_KALMAN_PLAIN_STATE_IN(memory, nx, nu, ny)                                                                \

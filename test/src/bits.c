@@ -25,7 +25,7 @@ static const lqg_real K[3] = {0.31f, 0.17f, -0.23f}, u_min[1] = {-0.9f}, u_max[1
 
 static const lqg_real scale[3] = {1 / 1024.0f, 1 / 4096.0f, 1 / 1024.0f}, limit[2] = {1024, 1024};
 
-#define PLANT {NX, NU, NY, A, B, C, D}
+#define PLANT {NX, NU, NY, A, B, C, D, NULL}
 #define REGULATOR {NX, NU, K, u_min, u_max}
 static const lqg_loop_steady_t steady = {{PLANT, L, M, x0, scale, limit, NULL, NULL}, REGULATOR, LQG_FILTER_FORM};
 static const lqg_loop_plain_t plain = {

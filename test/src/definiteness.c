@@ -168,7 +168,7 @@ LQG_KALMAN_UD_STATE(ud_state, MAX_NX, 0, MAX_NY, MAX_NX);
 /* Joseph's update has plain's prediction. */
 static int loses_P(const design_t *design, int joseph)
 {
-    const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL};
+    const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL, NULL};
     const lqg_kalman_plain_t kalman = {plant, NULL,       design->V, design->W, NULL, NULL,
                                        NULL,  design->P0, NULL,      NULL,      NULL};
     const lqg_real y[MAX_NY] = {0};
@@ -191,7 +191,7 @@ static int loses_P(const design_t *design, int joseph)
 
 static int loses_factors(const design_t *design)
 {
-    const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL};
+    const lqg_plant_t plant = {design->nx, 0, design->ny, design->A, NULL, design->C, NULL, NULL};
     const lqg_kalman_ud_t kalman = {plant, NULL, design->V,  design->nw, design->G, design->w, NULL,
                                     NULL,  NULL, design->U0, design->d0, NULL,      NULL,      NULL};
     const lqg_real y[MAX_NY] = {0};

@@ -189,7 +189,7 @@ void prepare_online(const model_t *model, online_t *to)
 
     const int crossed = any_nonzero(model->S, nx * ny);
     const lqg_plant_t plant = {
-        nx, nu, ny, to->A, nu ? to->B : NULL, to->C, any_nonzero(model->D, ny * nu) ? to->D : NULL};
+        nx, nu, ny, to->A, nu ? to->B : NULL, to->C, any_nonzero(model->D, ny * nu) ? to->D : NULL, NULL};
     const lqg_real *E_or_none = ny > 1 && model->V[1] != 0 ? to->E : NULL;
     const lqg_real *M_or_none = crossed ? to->M : NULL, *A_free_or_none = crossed ? to->A_free : NULL;
 

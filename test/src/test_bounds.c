@@ -14,7 +14,7 @@ static const lqg_real identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, L[9] = {0.5f, 0
 static const lqg_real one[3] = {1, 1, 1}, none[6] = {0}, P0[6] = {1, 0, 1, 0, 0, 1}, x0[3] = {1, 2, 0.5f};
 static const lqg_real bound[3] = {16, 64, 4}, scale[3] = {1 / 16.0f, 1 / 64.0f, 0.25f}, limit[3] = {8, 2, 32};
 
-#define PLANT {NX, NX, NX, identity, identity, identity, NULL}
+#define PLANT {NX, NX, NX, identity, identity, identity, NULL, NULL}
 static lqg_kalman_steady_t steady = {PLANT, L, NULL, x0, scale, limit, NULL, NULL};
 static lqg_kalman_plain_t plain = {PLANT, NULL, one, none, NULL, NULL, x0, P0, scale, limit, NULL};
 static lqg_kalman_ud_t ud = {PLANT, NULL, one, 0, NULL, NULL, NULL, NULL, x0, none, one, scale, limit, NULL};

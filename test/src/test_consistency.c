@@ -170,7 +170,7 @@ static double log_likelihood(lqg_real q)
     const lqg_real one[1] = {1}, x0[1] = {nile[0]};
     const lqg_real P0[1] = {1 + q}; /* of the second year, given the first: x̂ = y, P = V */
     const lqg_kalman_ud_t kalman = {
-        {1, 0, 1, one, NULL, one, NULL}, NULL, one, 1, one, &q, NULL, NULL, x0, NULL, P0, NULL, NULL, NULL};
+        {1, 0, 1, one, NULL, one, NULL, NULL}, NULL, one, 1, one, &q, NULL, NULL, x0, NULL, P0, NULL, NULL, NULL};
     lqg_real innovation[1], S[1];
     const lqg_watch_t watch = {innovation, S, NULL};
     LQG_KALMAN_UD_STATE(level, 1, 0, 1, 1);

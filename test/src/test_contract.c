@@ -46,7 +46,7 @@ static const lqg_real y[2] = {1, 2}, u_given[1] = {1}, phi[2] = {1, 1};
 static const unsigned index_of[1] = {0};
 static lqg_real u[1];
 
-#define PLANT {NX, NU, NY, A, B, C, D}
+#define PLANT {NX, NU, NY, A, B, C, D, NULL}
 static const lqg_gate_t gate = {3, NULL, widen, widen};
 static const lqg_kalman_steady_t steady_kept = {PLANT, L, M, NULL, NULL, NULL, &gate, V};
 static const lqg_kalman_plain_t plain_kept = {PLANT, NULL, V, W, M, A, NULL, P0, NULL, NULL, &gate};

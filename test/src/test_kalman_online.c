@@ -167,7 +167,7 @@ static void test_ud_keeps_P_positive_where_plain_loses_it(void)
     const lqg_real epsilon = (lqg_real)(sizeof(lqg_real) == sizeof(float) ? 0x1p-9 : 0x1p-23);
     const lqg_real V = EPSILON * EPSILON, V2[2] = {V, V}, C[4] = {1, 1, 1, 1 + epsilon}, A[4] = {1, 0, 0, 1};
     const lqg_real zero[4] = {0}, one[2] = {1, 1}, P0[3] = {1, 0, 1}, y[2] = {0};
-    const lqg_plant_t plant = {2, 0, 2, A, NULL, C, NULL};
+    const lqg_plant_t plant = {2, 0, 2, A, NULL, C, NULL, NULL};
     const lqg_kalman_plain_t plain = {plant, NULL, V2, zero, NULL, NULL, NULL, P0, NULL, NULL, NULL};
     const lqg_kalman_ud_t ud = {plant, NULL, V2, 0, NULL, NULL, NULL, NULL, NULL, zero, one, NULL, NULL, NULL};
     state_t s;
@@ -193,7 +193,7 @@ static void test_ud_goes_on_when_the_variance_of_a_state_dies_out(void)
     const lqg_real A[4] = {1, 0, 0, 0.5f}, C[2] = {1, 1}, V[1] = {1}, G[2] = {1, 0}, W[1] = {0.5f};
     const lqg_real U0[1] = {0}, d0[2] = {1, 1}, y[1] = {1};
     const lqg_kalman_ud_t kalman = {
-        {2, 0, 1, A, NULL, C, NULL}, NULL, V, 1, G, W, NULL, NULL, NULL, U0, d0, NULL, NULL, NULL};
+        {2, 0, 1, A, NULL, C, NULL, NULL}, NULL, V, 1, G, W, NULL, NULL, NULL, U0, d0, NULL, NULL, NULL};
     state_t s;
 
     ud_init(&kalman, &s);
@@ -226,7 +226,7 @@ static void test_E_mixes_each_output_with_those_before_it(void)
     static const lqg_real one[1] = {1}, C[3] = {1, 2, 0.5f}, V[3] = {1, 2, 4};
     static const lqg_real E[9] = {1, 0, 0, 0.5f, 1, 0, 0.25f, -2, 1};
     const lqg_real y[3] = {3, -1, 8}, mixed[3] = {3, 0.5f, 10.75f};
-    const lqg_kalman_ud_t with = {.plant = {1, 0, 3, one, NULL, C, NULL}, .E = E, .V = V, .d0 = one};
+    const lqg_kalman_ud_t with = {.plant = {1, 0, 3, one, NULL, C, NULL, NULL}, .E = E, .V = V, .d0 = one};
     lqg_kalman_ud_t without = with;
     LQG_KALMAN_UD_STATE(one_by_E, 1, 0, 3, 0);
     LQG_KALMAN_UD_STATE(one_by_hand, 1, 0, 3, 0);
@@ -246,7 +246,7 @@ static void test_variance_too_small_to_divide_by_is_that_of_a_state_by_itself(vo
     static const lqg_real d0[2] = {1, 0}, U0[1] = {0};
     const lqg_real tiny = (sizeof(lqg_real) == sizeof(float) ? (lqg_real)FLT_MIN : (lqg_real)DBL_MIN) / 16;
     const lqg_kalman_ud_t kalman = {
-        .plant = {2, 0, 1, identity, NULL, C, NULL}, .V = V, .nw = 1, .G = G, .W = &tiny, .U0 = U0, .d0 = d0};
+        .plant = {2, 0, 1, identity, NULL, C, NULL, NULL}, .V = V, .nw = 1, .G = G, .W = &tiny, .U0 = U0, .d0 = d0};
     state_t s;
 
     ud_init(&kalman, &s);

@@ -57,7 +57,7 @@ static lqg_plant_t rounded_plant(const model_t *model, online_t *to)
         to->D[i] = (lqg_real)model->D[i];
         direct |= model->D[i] != 0;
     }
-    const lqg_plant_t plant = {nx, nu, ny, to->A, nu ? to->B : NULL, to->C, direct ? to->D : NULL};
+    const lqg_plant_t plant = {nx, nu, ny, to->A, nu ? to->B : NULL, to->C, direct ? to->D : NULL, NULL};
     return plant;
 }
 
@@ -122,7 +122,7 @@ static void test_steady_filter_is_the_settled_one_with_one_state_and_no_input(vo
 /* Small integers: every operation is exact. */
 static const lqg_real A[4] = {1, 2, 0, 1}, B[2] = {1, 3}, C[4] = {1, 0, 1, 1}, D[2] = {2, 1};
 static const lqg_real L[4] = {0.5f, 0.25f, -1, 2}, M[4] = {1, 0, 0, 2}, x0[2] = {1, -1};
-static const lqg_kalman_steady_t exact = {{2, 1, 2, A, B, C, D}, L, M, x0, NULL, NULL, NULL, NULL};
+static const lqg_kalman_steady_t exact = {{2, 1, 2, A, B, C, D, NULL}, L, M, x0, NULL, NULL, NULL, NULL};
 
 /* The memory of `exact`. */
 static lqg_real x[2], u_applied[1], innovation[2], work[LQG_KALMAN_STEADY_WORK(2, 2)];
@@ -164,7 +164,7 @@ static void test_update_by_one_output_takes_its_column_of_L_and_keeps_its_innova
 
 static void test_update_by_one_output_needs_no_innovation_where_w_and_v_are_independent(void)
 {
-    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL}, L, NULL, x0, NULL, NULL, NULL, NULL};
+    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL, NULL}, L, NULL, x0, NULL, NULL, NULL, NULL};
     lqg_kalman_steady_state_t bare = {x, NULL, NULL, {NULL, NULL}, NULL};
     const lqg_real three = 3;
 
@@ -196,7 +196,7 @@ static void test_predict_takes_the_kept_input_itself(void)
 
 static void test_init_without_x0_begins_at_zero(void)
 {
-    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL}, L, NULL, NULL, NULL, NULL, NULL, NULL};
+    const lqg_kalman_steady_t kalman = {{2, 1, 2, A, B, C, NULL, NULL}, L, NULL, NULL, NULL, NULL, NULL, NULL};
     x[0] = x[1] = 7;
     lqg_kalman_steady_init(&kalman, &state);
     TEST_ASSERT_TRUE(x[0] == 0 && x[1] == 0);
@@ -208,7 +208,7 @@ static void test_status_tells_which_outputs_are_rejected_and_the_last_bit_is_of_
     enum { N = 9 };
     static lqg_real identity[N * N], y[N];
     static const lqg_kalman_steady_t many = {
-        {N, 0, N, identity, NULL, identity, NULL}, identity, NULL, NULL, NULL, NULL, NULL, NULL};
+        {N, 0, N, identity, NULL, identity, NULL, NULL}, identity, NULL, NULL, NULL, NULL, NULL, NULL};
     LQG_KALMAN_STEADY_STATE(states, N, 0, N);
 
     for (unsigned i = 0; i < N; i++)
@@ -230,7 +230,7 @@ static void test_outputs_beyond_the_bits_of_used_are_always_used(void)
     enum { N = 34 };
     static lqg_real identity[N * N], y[N];
     static const lqg_kalman_steady_t many = {
-        {N, 0, N, identity, NULL, identity, NULL}, identity, NULL, NULL, NULL, NULL, NULL, NULL};
+        {N, 0, N, identity, NULL, identity, NULL, NULL}, identity, NULL, NULL, NULL, NULL, NULL, NULL};
     LQG_KALMAN_STEADY_STATE(states, N, 0, N);
 
     for (unsigned i = 0; i < N; i++) {

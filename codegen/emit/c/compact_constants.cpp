@@ -9,9 +9,11 @@
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
 #include "emit/recorded/constants.hpp"
+#include "emit/recorded/row_pattern.hpp"
 #include "emit/recorded/traced.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 
@@ -67,13 +69,30 @@ std::string fields(std::initializer_list<std::string> values) {
   return out;
 }
 
-std::string plant_fields(const Controller& controller, const design::SampledPlant& plant, const RealMatrix& C,
-                         const RealMatrix& D, Tables& tables) {
-  const std::string NAME = upper(controller.problem.name);
+// Where the rows of A are not zero; a line each.
+std::string pattern_values(const RowPattern& pattern) {
+  std::string lines;
+  for (const std::vector<int>& row : pattern) {
+    std::string line = "    " + std::to_string(row.size());
+    for (const int column : row) line += ", " + std::to_string(column);
+    lines += trace::wrap(line, 4) + (&row == &pattern.back() ? "\n" : ",\n");
+  }
+  return lines;
+}
+
+// A matrix with the pattern of A, or all of it.
+std::string add_rows(const std::string& suffix, const RowPattern& pattern, const RealMatrix& matrix, Tables& tables) {
+  return tables.add(suffix, pattern.empty() ? matrix : entries_in(pattern, matrix));
+}
+
+std::string plant_fields(const Controller& controller, const design::SampledPlant& plant, const RowPattern& pattern,
+                         const RealMatrix& C, const RealMatrix& D, Tables& tables) {
+  const std::string NAME = upper(controller.problem.name), A = add_rows("A", pattern, plant.A, tables);
   return "    {" +
-         fields({NAME + "_NX", std::to_string(controller.size.nu), NAME + "_NY", tables.add("A", plant.A),
-                 tables.add("B", plant.B), tables.add("C", C), tables.add_unless_zero("D", D)}) +
-         "},  /* nx, nu, ny, A, B, C, D */\n";
+         fields({NAME + "_NX", std::to_string(controller.size.nu), NAME + "_NY", A, tables.add("B", plant.B),
+                 tables.add("C", C), tables.add_unless_zero("D", D),
+                 tables.define("PATTERN", pattern_values(pattern), size_of(pattern), "unsigned char")}) +
+         "},  /* nx, nu, ny, A, B, C, D, pattern */\n";
 }
 
 // Numbers that are in no matrix of the design.
@@ -129,8 +148,9 @@ RealMatrix stacked(const std::vector<Gains>& rows, std::size_t matrix) {
   return all;
 }
 
-std::string steady_fields(const Controller& controller, const design::SampledPlant& plant, Tables& tables) {
-  std::string out = plant_fields(controller, plant, plant.C, plant.D, tables);
+std::string steady_fields(const Controller& controller, std::size_t start, Tables& tables) {
+  const design::SampledPlant& plant = plant_at(controller, start);
+  std::string out = plant_fields(controller, plant, row_pattern(controller, start), plant.C, plant.D, tables);
   const std::string S = controller.has.gate ? tables.add("S", stacked(controller.filters, 2)) : "NULL";
   return out + "    " +
          fields({tables.add("L", stacked(controller.filters, 0)),
@@ -139,17 +159,19 @@ std::string steady_fields(const Controller& controller, const design::SampledPla
          ",  /* L, M, x0 */\n" + last_fields(controller, tables, S);
 }
 
-std::string online_fields(const Controller& controller, const design::SampledPlant& plant,
-                          const design::OnlineSolution& online, Tables& tables) {
+std::string online_fields(const Controller& controller, std::size_t start, Tables& tables) {
+  const design::OnlineSolution& online = online_at(controller, start);
+  const RowPattern pattern = row_pattern(controller, start);
   const design::OnlineSolution& first = *controller.solution.online;
   const bool has_M = controller.keeps.innovation;
-  std::string out = plant_fields(controller, plant, online.C, online.D, tables);
+  std::string out = plant_fields(controller, plant_at(controller, start), pattern, online.C, online.D, tables);
   out += "    " +
          fields({online.E.isIdentity(0) ? "NULL" : tables.add("E", online.E), tables.add("V", as_row(online.V))}) +
          ",  /* E, V */\n";
   const auto add_rest = [&] {
     out += "    " +
-           fields({has_M ? tables.add("M", online.M) : "NULL", has_M ? tables.add("A_FREE", online.A_free) : "NULL"}) +
+           fields({has_M ? tables.add("M", online.M) : "NULL",
+                   has_M ? add_rows("A_FREE", pattern, online.A_free, tables) : "NULL"}) +
            ",  /* M, A_free */\n";
   };
   if (controller.filter == step::Filter::plain) {
@@ -229,17 +251,19 @@ std::string Tables::add(const std::string& suffix, const RealMatrix& matrix) {
 }
 
 std::string Tables::add(const std::string& suffix, const std::vector<std::string>& values) {
-  std::string text;
-  for (const std::string& value : values) text += "    " + value + (&value == &values.back() ? "\n" : ",\n");
-  return define(suffix, text, static_cast<Eigen::Index>(values.size()));
+  std::string lines;
+  for (const std::string& value : values) lines += "    " + value + (&value == &values.back() ? "\n" : ",\n");
+  return define(suffix, lines, static_cast<Eigen::Index>(values.size()));
 }
 
-std::string Tables::define(const std::string& suffix, const std::string& values, Eigen::Index size) {
+std::string Tables::define(const std::string& suffix, const std::string& values, Eigen::Index size,
+                           const std::string& type) {
   if (size == 0) return "NULL";
   auto& same_suffix = defined_[suffix];
   const std::string number = same_suffix.empty() ? "" : "_" + std::to_string(same_suffix.size());
   const auto [at, is_new] = same_suffix.try_emplace(values, name_ + "_" + suffix + number);
-  if (is_new) text += "static const lqg_real " + at->second + "[" + std::to_string(size) + "] = {\n" + values + "};\n";
+  if (is_new)
+    text += "static const " + type + " " + at->second + "[" + std::to_string(size) + "] = {\n" + values + "};\n";
   return at->second;
 }
 
@@ -252,12 +276,9 @@ std::string kalman_constants(const Controller& controller) {
   if (controller.has.gate) add_gate(controller, tables);
   add_range(controller, tables);
   std::vector<std::string> descriptions;
-  for (const std::size_t start : controller.stage_starts) {
-    const design::SampledPlant& plant = plant_at(controller, start);
-    descriptions.push_back(controller.solution.online
-                               ? online_fields(controller, plant, online_at(controller, start), tables)
-                               : steady_fields(controller, plant, tables));
-  }
+  for (const std::size_t start : controller.stage_starts)
+    descriptions.push_back(controller.solution.online ? online_fields(controller, start, tables)
+                                                      : steady_fields(controller, start, tables));
   const Words words = common_words(controller);
   if (descriptions.size() == 1)
     return tables.text + fill("static const lqg_kalman_{filter}_t {NAME}_KALMAN = {\n", words) + descriptions[0] +

@@ -21,11 +21,13 @@ class Tables {
   std::string add(const std::string& suffix, const std::vector<std::string>& values);
   std::string add_unless_zero(const std::string& suffix, const design::RealMatrix& matrix);
 
+  // The same of lines of values.
+  std::string define(const std::string& suffix, const std::string& values, Eigen::Index size,
+                     const std::string& type = "lqg_real");
+
   std::string text;
 
  private:
-  std::string define(const std::string& suffix, const std::string& values, Eigen::Index size);
-
   const Controller& controller_;
   std::string name_;
   std::map<std::string, std::map<std::string, std::string>> defined_;  // by suffix, then by values: the names

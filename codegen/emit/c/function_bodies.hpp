@@ -14,6 +14,7 @@ struct FunctionBodies {
   std::string includes;   // #include lines and checks of options
   std::string constants;  // definitions that the functions need
   std::string options;    // of the compiler, for the functions
+  std::string helpers;    // functions that the others call
   std::string init, recover, weigh, update, control, predict;
   std::string step;                        // empty: it makes the calls of a sample
   std::vector<std::string> updates_alone;  // of each output that can_update_alone
@@ -30,6 +31,10 @@ std::string only_update_body(const Controller& controller);
 FunctionBodies straight_line_bodies(const Controller& controller);
 
 FunctionBodies unrolled_bodies(const Controller& controller);
+FunctionBodies shared_bodies(const Controller& controller);
 FunctionBodies compact_bodies(const Controller& controller);
+
+// Of gains that change from sample to sample, the entries that do; the others are numbers in the code.
+std::string gain_tables(const Controller& controller);
 
 }  // namespace lqg::emit

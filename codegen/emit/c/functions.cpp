@@ -230,7 +230,8 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
   std::string out;
   if (controller.keeps.any) out += init_function(controller, bodies);
   if (bodies.resets) out += reset_function(controller) + recover_function(controller, bodies);
-  if (controller.has.filter) out += weigh_function(controller, bodies) + update_function(controller, bodies);
+  if (controller.has.filter)
+    out += weigh_function(controller, bodies) + bodies.helpers + update_function(controller, bodies);
   if (controller.has.regulator) out += control_function(controller, bodies);
   if (controller.has.filter)
     out += predict_function(controller, bodies) + step_function(controller, bodies) + covariance_function(controller) +

@@ -178,6 +178,12 @@ std::string body(const Controller& controller, const TracedFunction& function,
          (end.empty() ? "" : "\n") + end;
 }
 
+std::string end_of_body(const Controller& controller, const TracedFunction& function) {
+  const Printed printed(function);
+  return printed.printer.statements(function.stores) + "\n" +
+         unless_sound(controller, printed, recovery_of(controller, function));
+}
+
 std::string recover_body(const Controller& controller) {
   const TracedFunction traced = trace_begin_covariance(controller);
   const Printed printed(traced);

@@ -13,6 +13,9 @@ namespace lqg::emit {
 std::string body(const Controller& controller, const TracedFunction& function,
                  std::initializer_list<const char*> parameters, const std::string& last = "");
 
+// The end of a body that has a status already: the statements, and the answer where what they find is not sound.
+std::string end_of_body(const Controller& controller, const TracedFunction& function);
+
 // The body of recover: P begins anew.
 std::string recover_body(const Controller& controller);
 

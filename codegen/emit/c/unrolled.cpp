@@ -30,10 +30,14 @@ std::string table(const Controller& controller, const std::string& name, const s
 
 }  // namespace
 
+std::string gain_tables(const Controller& controller) {
+  return table(controller, "LAW", controller.laws) + table(controller, "GAINS", controller.filters);
+}
+
 FunctionBodies unrolled_bodies(const Controller& controller) {
   const TracedController traced = trace_controller(controller);
   FunctionBodies bodies = straight_line_bodies(controller);
-  bodies.constants = table(controller, "LAW", controller.laws) + table(controller, "GAINS", controller.filters);
+  bodies.constants = gain_tables(controller);
   const std::string advance = advance_counters(controller);
   bodies.resets = controller.has.filter || traced.control.finite >= 0;
   if (carries_covariance(controller)) bodies.recover = recover_body(controller);

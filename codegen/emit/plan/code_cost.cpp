@@ -11,6 +11,8 @@
 #include "emit/plan/sizes.hpp"
 #include "emit/plan/straight_line_cost.hpp"
 #include "emit/recorded/linear_traced.hpp"
+#include "emit/recorded/row_pattern.hpp"
+#include "emit/recorded/shared_covariance.hpp"
 #include "emit/recorded/traced.hpp"
 
 namespace lqg::emit {
@@ -18,6 +20,13 @@ namespace lqg::emit {
 namespace {
 
 // ---- straight-line code
+
+// What GCC puts into two loops: this many values at most, of 70 that it counts a little differently. The constants are
+// there once.
+constexpr long most_inlined = 80;
+constexpr long bytes_of_call = 16, bytes_of_column_loops = 220, bytes_of_observation = 40;
+// Of a function with loops over n states: all registers, and what they do not hold.
+long bytes_of_saved_registers(long n, bool is_double) { return 100 + 2 * n + (is_double ? 64 : 0); }
 
 // What a compiler does not do as it is counted here; most of it where P is carried as it is, in double.
 long with_margin(const Controller& controller, long bytes) {
@@ -134,10 +143,12 @@ long online_cost(const Controller& controller) {
   return cost + (controller.keeps.innovation ? controller.size.ny * (innovation_cost(controller) - 1) : 0);
 }
 
-// Multiply-adds, lone operations and divisions of update and predict, zeros and ones included.
+// Multiply-adds, lone operations and divisions of update and predict; zeros and ones included, but for those that a
+// pattern of A leaves out.
 long filter_cost(const Controller& controller) {
-  const long nx = controller.size.nx, ny = controller.size.ny;
-  const long state = nx * (nx + controller.size.nu + (controller.keeps.innovation ? ny : 0));
+  const long nx = controller.size.nx, ny = controller.size.ny, in_pattern = entries_of(row_pattern(controller, 0));
+  const long A = in_pattern > 0 ? in_pattern : nx * nx;
+  const long state = A + nx * (controller.size.nu + (controller.keeps.innovation ? ny : 0));
   const long checks = 2 * (2 * nx + 2);              // of the state, after update and after predict
   const long squares = controller.has.gate ? 3 : 0;  // ν² and gate² S
   const long innovations = ny * (innovation_cost(controller) + squares);
@@ -145,12 +156,12 @@ long filter_cost(const Controller& controller) {
   switch (controller.filter) {
     case step::Filter::steady: return common + nx * ny;
     case step::Filter::plain:
-      return common + online_cost(controller) + ny * (nx * nx + 3 * nx + triangle(nx) + 1) + nx * nx * nx +
-             nx * triangle(nx) + 3 * nx;
+      return common + online_cost(controller) + ny * (nx * nx + 3 * nx + triangle(nx) + 1) + nx * A + A * (nx + 1) / 2 +
+             3 * nx;
     case step::Filter::ud: {
       const long columns = nx + controller.solution.online->G.cols(), strict = triangle(nx - 1);
       const long factors = 3 * strict + 8 * nx + 1;
-      return common + online_cost(controller) + ny * factors + nx * strict + 2 * nx * (columns + 1) +
+      return common + online_cost(controller) + ny * factors + A * (nx - 1) / 2 + 2 * nx * (columns + 1) +
              strict * (2 * columns + 1) + strict + 3 * nx;
     }
     default: return 0;
@@ -215,6 +226,69 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   cost.flash = with_margin(controller, cost.flash + aside.flash + counters) + beginning.flash +
                bytes_of_real(controller) * tables +
                bytes_of_software_floats(controller, carries_covariance(controller));
+  return cost;
+}
+
+CodeCost cost_of_shared(const Controller& controller) {
+  const Beginning beginning = beginning_of(controller);
+  const long ny = controller.size.ny, nx = controller.size.nx,
+             calls = controller.target.is_double ? stack_of_double : 0;
+  CodeCost cost, aside;  // aside: for the output or the sample that is not as expected
+  // Its flash once, its operations `times`; the frame.
+  const auto add = [&](const TracedFunction& function, long times) {
+    CodeCost once;
+    const long stack = add_function(once, controller, function).stack;
+    cost.flash += once.flash;
+    cost.multiply_adds += times * once.multiply_adds;
+    return stack;
+  };
+  const long weigh = controller.has.gate ? add_function(aside, controller, trace_weigh(controller), true).stack : 0;
+  const long recover = add_function(aside, controller, trace_begin_covariance(controller)).stack;
+  long part = add(trace_correction(controller), ny), projected = 0, use = 0;
+  for (int i = 0; i < ny; ++i) {
+    use = std::max(use, add(trace_use(controller, i, is_projected(controller, i)), 1));
+    projected += is_projected(controller, i);
+    if (controller.size.nxi) cost.flash += bytes_of_observation;
+  }
+  if (projected > 0) part = std::max(part, add(trace_projection(controller), projected));
+  add(trace_end_of_update(controller), 1);
+  const long update = aligned(bytes_of_real(controller) * (nx + 1)) + 8 + use + std::max(part, weigh);
+  const long control = controller.has.regulator ? add(trace_regulator(controller), 1) : 0;
+  long predict = 0, tables = 0;
+  if (controller.sharing == controller::Sharing::columns) {
+    long rows = 0;
+    for (const auto& [first, end] : blocks_of_rows(controller)) {
+      CodeCost block;
+      rows = std::max(rows, add_function(block, controller, trace_rows(controller, first, end)).stack);
+      const bool is_in_both_loops = block.multiply_adds + nx + 3 * (end - first) < most_inlined;
+      cost.flash += !is_in_both_loops             ? block.flash + 2 * bytes_of_call
+                    : controller.target.is_double ? 7 * block.flash / 4
+                                                  : 5 * block.flash / 4;
+      cost.multiply_adds += (2 * nx - first) * block.multiply_adds;
+    }
+    cost.flash += bytes_of_column_loops;
+    tables += triangle(nx) + nx;
+    predict = aligned(bytes_of_real(controller) * (nx * nx + 2 * nx)) +
+              bytes_of_saved_registers(nx, controller.target.is_double) + rows;
+    predict = std::max(predict, add(trace_end_of_predict(controller), 1));
+  } else {
+    predict = add(trace_prediction(controller), 1);
+  }
+  cost.flash += ny * (2 * bytes_of_call);
+  if (projected > 0) tables += ny * nx;
+  for (const auto* gains : {&controller.laws, &controller.filters})
+    tables +=
+        static_cast<long>(controller::changing_places(*gains, controller.target.is_double).size() * gains->size());
+  if (controller.has.gate)
+    for (const Eigen::VectorXd* values :
+         {&controller.bounds.innovation, &controller.gate.widen, &controller.gate.narrow})
+      if (!is_same_for_all(*values)) tables += ny;
+  cost.ram = state_bytes(controller);
+  cost.stack = std::max({update + calls, control + calls, predict + calls, recover + std::max(calls, beginning.stack)});
+  const long counters = 28 * (controller.keeps.sample + controller.keeps.gain_row);
+  const long code = cost.flash + aside.flash + counters;
+  cost.flash = (controller.target.is_double ? with_margin(controller, code) : code + code / 32) + beginning.flash +
+               bytes_of_real(controller) * tables + bytes_of_software_floats(controller, true);
   return cost;
 }
 

@@ -8,6 +8,8 @@ namespace lqg::emit {
 
 CodeCost cost_of_unrolled(const Controller& controller);
 CodeCost cost_of_linear_form(const Controller& controller);  // of controller.linear
+// Straight-line code that shares what `controller.sharing` says.
+CodeCost cost_of_shared(const Controller& controller);
 CodeCost cost_of_compact(const Controller& controller);
 
 }  // namespace lqg::emit

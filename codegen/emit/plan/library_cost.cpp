@@ -7,6 +7,7 @@
 #include "controller/model_of.hpp"
 #include "controller/state_fields.hpp"
 #include "emit/plan/sizes.hpp"
+#include "emit/recorded/row_pattern.hpp"
 
 namespace lqg::emit {
 
@@ -25,9 +26,9 @@ struct FilterFigures {
   long whole;                // update of all outputs, which is one call more
   Variants update, predict;  // the deepest reach of their stack
 };
-constexpr FilterFigures steady = {{{1728, 1684, 2268, 2304}}, 24, {{132, 132, 244, 244}}, {{120, 120, 160, 184}}};
-constexpr FilterFigures plain = {{{2828, 2716, 3772, 3672}}, 24, {{176, 168, 300, 284}}, {{184, 184, 256, 280}}};
-constexpr FilterFigures factored = {{{3420, 3308, 4488, 4528}}, 24, {{168, 176, 304, 328}}, {{144, 144, 240, 248}}};
+constexpr FilterFigures steady = {{{1764, 1732, 2396, 2400}}, 24, {{132, 132, 244, 244}}, {{112, 120, 152, 176}}};
+constexpr FilterFigures plain = {{{4480, 4316, 6488, 6400}}, 24, {{184, 184, 332, 360}}, {{144, 152, 280, 312}}};
+constexpr FilterFigures factored = {{{3576, 3480, 4784, 4784}}, 24, {{168, 176, 304, 328}}, {{144, 152, 248, 256}}};
 constexpr Variants law_flash = {{200, 196, 280, 304}}, law_stack = {{36, 36, 100, 120}};
 constexpr Variants servo_flash = {{1048, 1072, 1504, 1584}};  // beside a filter, with which it shares a function
 constexpr Variants observe_flash = {{140, 140, 172, 172}};
@@ -50,18 +51,26 @@ long numbers_of_filters(const Controller& controller) {
   return numbers_of(controller.filters) - M * static_cast<long>(controller.filters.size());
 }
 
+// Of A, and of A_free where predict needs it.
+long entries_of_A(const Controller& controller, std::size_t start) {
+  const long nx = controller.size.nx, entries = entries_of(row_pattern(controller, start));
+  const bool has_A_free = controller.solution.online && controller.keeps.innovation;
+  return (entries > 0 ? entries : nx * nx) * (has_A_free ? 2 : 1);
+}
+
 // Numbers in flash: the constants of a filter.
 long filter_constants(const Controller& controller) {
   const long nx = controller.size.nx, nu = controller.size.nu, ny = controller.size.ny;
   const long stages = static_cast<long>(controller.stage_starts.size());
-  long numbers = stages * (nx * nx + nx * nu + ny * nx + (controller.has.feedthrough ? ny * nu : 0));
+  long numbers = stages * (nx * nu + ny * nx + (controller.has.feedthrough ? ny * nu : 0));
+  for (const std::size_t start : controller.stage_starts) numbers += entries_of_A(controller, start);
   numbers += nx + ny;  // the bounds
   if (controller.has.gate) numbers += 3 * ny + 16 / bytes_of_real(controller);
   if (controller.has.range) numbers += 2 * ny;
   if (!is_zero(controller.problem.estimator->x0)) numbers += nx;
   if (controller.filter == step::Filter::steady) return numbers + numbers_of_filters(controller);
   const design::OnlineSolution& online = *controller.solution.online;
-  const long innovation = controller.keeps.innovation ? nx * nx + nx * ny : 0;
+  const long innovation = controller.keeps.innovation ? nx * ny : 0;
   const long noise = controller.filter == step::Filter::plain ? triangle(nx) : (nx + 1) * online.G.cols();
   return numbers + triangle(nx) + stages * (ny + (online.E.isIdentity(0) ? 0 : ny * ny) + innovation + noise);
 }
@@ -71,7 +80,8 @@ long constants_of(const Controller& controller) {
   long numbers = 0, bytes = 0;
   if (controller.has.filter) {
     numbers += filter_constants(controller);
-    bytes += (controller.filter == step::Filter::steady ? 56 : 80) * static_cast<long>(controller.stage_starts.size());
+    bytes += (controller.filter == step::Filter::steady ? 60 : 84) * static_cast<long>(controller.stage_starts.size());
+    for (const std::size_t start : controller.stage_starts) bytes += aligned(size_of(row_pattern(controller, start)));
   }
   if (controller.has.regulator) {
     numbers += numbers_of(controller.laws) + controller.size.nu * (controller.problem.limits ? 2 : 0) +
@@ -121,7 +131,7 @@ long work_of(const Controller& controller) {
   const long nx = controller.size.nx, ny = controller.size.ny, real = bytes_of_real(controller);
   switch (controller.filter) {
     case step::Filter::steady: return aligned(real * std::max(nx, ny));
-    case step::Filter::plain: return aligned(real * std::max(nx * nx, nx + ny));
+    case step::Filter::plain: return aligned(real * std::max(nx * nx + 4 * nx, nx + ny));
     case step::Filter::ud:
       return aligned(real * std::max((nx + 2) * (nx + controller.solution.online->G.cols()), nx + ny));
     default: return 0;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "emit/plan/plan.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "emit/plan/code_cost.hpp"
 #include "emit/plan/realisation.hpp"
+#include "emit/recorded/shared_covariance.hpp"
 #include "simulate/drop_outs.hpp"
 #include "simulate/scenario_requirements.hpp"
 
@@ -10,12 +14,45 @@ namespace lqg::emit {
 
 namespace {
 
-design::Style style_of(const Controller& controller, const CodeCost& unrolled, const CodeCost& compact) {
-  const design::Code& code = controller.problem.code;
-  if (code.style != design::Style::automatic) return code.style;
-  if (controller.has.stages) return design::Style::compact;
-  return unrolled.flash <= code.flash || unrolled.flash <= compact.flash ? design::Style::unrolled
-                                                                         : design::Style::compact;
+// A style, what its straight-line code shares, and what it costs.
+struct Way {
+  design::Style style;
+  controller::Sharing sharing;
+  CodeCost cost;
+};
+
+// Compact code has loops; over fewer columns than these they would be no shorter than what stands in them.
+std::vector<controller::Sharing> sharings_of(const Controller& controller) {
+  constexpr int least_columns = 5;
+  if (controller.size.nx < least_columns) return {controller::Sharing::outputs};
+  if (controller.problem.code.style == design::Style::compact) return {controller::Sharing::columns};
+  return {controller::Sharing::outputs, controller::Sharing::columns};
+}
+
+// Those that the design file lets choose among, the fastest first: what is shared takes calls, and loops for columns.
+std::vector<Way> ways_of(const Controller& controller) {
+  const design::Style asked = controller.problem.code.style;
+  std::vector<Way> ways;
+  if (asked == design::Style::unrolled || (asked == design::Style::automatic && !controller.has.stages))
+    ways.push_back({design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)});
+  if (asked != design::Style::unrolled && can_share_covariance(controller)) {
+    Controller sharing = controller;
+    for (const controller::Sharing what : sharings_of(controller)) {
+      sharing.sharing = what;
+      ways.push_back({design::Style::unrolled, what, cost_of_shared(sharing)});
+    }
+  }
+  if (asked != design::Style::unrolled)
+    ways.push_back({design::Style::compact, controller::Sharing::nothing, cost_of_compact(controller)});
+  return ways;
+}
+
+// The first that fits, else the smallest.
+const Way& chosen_of(const std::vector<Way>& ways, long flash) {
+  for (const Way& way : ways)
+    if (way.cost.flash <= flash) return way;
+  return *std::min_element(ways.begin(), ways.end(),
+                           [](const Way& a, const Way& b) { return a.cost.flash < b.cost.flash; });
 }
 
 void choose_style(Controller& controller) {
@@ -24,9 +61,11 @@ void choose_style(Controller& controller) {
     controller.cost = cost_of_linear_form(controller);
     return;
   }
-  const CodeCost unrolled = cost_of_unrolled(controller), compact = cost_of_compact(controller);
-  controller.style = style_of(controller, unrolled, compact);
-  controller.cost = controller.style == design::Style::unrolled ? unrolled : compact;
+  const std::vector<Way> ways = ways_of(controller);
+  const Way& chosen = chosen_of(ways, controller.problem.code.flash);
+  controller.style = chosen.style;
+  controller.sharing = chosen.sharing;
+  controller.cost = chosen.cost;
 }
 
 // An error where lqgen may choose and still finds nothing that fits, else a note.

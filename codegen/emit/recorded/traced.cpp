@@ -54,7 +54,9 @@ TracedFunction trace_predict(const Controller& controller, const std::vector<boo
   });
 }
 
-TracedFunction trace_control(const Controller& controller) {
+}  // namespace
+
+TracedFunction trace_regulator(const Controller& controller) {
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
@@ -71,7 +73,9 @@ TracedFunction trace_control(const Controller& controller) {
   return function;
 }
 
-}  // namespace
+TracedFunction trace_prediction(const Controller& controller) {
+  return trace_predict(controller, covariance_pattern(controller));
+}
 
 std::vector<int> TracedFunction::results() const {
   std::vector<int> nodes;
@@ -216,7 +220,7 @@ TracedController trace_controller(const Controller& controller) {
     for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
       if (has_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
   }
-  if (controller.has.regulator) traced.control = trace_control(controller);
+  if (controller.has.regulator) traced.control = trace_regulator(controller);
   return traced;
 }
 

@@ -53,6 +53,10 @@ struct TracedController {
 
 TracedController trace_controller(const Controller& controller);
 
+// Parts of it.
+TracedFunction trace_regulator(const Controller& controller);
+TracedFunction trace_prediction(const Controller& controller);
+
 // The calls of a sample as one function, which finds the bits and the status that they find. `pattern` is that of the
 // covariance.
 TracedFunction trace_sample(const Controller& controller, const std::vector<bool>& pattern);

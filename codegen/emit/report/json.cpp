@@ -238,7 +238,7 @@ Json recovery(const controller::Recovery& recovery) {
 Json code(const Controller& controller) {
   Json out = {{"real", controller.target.is_double ? "double" : "float"},
               {"arithmetic", controller.target.is_fused ? "fused" : "plain"},
-              {"style", controller.style == design::Style::compact ? "compact" : "unrolled"},
+              {"style", style_of(controller)},
               {"flash", controller.cost.flash},
               {"ram", controller.cost.ram},
               {"stack", controller.cost.stack},

@@ -52,8 +52,7 @@ PageTable what_it_costs(const Controller& controller) {
   return two_columns(
       "What it costs",
       {{"Code", std::string(controller.target.is_double ? "double, " : "float, ") +
-                    (controller.target.is_fused ? "fused, " : "plain, ") +
-                    (controller.style == design::Style::compact ? "compact" : "unrolled")},
+                    (controller.target.is_fused ? "fused, " : "plain, ") + style_of(controller)},
        {"Multiply-adds a sample", std::to_string(cost.multiply_adds)},
        {"RAM", std::to_string(cost.ram) + " bytes"},
        {"Flash, at most, by arm-none-eabi-gcc 12.2 at -O2 for a Cortex-M4F", std::to_string(cost.flash) + " bytes"},

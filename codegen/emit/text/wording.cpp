@@ -36,6 +36,12 @@ std::vector<design::Signal> reference_signals(const Controller& controller) {
 
 std::string in_percent(double share) { return decimal(100 * share) + " %"; }
 
+std::string style_of(const Controller& controller) {
+  const bool has_loops =
+      controller.style == design::Style::compact || controller.sharing == controller::Sharing::columns;
+  return has_loops ? "compact" : "unrolled";
+}
+
 std::string name_with_unit(const design::Signal& signal) {
   return signal.unit.empty() ? signal.name : signal.name + " [" + signal.unit + "]";
 }

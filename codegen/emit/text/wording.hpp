@@ -19,6 +19,9 @@ std::vector<design::Signal> state_signals(const Controller& controller);
 // "2.5 %" of 0.025.
 std::string in_percent(double share);
 
+// "unrolled", or "compact", which is all that has loops.
+std::string style_of(const Controller& controller);
+
 // "speed [m/s]", or "speed" where it has no unit.
 std::string name_with_unit(const design::Signal& signal);
 

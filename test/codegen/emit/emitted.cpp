@@ -4,6 +4,7 @@
 #include <unity.h>
 
 #include "emit/c/header.hpp"
+#include "emit/recorded/shared_covariance.hpp"
 #include "emit/unit_test/unit_test.hpp"
 
 namespace lqg_test {
@@ -27,6 +28,25 @@ void expect_to_pass(const lqg::emit::Controller& controller, Language language, 
   expect_success(run(program), what);
 }
 
+struct Way {
+  lqg::design::Style style;
+  lqg::controller::Sharing sharing;
+  const char* suffix;
+};
+
+// All in which the controller can be emitted.
+std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
+  using lqg::controller::Sharing;
+  using lqg::design::Style;
+  std::vector<Way> ways = {{Style::unrolled, Sharing::nothing, "_unrolled"}};
+  if (!controller.linear) ways.push_back({Style::compact, Sharing::nothing, "_compact"});  // those loops are of x̂
+  if (!controller.linear && lqg::emit::can_share_covariance(controller)) {
+    ways.push_back({Style::unrolled, Sharing::outputs, "_outputs"});
+    ways.push_back({Style::unrolled, Sharing::columns, "_columns"});
+  }
+  return ways;
+}
+
 }  // namespace
 
 std::string options(const lqg::emit::Controller& controller, const fs::path& folder) {
@@ -44,10 +64,10 @@ std::string library(const lqg::emit::Controller& controller) {
 
 void expect_emitted_to_pass(lqg::emit::Controller controller, const std::vector<Language>& languages) {
   const std::string name = controller.problem.name;
-  for (const auto style : {lqg::design::Style::unrolled, lqg::design::Style::compact}) {
-    if (controller.linear && style == lqg::design::Style::compact) continue;  // the library's loops are of x̂
+  for (const auto& [style, sharing, suffix] : ways_of(controller)) {
     controller.style = style;
-    const fs::path folder = empty_folder(name + (style == lqg::design::Style::compact ? "_compact" : "_unrolled"));
+    controller.sharing = sharing;
+    const fs::path folder = empty_folder(name + suffix);
     write(folder / (name + ".h"), lqg::emit::header(controller));
     write(folder / (name + "_test.c"), lqg::emit::unit_test(controller));
     write(folder / "alone.c", "#include \"" + name + ".h\"\n");

@@ -54,7 +54,7 @@ Description::Description(const Model<S>& model)
   const auto nx = static_cast<unsigned>(model.nx), nu = static_cast<unsigned>(model.nu),
              ny = static_cast<unsigned>(model.ny);
   const lqg_real* free = M.empty() ? nullptr : pointer(A_free);
-  const lqg_plant_t plant = {nx, nu, ny, pointer(A), pointer(B), pointer(C), pointer(D)};
+  const lqg_plant_t plant = {nx, nu, ny, pointer(A), pointer(B), pointer(C), pointer(D), nullptr};
   const lqg_lqr_t lqr = {nx, nu, pointer(K), pointer(u_min), pointer(u_max)};
   const lqg_form_t form = model.predictor_form ? LQG_PREDICTOR_FORM : LQG_FILTER_FORM;
   steady = {

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "emit/recorded/shared_covariance.hpp"
+
+#include <algorithm>
+
+#include "emit/recorded/symbols.hpp"
+#include "step/loop.hpp"
+
+namespace lqg::emit {
+
+namespace {
+
+using trace::Expr;
+
+// Runs `step(model, state, listener, function)` on a fresh graph.
+template <class Step>
+TracedFunction trace_part(const Controller& controller, Step step) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const SymbolicModel model = symbolic_model(controller);
+  SymbolicState state = load_state(controller, model, covariance_pattern(controller));
+  TraceListener listener(controller, function);
+  step(model, state, listener, function);
+  return function;
+}
+
+void store_all(TracedFunction& function, const char* array, const Symbols& values) {
+  for (int i = 0; i < values.size(); ++i) store(function, element(array, i), values(i));
+}
+
+// What the state has besides P.
+void store_rest(const Controller& controller, TracedFunction& function, SymbolicState state) {
+  state.P.clear();
+  store_state(function, state, covariance_pattern(controller));
+}
+
+Symbols load_covariance(const Controller& controller, int nx) { return load(controller, "cov", "cov", nx, at_state); }
+
+}  // namespace
+
+bool can_share_covariance(const Controller& controller) {
+  return controller.filter == step::Filter::plain && !controller.has.stages && !controller.keeps.innovation &&
+         controller.solution.online->E.isIdentity(0);
+}
+
+std::vector<std::pair<int, int>> blocks_of_rows(const Controller& controller) {
+  constexpr int rows = 4;  // few registers, and few rows that a row of P does not need
+  std::vector<std::pair<int, int>> blocks;
+  for (int first = 0; first < controller.size.nx; first += rows)
+    blocks.emplace_back(first, std::min(first + rows, controller.size.nx));
+  return blocks;
+}
+
+bool is_projected(const Controller& controller, int output) {
+  const design::RealMatrix& C = controller.solution.online->C;
+  return controller.size.ny > 1 && 2 * (C.row(output).array() != 0).count() > C.cols();
+}
+
+bool projects(const Controller& controller) {
+  for (int i = 0; i < controller.size.ny; ++i)
+    if (is_projected(controller, i)) return true;
+  return false;
+}
+
+TracedFunction trace_projection(const Controller& controller) {
+  TracedFunction function = trace_part(controller, [&](SymbolicModel model, const SymbolicState& state,
+                                                       TraceListener& listener, TracedFunction& traced) {
+    model.C = load(controller, "c", "c", model.nx, at_state).transpose();
+    store_all(traced, "cov", step::covariance_with_output(model, state, 0, listener));
+  });
+  function.is_void = true;
+  return function;
+}
+
+TracedFunction trace_use(const Controller& controller, int output, bool is_projected) {
+  return trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener,
+                                    TracedFunction& function) {
+    const std::string parameter = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+    const Expr y = step::in_range_or_nan(model, Expr::of(trace::graph().input(parameter, parameter)), output, listener);
+    const Symbols f = is_projected ? load_covariance(controller, model.nx)
+                                   : step::covariance_with_output(model, state, output, listener);
+    store(function, "*reciprocal", step::update_plain_state(model, state, f, y, output, listener));
+    store_all(function, "cov", f);
+    store_rest(controller, function, state);
+  });
+}
+
+TracedFunction trace_correction(const Controller& controller) {
+  TracedFunction function = trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state,
+                                                       TraceListener& listener, TracedFunction& traced) {
+    listener.section("P ← P − L covᵀ,  L = cov / S");
+    const Symbols f = load_covariance(controller, model.nx);
+    const Expr reciprocal = Expr::of(trace::graph().input("reciprocal", "reciprocal"));
+    for (int j = model.nx - 1; j >= 0; --j)
+      step::correct_covariance_row(state, step::plain_gain(f, reciprocal, j, listener), f, j, listener);
+    SymbolicState P;
+    P.P = state.P;
+    store_state(traced, P, covariance_pattern(controller));
+  });
+  function.is_void = true;
+  return function;
+}
+
+TracedFunction trace_end_of_update(const Controller& controller) {
+  return trace_part(controller, [&](const SymbolicModel& model, const SymbolicState& state, TraceListener& listener,
+                                    TracedFunction& function) {
+    function.finite = step::has_sound_state(model, state, listener).node;
+    function.checks_covariance = true;
+  });
+}
+
+TracedFunction trace_rows(const Controller& controller, int first, int end) {
+  TracedFunction function = new_function(controller);
+  const trace::Recording recording(*function.graph);
+  const SymbolicModel model = symbolic_model(controller);
+  TraceListener listener(controller, function);
+  listener.section("rows of start + A v");
+  const Symbols start = load(controller, "start", "start", model.nx, at_state),
+                v = load(controller, "v", "v", model.nx, at_state);
+  for (int i = first; i < end; ++i) {
+    Expr sum = start(i);
+    for (int k = 0; k < model.nx; ++k) sum = trace::multiply_add(v(k), model.A_free(i, k), sum);
+    listener.name(sum, "product", step::of_state(i));
+    store(function, "product[" + (i ? std::to_string(i) + " * stride" : "0") + "]", sum);
+  }
+  function.is_void = true;
+  return function;
+}
+
+TracedFunction trace_end_of_predict(const Controller& controller) {
+  return trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener,
+                                    TracedFunction& function) {
+    function.finite =
+        step::predict_plain_state(model, state, load(controller, "u", "u", model.nu, at_input), listener).node;
+    function.checks_covariance = true;
+    store_rest(controller, function, state);
+  });
+}
+
+}  // namespace lqg::emit
