@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What the controller in HEADER costs: instructions executed by each of its functions, for the reference samples in
- * VECTORS, and the stack that step uses, with CALLS the functions that it calls. NAME and UPPER_NAME are its names, REAL
- * its scalar; ESTIMATES says that it has no input, GATED that it has a gate with its `widening`. A controller that keeps
- * z (KEEPS_Z) has control and advance, which count as control and predict; y goes to the first of them, or to the second
- * with PREDICTS. */
+ * VECTORS, and the stack that step uses, with CALLS the functions that it calls. NAME and UPPER_NAME are its names,
+ * REAL its scalar; ESTIMATES says that it has no input, GATED that it has a gate with its `widening`. A controller that
+ * keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to the first of them, or to the
+ * second with PREDICTS. */
 #include <math.h>
 #include <stdint.h>
 

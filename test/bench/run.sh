@@ -22,11 +22,11 @@
 # Instructions are counted by QEMU, exactly: all that a function executes between its call and its return,
 # library functions included. "most" is over the reference samples of the design's test and over the same with
 # each output in turn left out of every third sample, as NaN; the others are the median of the reference
-# samples. Step applies what it asks for, so that its samples are others than those of the calls; its median is that with
-# a gate as it is after a while. Stack is the deepest reach of step below its caller, in bytes. Flash is what the linker
-# brings for init and step: code, constants, library functions. In the compact style, whose step makes the calls, both
-# are of the calls alone. What lqgen estimates stands there in brackets: of step for each core, of flash and stack for a
-# Cortex-M4F.
+# samples. Step applies what it asks for, so that its samples are others than those of the calls; its median is that
+# with a gate as it is after a while. Stack is the deepest reach of step below its caller, in bytes. Flash is what the
+# linker brings for init and step: code, constants, library functions. In the compact style, whose step makes the calls,
+# both are of the calls alone. What lqgen estimates stands there in brackets: of step for each core, of flash and stack
+# for a Cortex-M4F.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 bench=$lqg_root/test/bench folder=${FOLDER:-$lqg_root/build/bench}

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What a filter that updates P costs with its number of states, on a Cortex-M4F at -O2: instructions of a sample (update,
-# u = −K x̂, predict), dense plants and chains of masses, straight-line code, `style = "auto"` within 16,384 bytes of
-# flash, and `style = "compact"`.
+# What a filter that updates P costs with its number of states, on a Cortex-M4F at -O2: instructions of a sample
+# (update, u = −K x̂, predict), dense plants and chains of masses, straight-line code, `style = "auto"` within 16,384
+# bytes of flash, and `style = "compact"`.
 #
 #   test/bench/sizes.sh             prints the table
 #   test/bench/sizes.sh --update    writes sizes.md, too
@@ -75,7 +75,8 @@ if [ "${1:-}" = --update ]; then
   {
     echo "# Instructions of one sample with the number of states"
     echo
-    echo "Made by \`test/bench/sizes.sh --update\`, which says what is measured; in brackets the flash that lqgen states."
+    echo "Made by \`test/bench/sizes.sh --update\`, which says what is measured; in brackets the flash that lqgen"
+    echo "states."
     echo "$("${compiler[0]}" --version | head -n 1), ${options[*]}."
     echo
     cat "$folder/table.md"

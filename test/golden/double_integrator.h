@@ -394,7 +394,8 @@ static inline lqg_status_t double_integrator_predict(double_integrator_t *self, 
 }
 
 /* One sample: update, control, predict; assumes that the actuator applies u as it is.
- * Here the three are one text, which keeps the state in registers; bits and status are those of the calls. */
+ * Here the three are one text, which keeps the state in registers;
+ * bits and status are those of the calls. */
 static inline lqg_status_t double_integrator_step(double_integrator_t *self, const float y[DOUBLE_INTEGRATOR_NY],
     float u[DOUBLE_INTEGRATOR_NU])
 {

@@ -464,7 +464,8 @@ static inline lqg_status_t tank_predict(tank_t *self, const float u[TANK_NU])
 }
 
 /* One sample: update, control, predict; assumes that the actuator applies u as it is.
- * Here the three are one text, which keeps the state in registers; bits and status are those of the calls. */
+ * Here the three are one text, which keeps the state in registers;
+ * bits and status are those of the calls. */
 static inline lqg_status_t tank_step(tank_t *self, const float y[TANK_NY], float u[TANK_NU])
 {
     LQG_STRICT_BODY

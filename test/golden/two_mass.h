@@ -364,7 +364,8 @@ static inline lqg_status_t two_mass_predict(two_mass_t *self, const float u[TWO_
 }
 
 /* One sample: update, control, predict; assumes that the actuator applies u as it is.
- * Here the three are one text, which keeps the state in registers; bits and status are those of the calls. */
+ * Here the three are one text, which keeps the state in registers;
+ * bits and status are those of the calls. */
 static inline lqg_status_t two_mass_step(two_mass_t *self, const float y[TWO_MASS_NY], float u[TWO_MASS_NU])
 {
     LQG_STRICT_BODY

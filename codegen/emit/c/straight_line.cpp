@@ -286,7 +286,7 @@ FunctionBodies straight_line_bodies(const Controller& controller) {
 #pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
 #endif
 )"
-          : R"(#if defined __GNUC__ && !defined __clang__  /* loads numbers where they are needed: less register pressure */
+          : R"(#if defined __GNUC__ && !defined __clang__  /* loads numbers where they are needed */
 #pragma GCC optimize ("no-tree-ter", "no-tree-pre")
 #endif
 )";

@@ -11,9 +11,9 @@ namespace {
 
 using trace::Op;
 
-// What the numbers below are of: NAME_step of 20 shipped and 60 random designs (test/bench/random_design.awk, seeds 1 to
-// 60; 17 more with fused constant gains), counted under QEMU by test/bench/run.sh, fitted by least squares of relative
-// errors. The largest error is 16 % with an FPU, 10 % without.
+// What the numbers below are of: NAME_step of 20 shipped and 60 random designs (test/bench/random_design.awk, seeds 1
+// to 60; 17 more with fused constant gains), counted under QEMU by test/bench/run.sh, fitted by least squares of
+// relative errors. The largest error is 16 % with an FPU, 10 % without.
 
 // ---- software: the C library computes, in a call for each operation
 
@@ -59,10 +59,8 @@ struct Unit {
   Weights online, steady, steady_fused;  // with the covariance carried along; with constant gains
   long registers;                        // one is left for what is being made
 };
-constexpr Unit arm_floats = {{0.85, 2.0, 2.0, 1.79, 0, 3.75, 0},
-                             {1.19, 0.77, 2.0, 0, 0, 3.25, 21},
-                             {1.44, 0, 1.25, 1.02, 0, 2.63, 14.5},
-                             31};
+constexpr Unit arm_floats = {
+    {0.85, 2.0, 2.0, 1.79, 0, 3.75, 0}, {1.19, 0.77, 2.0, 0, 0, 3.25, 21}, {1.44, 0, 1.25, 1.02, 0, 2.63, 14.5}, 31};
 constexpr Weights any_double = {0.3, 3.19, 2.35, 1.98, 0, 3.91, 0};
 constexpr Unit arm_doubles = {any_double, any_double, any_double, 15};
 constexpr Unit riscv_numbers = {{0.84, 1.63, 2.03, 3.4, 1.04, 2.37, 0},
@@ -120,7 +118,8 @@ std::vector<controller::CoreInstructions> instructions_of(const Listing& listing
       all.push_back({core.port, std::lround(in_unit(listing, *unit, found->second))});
     }
     if (!unit && !listing.is_fused)
-      all.push_back({core.port, std::lround(of_calls(listing, is_double ? core.library.doubles : core.library.floats))});
+      all.push_back(
+          {core.port, std::lround(of_calls(listing, is_double ? core.library.doubles : core.library.floats))});
   }
   return all;
 }

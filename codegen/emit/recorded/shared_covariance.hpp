@@ -29,7 +29,8 @@ TracedFunction trace_correction(const Controller& controller);
 // x̂ is within its bounds after an update.
 TracedFunction trace_end_of_update(const Controller& controller);
 
-// product[i stride] = start[i] + A_i v for the rows from `first` to before `end`, A freed of what the outputs tell of w.
+// product[i stride] = start[i] + A_i v for the rows from `first` to before `end`, A freed of what the outputs tell of
+// w.
 TracedFunction trace_rows(const Controller& controller, int first, int end);
 
 // x̂ ← A x̂ + B u, and the check of x̂ and of a P that has been predicted.

@@ -13,8 +13,8 @@
 
 namespace lqg::emit {
 
-// A test in the middle of a function: where the state is not sound a recovery comes, and the rest goes on with what that
-// has written.
+// A test in the middle of a function: where the state is not sound a recovery comes, and the rest goes on with what
+// that has written.
 struct TracedRecovery {
   std::vector<trace::Store> stores;    // of what comes before it
   std::vector<trace::Store> recovers;  // what the recovery reads besides
@@ -61,8 +61,8 @@ TracedFunction trace_prediction(const Controller& controller);
 // covariance.
 TracedFunction trace_sample(const Controller& controller, const std::vector<bool>& pattern);
 
-// Why output i is not used, of its innovation and S: it is where the status is LQG_OK. What is not the same for all outputs is limits[i], widen[i] or
-// narrow[i].
+// Why output i is not used, of its innovation and S: it is where the status is LQG_OK. What is not the same for all
+// outputs is limits[i], widen[i] or narrow[i].
 TracedFunction trace_weigh(const Controller& controller);
 bool is_same_for_all(const Eigen::VectorXd& values);
 

@@ -130,8 +130,8 @@ PageTable root_mean_squares(const Controller& controller) {
 
 PageSection target_section(const Controller& controller) {
   PageView view;
-  view.tables = {what_it_is(controller), what_it_costs(controller), what_a_sample_takes(controller), what_rounding_does(controller),
-                 root_mean_squares(controller)};
+  view.tables = {what_it_is(controller), what_it_costs(controller), what_a_sample_takes(controller),
+                 what_rounding_does(controller), root_mean_squares(controller)};
   return {"target", "On the target", {view}};
 }
 

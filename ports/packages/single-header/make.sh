@@ -9,7 +9,7 @@ here=$(dirname "${BASH_SOURCE[0]}")
 
 # In the order in which they need each other.
 public=(arithmetic status version kalman lqr loop ekf rls servo lqg check)
-private=(kernel bounds_check factors gate plant)
+private=(kernel bounds_check covariance factors gate plant)
 
 check_names() {
   local folder=$1 expected

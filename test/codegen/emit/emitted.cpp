@@ -42,7 +42,7 @@ std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
   if (!controller.linear) ways.push_back({Style::compact, Sharing::nothing, "_compact"});  // those loops are of x̂
   if (!controller.linear && lqg::emit::can_share_covariance(controller)) {
     ways.push_back({Style::unrolled, Sharing::outputs, "_outputs"});
-    ways.push_back({Style::unrolled, Sharing::columns, "_columns"});
+    if (controller.size.nx > 1) ways.push_back({Style::unrolled, Sharing::columns, "_columns"});
   }
   return ways;
 }

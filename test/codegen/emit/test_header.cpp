@@ -151,7 +151,7 @@ void test_step_makes_its_calls_in_the_order_of_the_form() {
   expect_order(lqg::emit::header(controller_in(Style::compact, design)), {functions[4], control, update, predict});
 }
 
-// Straight-line code has the text of the calls there, and where a bit may depend on the update's recovery it comes first.
+// Straight-line code has the text of the calls there. Where a bit may depend on the update's recovery it comes first.
 void test_step_is_one_text_in_the_order_of_the_form() {
   DesignText design = double_integrator();
   const std::string update = "/* x̂ ← x̂ + L innovation", recovery = "status = loop_reset(self, status);",

@@ -153,7 +153,8 @@ void test_prover_reads_an_input_that_is_not_stored_in_its_place() {
   const int a = graph.input("self->d[0]", "D");
   const int condition = graph.make(Op::finite, a);
   const Printer printer(graph, {condition});
-  TEST_ASSERT_EQUAL_STRING("RESTATED((D - D) == 0.0f, FINITE(self->d[0]))", printer.test(condition, std::vector<lqg::trace::Store>()).c_str());
+  TEST_ASSERT_EQUAL_STRING("RESTATED((D - D) == 0.0f, FINITE(self->d[0]))",
+                           printer.test(condition, std::vector<lqg::trace::Store>()).c_str());
   TEST_ASSERT_EQUAL_STRING("RESTATED((D - D) == 0.0f, FINITE(D))", printer.expression(condition).c_str());
   TEST_ASSERT_EQUAL_STRING("(D - D) == 0.0f", printer.test(condition, {{"self->d[0]", graph.constant(1)}}).c_str());
 }
