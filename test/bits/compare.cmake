@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Runs PROGRAM, the main.c of a build BUILD, behind EMULATOR if there is one, and compares what it prints with HASHES.
-# KINDS are the controllers that it has, <arithmetic>_<real>, with | between them.
+# KINDS are the controllers that it has, <arithmetic>_<real>, with | between them; STYLES their styles likewise, all where
+# there is none.
 # With CONTRACTS the build has to be one that contracts a*b + c, or nothing is tested. With UPDATE what it prints
 # becomes HASHES.
 string(REPLACE "|" ";" emulator "${EMULATOR}")
@@ -23,8 +24,9 @@ file(STRINGS ${HASHES} expected_lines)
 foreach(line IN LISTS expected_lines)
   separate_arguments(words UNIX_COMMAND "${line}")
   list(GET words 1 arithmetic)
+  list(GET words 2 style)
   list(GET words 3 real)
-  if(NOT "|${KINDS}|" MATCHES "[|]${arithmetic}_${real}[|]")
+  if(NOT "|${KINDS}|" MATCHES "[|]${arithmetic}_${real}[|]" OR (STYLES AND NOT "|${STYLES}|" MATCHES "[|]${style}[|]"))
     continue()
   endif()
   string(REGEX REPLACE " [0-9a-f]+ [0-9a-f]+$" "" controller "${line}")

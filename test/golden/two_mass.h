@@ -140,7 +140,7 @@ typedef struct {
 } two_mass_t;
 
 LQG_STRICT_BEGIN
-#if defined __GNUC__ && !defined __clang__  /* loads numbers where they are needed: less register pressure */
+#if defined __GNUC__ && !defined __clang__  /* loads numbers where they are needed */
 #pragma GCC optimize ("no-tree-ter", "no-tree-pre")
 #endif
 
