@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Runs PROGRAM, the main.c of a build BUILD, behind EMULATOR if there is one, and compares what it prints with HASHES.
-# KINDS are the controllers that it has, <arithmetic>_<real>, with | between them; STYLES their styles likewise, all where
-# there is none.
+# KINDS are the controllers that it has, <arithmetic>_<real>, with | between them; STYLES their styles likewise, all
+# where there is none.
 # With CONTRACTS the build has to be one that contracts a*b + c, or nothing is tested. With UPDATE what it prints
 # becomes HASHES.
 string(REPLACE "|" ";" emulator "${EMULATOR}")

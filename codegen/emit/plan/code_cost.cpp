@@ -205,10 +205,13 @@ CodeCost cost_of_unrolled(const Controller& controller) {
       carries_covariance(controller) ? add_function(aside, controller, trace_begin_covariance(controller)).stack : 0;
   // Kept for the integrals.
   const long heard = (controller.target.is_fused ? 8 : 4) * (controller.size.nxi + controller.size.nr);
+  // A fused law waits for its test.
+  const long tested = controller.target.is_fused && controller.has.regulator ? 16 : 0;
   // It waits for what it calls: NAME_weigh, and in the middle NAME_reset or NAME_recover, which may call that.
   const long step =
       controller.has.filter
-          ? add_step(cost, controller, traced.step, {&traced.update, &traced.control, &traced.predict}).stack + heard
+          ? add_step(cost, controller, traced.step, {&traced.update, &traced.control, &traced.predict}).stack + heard +
+                tested
           : add_function(cost, controller, traced.control).stack;
   if (!controller.has.filter)
     cost.instructions = instructions_of(listing_of(controller, traced.control), controller.target.is_double);

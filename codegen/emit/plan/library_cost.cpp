@@ -152,9 +152,9 @@ long stack_of_loops(const Controller& controller) {
   const long ny = controller.size.ny, covariance = carries_covariance(controller) ? 8 : 0,
              real = bytes_of_real(controller);
   const long work = work_of(controller);
-  const long update = work + (is_watched(controller) ? 76 : 36) + covariance + tables +
+  const long update = work + (is_watched(controller) ? 76 : 40) + covariance + tables +
                       (controller.size.nxi ? aligned(real * ny) + aligned(ny) + 8 : 0) +
-                      (controller.has.range ? aligned(real * ny) + 8 : 0);
+                      (controller.has.range ? aligned(real * ny) : 0);
   const long predict = work + 16 + covariance + (remembers(controller) ? 8 : 0) + tables;
   const long whole = is_watched(controller) ? 0 : figures.whole - 8;
   return std::max({law, update + whole + figures.update.of(controller), predict + figures.predict.of(controller)});
