@@ -221,6 +221,15 @@ class Following(unittest.TestCase):
 
 
 class Others(unittest.TestCase):
+    def other(self, watched, name):
+        """The answer to /other; asked again, as the page does, where the file's own state came first."""
+        while True:
+            status, _, body = watched.ask("/other", "POST", json.dumps({"name": name}))
+            answer = json.loads(body)
+            self.assertEqual(status, 200)
+            if "superseded" not in answer:
+                return answer
+
     def test_another_file_of_the_folder_is_drawn_as_if_it_were_watched(self):
         with Watched(LQGEN, SERVO) as watched:
             text = watched.path.read_text(encoding="utf-8").replace("[0.05, 30]", "[0.02, 30]")
@@ -230,10 +239,9 @@ class Others(unittest.TestCase):
             watched.save(watched.path.read_text(encoding="utf-8") + "\n")
             state = watched.state(1)
             self.assertEqual(state["others"], ["stiff.toml"])
-            status, _, body = watched.ask("/other", "POST", json.dumps({"name": "stiff.toml"}))
-            self.assertEqual(status, 200)
+            answer = self.other(watched, "stiff.toml")
             with Watched(LQGEN, watched.folder / "stiff.toml") as alone:
-                self.assertEqual(json.loads(body)["page"], alone.state()["page"])
+                self.assertEqual(answer["page"], alone.state()["page"])
 
     def test_only_the_files_of_the_list_are_read(self):
         with Watched(LQGEN, SERVO) as watched:
@@ -252,9 +260,8 @@ class Others(unittest.TestCase):
         with Watched(LQGEN, SERVO) as watched:
             text = watched.path.read_text(encoding="utf-8").replace("[[1, 0]]", "[[1, 0, 0]]")
             (watched.folder / "broken.toml").write_text(text, encoding="utf-8")
-            status, _, body = watched.ask("/other", "POST", json.dumps({"name": "broken.toml"}))
-            answer = json.loads(body)
-            self.assertEqual((status, answer["has_error"], answer["page"]), (200, True, None))
+            answer = self.other(watched, "broken.toml")
+            self.assertEqual((answer["has_error"], answer["page"]), (True, None))
             self.assertIn("broken.toml:", answer["lines"][0])
 
 
