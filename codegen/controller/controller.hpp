@@ -73,10 +73,11 @@ struct CoreInstructions {
 // What the emitted code costs. Multiply-adds and RAM are exact; flash and stack are estimates for a Cortex-M4F at -O2,
 // so are the instructions for the cores that are named.
 struct CodeCost {
-  long multiply_adds = 0;  // in one sample: update, control, predict; a lone add, multiply or division counts as one
-  long ram = 0;            // bytes of the state
-  long flash = 0;          // bytes of code and constants
-  long stack = 0;          // bytes of the deepest function
+  long multiply_adds = 0;   // in one sample: update, control, predict; a lone add, multiply or division counts as one
+  long ram = 0;             // bytes of the state
+  long flash = 0;           // bytes of code and constants
+  long stack = 0;           // bytes of the deepest function
+  long values_at_once = 0;  // the most in use at once in a function of every sample; of straight-line code
   std::vector<CoreInstructions> instructions;  // of an ordinary sample; empty where they are not estimated
 };
 

@@ -125,8 +125,8 @@ typedef struct {
 } double_integrator_t;
 
 LQG_STRICT_BEGIN
-#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */
-#pragma GCC optimize ("no-schedule-insns", "no-tree-ter", "no-tree-pre")
+#if defined __GNUC__ && !defined __clang__  /* loads numbers where they are needed */
+#pragma GCC optimize ("no-tree-ter", "no-tree-pre")
 #endif
 
 /* Initial state: x̂ = x0, its covariance P = P0, counters = 0. */

@@ -267,10 +267,11 @@ std::string initial_state(const Controller& controller) {
 
 namespace {
 
-// Where a compiler that moves statements has more values at once than registers.
+// A compiler that moves statements has even more values at once, which it spills where there are more than registers.
+// Where there are not, moved statements wait less for the results of others.
 bool keeps_order(const Controller& controller) {
-  constexpr int most_states = 10;
-  return carries_covariance(controller) || std::max(controller.size.nx, controller.size.nz) > most_states;
+  constexpr long registers = 31;  // of an FPU with 32: one for a result
+  return controller.cost.values_at_once > registers;
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ FunctionCost add_function(CodeCost& cost, const Controller& controller, const Tr
   const Listing listing = listing_of(controller, function, is_weigh);
   const FunctionCost own = controller.target.is_double ? cost_in_double(listing) : cost_in_float(listing);
   cost.multiply_adds += printer_of(function).operations().total();
+  cost.values_at_once = std::max(cost.values_at_once, values_at_once(listing));
   cost.flash += own.flash;
   return own;
 }
@@ -89,6 +90,7 @@ FunctionCost add_step(CodeCost& cost, const Controller& controller, const Traced
   const Listing listing = listing_of(controller, step);
   const FunctionCost own = cost_of_step(listing, listings, controller.target.is_double);
   cost.instructions = instructions_of(listing, controller.target.is_double);
+  cost.values_at_once = values_at_once(listing);
   cost.multiply_adds += printer_of(step).operations().total();
   cost.flash += own.flash;
   return own;
@@ -243,6 +245,7 @@ CodeCost cost_of_shared(const Controller& controller) {
     const long stack = add_function(once, controller, function).stack;
     cost.flash += once.flash;
     cost.multiply_adds += times * once.multiply_adds;
+    cost.values_at_once = std::max(cost.values_at_once, once.values_at_once);
     return stack;
   };
   const long weigh = controller.has.gate ? add_function(aside, controller, trace_weigh(controller), true).stack : 0;
@@ -268,6 +271,7 @@ CodeCost cost_of_shared(const Controller& controller) {
                     : controller.target.is_double ? 7 * block.flash / 4
                                                   : 5 * block.flash / 4;
       cost.multiply_adds += (2 * nx - first) * block.multiply_adds;
+      cost.values_at_once = std::max(cost.values_at_once, block.values_at_once);
     }
     cost.flash += bytes_of_column_loops;
     tables += triangle(nx) + nx;

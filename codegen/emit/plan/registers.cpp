@@ -295,4 +295,6 @@ Traffic traffic_of(const Listing& listing, long registers) {
   return traffic;
 }
 
+long values_at_once(const Listing& listing) { return traffic_of(listing, std::numeric_limits<long>::max()).registers; }
+
 }  // namespace lqg::emit

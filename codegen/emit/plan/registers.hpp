@@ -43,4 +43,7 @@ struct Traffic {
 // With this many registers, values that wait longest for their next use spilled first.
 Traffic traffic_of(const Listing& listing, long registers);
 
+// The most values in use at once, with the statements in their order.
+long values_at_once(const Listing& listing);
+
 }  // namespace lqg::emit
