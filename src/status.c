@@ -16,6 +16,8 @@ const char *lqg_status_text(lqg_status_t status)
         return "an output was not finite or absurd and was not used";
     if (status & LQG_OUTPUT_GATED)
         return "an output was too unlikely and was not used";
+    if (status & LQG_NOT_OPTIMAL)
+        return "no optimum within the limits was found: the inputs are those of the law, clipped";
     if (status & LQG_INPUT_LIMITED)
         return "an input was limited";
     return "all is well";

@@ -6,6 +6,7 @@
  * | lqg/kalman.h | filters: constant gain, covariance, its factors | init, update, predict           |
  * | lqg/lqr.h    | u = −K x within limits                          | control                         |
  * | lqg/servo.h  | the same with integral action and references    | init, observe, control, advance |
+ * | lqg/mpc.h    | u = −K x + v, limits foreseen                  | control, limit                  |
  * | lqg/loop.h   | filter and lqr in one call a sample             | init, step                      |
  * | lqg/ekf.h    | extended filter, for plants that are not linear | init, update, predict           |
  * | lqg/rls.h    | recursive least squares                         | init, update                    |
@@ -58,6 +59,7 @@
  * | LQG_OUTPUT_GATED            | nothing                  | sensor, model or noise figures are wrong               |
  * | LQG_INNOVATION_NOT_POSITIVE | nothing: P is reset      | P0, W or V are wrong, or memory is                     |
  * | LQG_INPUT_LIMITED           | nothing                  | demand too large, actuator too weak, or u not finite   |
+ * | LQG_NOT_OPTIMAL             | nothing: u is clipped    | more `iterations`; limits contradict each other        |
  * | LQG_STATE_RESET             | count it: the estimate   | u passed to predict is not what was applied, model     |
  * |                             | begins at x0             | wrong, or memory failed: go to the safe state          |
  * | LQG_REFERENCE_NOT_FINITE    | nothing: r counts as 0   | correct who writes r                                   |
@@ -93,6 +95,7 @@
 #include "lqg/kalman.h"
 #include "lqg/loop.h"
 #include "lqg/lqr.h"
+#include "lqg/mpc.h"
 #include "lqg/rls.h"
 #include "lqg/servo.h"
 #include "lqg/status.h"

@@ -87,6 +87,7 @@ static void test_every_status_has_its_own_sentence_and_the_gravest_wins(void)
 {
     const lqg_status_t rising[] = {LQG_OK,
                                    LQG_INPUT_LIMITED,
+                                   LQG_NOT_OPTIMAL,
                                    LQG_OUTPUT_GATED,
                                    LQG_OUTPUT_REJECTED,
                                    LQG_REFERENCE_NOT_FINITE,
