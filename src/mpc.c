@@ -210,22 +210,29 @@ static unsigned advance(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned l
     return blocking;
 }
 
+/* The row that was appended last has to leave before its multiplier moved: its violation, the largest, was nothing but
+ * rounding. */
+static inline int is_rounding(const lqg_mpc_state_t *state, unsigned length, unsigned blocking)
+{
+    return length && blocking == length - 1 && state->m[blocking] == 0;
+}
+
 /* Whether the multipliers of the optimum were found; *length: how many rows are active. */
 static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *length)
 {
     unsigned n = 0, blocking = 0;
 
     for (unsigned changes = 0; changes <= mpc->iterations && blocking <= n; changes++) {
-        if (blocking < n) {
+        const int is_solved = blocking == n, is_done = is_rounding(state, n, blocking);
+        const unsigned row = is_solved && n < mpc->rows ? most_violated(mpc, state, n) : mpc->rows;
+        if (!is_solved)
             drop(mpc, state, n--, blocking);
-        } else {
-            const unsigned row = n < mpc->rows ? most_violated(mpc, state, n) : mpc->rows;
-            if (row == mpc->rows) {
-                *length = n;
-                return 1;
-            }
-            append(mpc, state, n++, row);
+        if (is_done || (is_solved && row == mpc->rows)) {
+            *length = n;
+            return 1;
         }
+        if (is_solved)
+            append(mpc, state, n++, row);
         blocking = advance(mpc, state, n);
     }
     return 0;
