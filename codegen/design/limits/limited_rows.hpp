@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What a law needs to foresee limits: how the limited quantities follow from the state and from what is added to the
+// law, in many digits.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "design/numeric/linear_algebra.hpp"
+
+namespace lqg::design {
+
+// z = c x + d u, or its change since the sample before, in every block's first sample within [low, high] in units of z;
+// infinite where there is none. With a price p the excess e adds p e² to J, without one there is none.
+struct LimitedQuantity {
+  RealMatrix c, d;  // 1 × nx, 1 × nu
+  bool is_change = false;
+  Real low, high;
+  std::optional<Real> price;
+};
+
+// x⁺ = A x + B u, u = −K x + v; J = x₀ᵀXx₀ + Σ vᵀ weight v, weight = R + BᵀXB. v is held over each block of samples and
+// 0 after the last. u is limited in every block's first sample: its size hard; its change hard in the first sample of
+// all, where the target narrows the size by it, and at `step_price` later.
+struct LimitedProblem {
+  RealMatrix A, B, K, weight;
+  std::vector<int> blocks;  // lengths, ≥ 1
+  RealVector u_min, u_max;  // nu, infinite where there is none
+  RealVector u_step;        // nu, largest |u[k] − u[k−1]|, infinite where there is none; or empty
+  Real step_price;          // > 0; not looked at without u_step
+  std::vector<LimitedQuantity> quantities;
+  Real tolerance;  // of a limit, as a share of its range
+  Real softening;  // on the diagonal of G of hard rows, as a share of it
+};
+
+// z = [−K; F] x + G m: m_i ≥ 0 where z_i = low_i, ≤ 0 where z_i = high_i, else 0. The first nu rows are u of this
+// sample, whether they have limits or not. What no v can move is left out.
+struct LimitedRows {
+  RealMatrix F;      // (rows − nu) × nx
+  RealMatrix G;      // rows × rows
+  RealVector scale;  // 1/√G_ii
+  RealVector low, high;
+  RealVector tolerance;
+  std::vector<int> sample;  // in which sample each is
+};
+
+// The lengths of blocks of a horizon in samples: single steps where changes or quantities are limited, else 1, 1, 2,
+// 4, 4, 8, 8 … and what is left.
+std::vector<int> default_blocks(int horizon, bool has_single_steps);
+
+// In the digits in force. Empty where `weight` is not positive definite.
+std::optional<LimitedRows> limited_rows(const LimitedProblem& problem);
+
+// Whether each number is settled beside one of a run with fewer digits; see ziv_test.hpp.
+bool passes_ziv_test(const LimitedRows& coarse, LimitedRows& fine, unsigned coarse_digits);
+
+}  // namespace lqg::design
