@@ -12,6 +12,7 @@
 #define ROUNDING 9.53674316e-07f
 #endif
 
+/* Of a row: not active, or at which of its limits. */
 enum { NOT_ACTIVE, AT_LOW, AT_HIGH };
 
 LQG_STRICT_BEGIN
@@ -257,7 +258,7 @@ static lqg_status_t clip(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, int
     lqg_status_t status = is_optimal ? LQG_OK : LQG_NOT_OPTIMAL;
 
     for (unsigned i = 0; i < mpc->nu; i++) {
-        const lqg_real law = state->f[i], wanted = is_optimal ? u[i] : is_finite(law) ? law : 0;
+        const lqg_real law = state->f[i], given = is_optimal ? u[i] : law, wanted = is_finite(given) ? given : 0;
         const lqg_real limited = wanted < state->low[i] ? state->low[i] : wanted;
         u[i] = limited > state->high[i] ? state->high[i] : limited;
         if ((is_optimal && state->side[i] != NOT_ACTIVE) || u[i] != wanted || !is_finite(law))
