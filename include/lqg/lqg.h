@@ -6,7 +6,7 @@
  * | lqg/kalman.h | filters: constant gain, covariance, its factors | init, update, predict           |
  * | lqg/lqr.h    | u = −K x within limits                          | control                         |
  * | lqg/servo.h  | the same with integral action and references    | init, observe, control, advance |
- * | lqg/mpc.h    | u = −K x + v, limits foreseen                  | control, limit                  |
+ * | lqg/mpc.h    | u = −K x + v, limits foreseen                   | control, limit                  |
  * | lqg/loop.h   | filter and lqr in one call a sample             | init, step                      |
  * | lqg/ekf.h    | extended filter, for plants that are not linear | init, update, predict           |
  * | lqg/rls.h    | recursive least squares                         | init, update                    |
@@ -31,7 +31,8 @@
  *   Units        Any, as long as they belong together; y and u are those of the plant.
  *   MUST         Undefined behaviour if violated: not checked on the target. LQG_ASSERT checks it, see below.
  *   Failure      Nothing stops. The status says what was left out, limited or reset.
- *   Time         Loops have fixed lengths: the number of operations does not depend on the data.
+ *   Time         Loops have fixed lengths: the number of operations does not depend on the data. Those of lqg/mpc.h have
+ *                bounds.
  *   A sample     Filter form: update(y), control(u), predict(u). Predictor form: control(u), update(y), predict(u).
  *
  * Interrupts and tasks. No function has memory of its own, so different states are independent:
