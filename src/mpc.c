@@ -27,40 +27,34 @@ static void check_contract(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state)
     LQG_ASSERT(state->u_applied || !mpc->u_step);
 }
 
-/* The limits of u of this sample: those of its size, narrowed by those of its change as far as they agree. A u[k−1]
- * that is NaN narrows nothing. */
-static void begin_limits(const lqg_mpc_t *mpc, lqg_mpc_state_t *state)
+/* The limits of this sample: those of the size of u, narrowed by those of its change as far as they agree. A u[k−1] that
+ * is NaN narrows nothing. */
+static void narrow(const lqg_mpc_t *mpc, lqg_mpc_state_t *state)
 {
     LQG_STRICT_BODY
-    for (unsigned i = 0; i < mpc->nu; i++) {
-        const lqg_real low = mpc->low[i], high = mpc->high[i];
-        state->low[i] = low;
-        state->high[i] = high;
-        if (mpc->u_step) {
+    lqg_real *low = state->narrowed, *high = low + mpc->rows;
+
+    for (unsigned i = 0; i < mpc->rows; i++) {
+        const lqg_real least = mpc->low[i], most = mpc->high[i];
+        low[i] = least;
+        high[i] = most;
+        if (i < mpc->nu) {
             const lqg_real lowest = state->u_applied[i] - mpc->u_step[i];
             const lqg_real highest = state->u_applied[i] + mpc->u_step[i];
-            if (lowest > low)
-                state->low[i] = lowest < high ? lowest : high;
-            if (highest < high)
-                state->high[i] = highest > low ? highest : low;
+            if (lowest > least)
+                low[i] = lowest < most ? lowest : most;
+            if (highest < most)
+                high[i] = highest > least ? highest : least;
         }
     }
-}
-
-static inline lqg_real low_of(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, unsigned row)
-{
-    return row < mpc->nu ? state->low[row] : mpc->low[row];
-}
-
-static inline lqg_real high_of(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, unsigned row)
-{
-    return row < mpc->nu ? state->high[row] : mpc->high[row];
+    state->low = low;
+    state->high = high;
 }
 
 /* The limit that row, which is active, is at. */
-static lqg_real limit_of(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, unsigned row)
+static lqg_real limit_of(const lqg_mpc_state_t *state, unsigned row)
 {
-    return state->side[row] == AT_LOW ? low_of(mpc, state, row) : high_of(mpc, state, row);
+    return (state->side[row] == AT_LOW ? state->low : state->high)[row];
 }
 
 /* z_i = f_i + Σ_k G_ik m_k over the active rows */
@@ -87,7 +81,7 @@ static unsigned most_violated(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsi
         if (state->side[i] != NOT_ACTIVE)
             continue;
         const lqg_real z = foreseen(mpc, state, length, i);
-        const lqg_real below = low_of(mpc, state, i) - z, above = z - high_of(mpc, state, i);
+        const lqg_real below = state->low[i] - z, above = z - state->high[i];
         const lqg_real violation = below > above ? below : above;
         if (!(violation > mpc->tolerance[i]) || !(violation * mpc->scale[i] > largest) ||
             !(violation > ROUNDING * absolute(state->f[i])))
@@ -108,11 +102,11 @@ static inline lqg_real *row_of(lqg_real L[], unsigned k)
 }
 
 /* y_k = limit − f − Σ_j L_kj y_j */
-static void substitute(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned k)
+static void substitute(lqg_mpc_state_t *state, unsigned k)
 {
     LQG_STRICT_BODY
     const unsigned row = state->active[k];
-    const lqg_real right = limit_of(mpc, state, row) - state->f[row];
+    const lqg_real right = limit_of(state, row) - state->f[row];
 
     state->y[k] = k ? subtract_row_product(right, row_of(state->L, k), 0, k, state->y) : right;
 }
@@ -134,12 +128,12 @@ static void append(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned length
     state->d[length] = d > SINGULAR * G[row] ? d : 0;
     state->m[length] = 0;
     state->active[length] = (unsigned char)row;
-    substitute(mpc, state, length);
+    substitute(state, length);
 }
 
 /* L and d without row and column k: what column k leaves to the rows below it is d_k l lᵀ. Of the `length` rows before
  * one less is left. */
-static void drop(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned length, unsigned k)
+static void drop(lqg_mpc_state_t *state, unsigned length, unsigned k)
 {
     LQG_STRICT_BODY
     lqg_real *p = state->next, *beta = state->y, alpha = state->d[k];
@@ -155,14 +149,17 @@ static void drop(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned length, 
         }
         const lqg_real part = alpha * rest, d = multiply_add(part, rest, state->d[i]);
         p[i] = rest;
-        beta[i] = d > 0 ? part / d : 0;
-        alpha = d > 0 ? alpha * state->d[i] / d : 0;
+        beta[i] = 0;
+        if (d > 0) {
+            beta[i] = part / d;
+            alpha = alpha * state->d[i] / d;
+        }
         state->d[i - 1] = d;
         state->m[i - 1] = state->m[i];
         state->active[i - 1] = state->active[i];
     }
     for (unsigned j = k; j + 1 < length; j++)
-        substitute(mpc, state, j);
+        substitute(state, j);
 }
 
 /* next: the m with which the active rows are at their limits; or where the last of them depends on the others, the
@@ -172,13 +169,14 @@ static void solve_active(lqg_mpc_state_t *state, unsigned length, int is_singula
     LQG_STRICT_BODY
     lqg_real *next = state->next;
 
-    for (unsigned j = length; j-- > 0;) {
-        lqg_real sum = is_singular ? 0 : state->y[j] / state->d[j];
-        if (is_singular && j + 1 == length)
-            sum = state->side[state->active[j]] == AT_LOW ? 1 : -1;
-        for (unsigned i = j + 1; i < length; i++)
-            sum = multiply_subtract(row_of(state->L, i)[j], next[i], sum);
-        next[j] = sum;
+    for (unsigned j = 0; j < length; j++)
+        next[j] = is_singular ? 0 : state->y[j] / state->d[j];
+    if (is_singular)
+        next[length - 1] = state->side[state->active[length - 1]] == AT_LOW ? 1 : -1;
+    for (unsigned j = length; j-- > 1;) {
+        const lqg_real *row = row_of(state->L, j), known = next[j];
+        for (unsigned i = 0; i < j; i++)
+            next[i] = multiply_subtract(row[i], known, next[i]);
     }
 }
 
@@ -227,11 +225,13 @@ static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *
         const int is_solved = blocking == n, is_done = is_rounding(state, n, blocking);
         const unsigned row = is_solved && n < mpc->rows ? most_violated(mpc, state, n) : mpc->rows;
         if (!is_solved)
-            drop(mpc, state, n--, blocking);
+            drop(state, n--, blocking);
         if (is_done || (is_solved && row == mpc->rows)) {
             *length = n;
             return 1;
         }
+        if (changes == mpc->iterations)
+            break;
         if (is_solved)
             append(mpc, state, n++, row);
         blocking = advance(mpc, state, n);
@@ -239,32 +239,54 @@ static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *
     return 0;
 }
 
-/* u of the optimum into u. Whether it is finite. */
-static int take_optimum(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, unsigned length, lqg_real u[])
-{
-    int all_finite = 1;
-
-    for (unsigned i = 0; i < mpc->nu; i++) {
-        u[i] = state->side[i] != NOT_ACTIVE ? limit_of(mpc, state, i) : foreseen(mpc, state, length, i);
-        all_finite = all_finite && is_finite(u[i]);
-    }
-    return all_finite;
-}
-
-/* u, or the law where u is not the optimum, within its limits. */
-static lqg_status_t clip(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, int is_optimal, lqg_real u[])
+/* u of the optimum, or the law where it was not found, finite and within its limits. */
+static lqg_status_t take(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, int is_optimal, unsigned length,
+                         lqg_real u[])
 {
     LQG_STRICT_BODY
     lqg_status_t status = is_optimal ? LQG_OK : LQG_NOT_OPTIMAL;
 
     for (unsigned i = 0; i < mpc->nu; i++) {
-        const lqg_real law = state->f[i], given = is_optimal ? u[i] : law, wanted = is_finite(given) ? given : 0;
-        const lqg_real limited = wanted < state->low[i] ? state->low[i] : wanted;
-        u[i] = limited > state->high[i] ? state->high[i] : limited;
-        if ((is_optimal && state->side[i] != NOT_ACTIVE) || u[i] != wanted || !is_finite(law))
+        const int is_active = is_optimal && state->side[i] != NOT_ACTIVE;
+        const lqg_real wanted = is_active ? limit_of(state, i) : foreseen(mpc, state, length, i);
+        lqg_real limited = wanted;
+        if (!is_finite(wanted)) {
+            limited = 0;
+            status |= LQG_NOT_OPTIMAL;
+        }
+        limited = limited < state->low[i] ? state->low[i] : limited;
+        limited = limited > state->high[i] ? state->high[i] : limited;
+        if (is_active || limited != wanted)
             status |= LQG_INPUT_LIMITED;
+        u[i] = limited;
     }
     return status;
+}
+
+/* f, of which the law's u is there, and that u. Whether it is finite and within all limits: nothing is left to do. */
+static int foresee(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, const lqg_real x[], lqg_real u[])
+{
+    LQG_STRICT_BODY
+    const unsigned nx = mpc->nx, rows = mpc->rows;
+    const lqg_real *F = mpc->F, *low = state->low, *high = state->high;
+    lqg_real *z = state->f;
+    int all_within = 1;
+    unsigned i = 0;
+
+    for (; i < mpc->nu; i++) {
+        u[i] = z[i];
+        state->side[i] = NOT_ACTIVE;
+        if (!is_finite(z[i]) || !(z[i] >= low[i] && z[i] <= high[i]))
+            all_within = 0;
+    }
+    for (; i < rows; i++, F += nx) {
+        const lqg_real f = add_row_product(0, F, 0, nx, x);
+        z[i] = f;
+        state->side[i] = NOT_ACTIVE;
+        if (!(f >= low[i] && f <= high[i]))
+            all_within = 0;
+    }
+    return all_within;
 }
 
 /* u of the law, which is in f. */
@@ -272,14 +294,14 @@ static lqg_status_t limit_law(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, cons
 {
     unsigned length = 0;
 
-    begin_limits(mpc, state);
-    for (unsigned i = 0; i < mpc->rows; i++) {
-        state->side[i] = NOT_ACTIVE;
-        if (i >= mpc->nu)
-            state->f[i] = add_row_product(0, mpc->F, i - mpc->nu, mpc->nx, x);
-    }
+    state->low = mpc->low;
+    state->high = mpc->high;
+    if (mpc->u_step)
+        narrow(mpc, state);
+    if (foresee(mpc, state, x, u))
+        return LQG_OK;
     const int is_found = find_optimum(mpc, state, &length);
-    return clip(mpc, state, is_found && take_optimum(mpc, state, length, u), u);
+    return take(mpc, state, is_found, length, u);
 }
 
 lqg_status_t lqg_mpc_limit(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, const lqg_real x[], lqg_real u[])

@@ -60,9 +60,10 @@ class Optimum {
   }
   LimitedInput<S> find() {
     LimitedInput<S> found;
-    found.is_optimal = search(found.changes) && take(found.u);
-    if (!found.is_optimal) found.u = f_.head(law_.nu);
-    for (int i = 0; i < law_.nu; ++i) clip(i, found);
+    const bool is_found = search(found.changes);
+    found.is_optimal = is_found;
+    found.u.resize(law_.nu);
+    for (int i = 0; i < law_.nu; ++i) take(i, is_found, found);
     found.active = active_;
     found.multipliers = m_;
     return found;
@@ -132,9 +133,8 @@ class Optimum {
       last.push_back(g / at(d_, j));
       d = multiply_subtract(last.back(), g, d);
     }
-    const bool is_positive = is_less(S(S(Negligible<S>::pivot) * law_.G(row, row)), d);
     L_.push_back(last);
-    d_.push_back(is_positive ? d : S(0));
+    d_.push_back(is_less(S(S(Negligible<S>::pivot) * law_.G(row, row)), d) ? d : S(0));
     m_.push_back(S(0));
     y_.push_back(S(0));
     active_.push_back(row);
@@ -155,7 +155,7 @@ class Optimum {
       const bool is_positive = is_less(S(0), d);
       at(p, i) = rest;
       at(beta, i) = is_positive ? part / d : S(0);
-      alpha = is_positive ? alpha * at(d_, i) / d : S(0);
+      if (is_positive) alpha = alpha * at(d_, i) / d;
       at(d_, i) = d;
       L_[static_cast<std::size_t>(i)].erase(L_[static_cast<std::size_t>(i)].begin() + k);
     }
@@ -172,12 +172,10 @@ class Optimum {
     const S pivot = S(Negligible<S>::pivot) * law_.G(row(n - 1), row(n - 1));
     const bool is_singular = !is_less(pivot, at(d_, n - 1));
     std::vector<S> next(active_.size());
-    for (int j = n; j-- > 0;) {
-      S sum = is_singular ? S(0) : S(at(y_, j) / at(d_, j));
-      if (is_singular && j + 1 == n) sum = S(side(row(j)) == Side::low ? 1 : -1);
-      for (int i = j + 1; i < n; ++i) sum = multiply_subtract(L(i, j), at(next, i), sum);
-      at(next, j) = sum;
-    }
+    for (int j = 0; j < n; ++j) at(next, j) = is_singular ? S(0) : S(at(y_, j) / at(d_, j));
+    if (is_singular) at(next, n - 1) = S(side(row(n - 1)) == Side::low ? 1 : -1);
+    for (int j = n; j-- > 1;)
+      for (int i = 0; i < j; ++i) at(next, i) = multiply_subtract(L(j, i), at(next, j), at(next, i));
     int blocking = n;
     S share(1);
     for (int k = 0; k < n; ++k) {
@@ -204,27 +202,22 @@ class Optimum {
       const int row = is_solved ? most_violated() : rows_;
       if (!is_solved) drop(blocking);
       if (is_rounding || (is_solved && row == rows_)) return true;
+      if (changes == law_.iterations) break;
       if (is_solved) append(row);
       blocking = advance();
     }
     return false;
   }
 
-  bool take(Vector<S>& u) {
-    bool all_finite = true;
-    u.resize(law_.nu);
-    for (int i = 0; i < law_.nu; ++i) {
-      u(i) = side(i) != Side::none ? limit(i) : foreseen(i);
-      all_finite = all_finite && is_finite(S(u(i)));
-    }
-    return all_finite;
-  }
-  void clip(int i, LimitedInput<S>& found) const {
-    const bool has_law = is_finite(S(f_(i)));
-    const S wanted = found.is_optimal || has_law ? S(found.u(i)) : S(0);
-    const bool is_low = is_less(wanted, S(low_(i))), is_high = !is_low && is_less(S(high_(i)), wanted);
-    found.u(i) = is_low ? S(low_(i)) : is_high ? S(high_(i)) : wanted;
-    found.is_limited = found.is_limited || is_low || is_high || !has_law || (found.is_optimal && side(i) != Side::none);
+  void take(int i, bool is_found, LimitedInput<S>& found) const {
+    const bool is_active = is_found && side(i) != Side::none;
+    const S wanted = is_active ? limit(i) : is_found ? foreseen(i) : S(f_(i));
+    const bool has_number = is_finite(wanted);
+    const S given = has_number ? wanted : S(0);
+    const bool is_low = is_less(given, S(low_(i))), is_high = !is_low && is_less(S(high_(i)), given);
+    found.u(i) = is_low ? S(low_(i)) : is_high ? S(high_(i)) : given;
+    found.is_optimal = found.is_optimal && has_number;
+    found.is_limited = found.is_limited || is_active || is_low || is_high || !has_number;
   }
 
   const LimitedLaw<S>& law_;

@@ -19,10 +19,10 @@ static const lqg_real low[ROWS] = {-1, -1, -2, -2}, high[ROWS] = {2, 2, 3, 3}, u
 int main(void)
 {
     lqg_real K[NU * NX], F[(ROWS - NU) * NX], G[ROWS * ROWS], scale[ROWS], tolerance[ROWS], x[NX], u[NU], applied[NU];
-    lqg_real memory[LQG_MPC_MEMORY(NU, ROWS)];
+    lqg_real memory[LQG_MPC_MEMORY(ROWS)];
     unsigned char set[LQG_MPC_SET(ROWS)];
     const lqg_mpc_t mpc = {NX, NU, ROWS, 12, K, F, G, scale, low, high, tolerance, any_int ? u_step : NULL};
-    lqg_mpc_state_t state = LQG_MPC_STATE_IN(memory, set, applied, NU, ROWS);
+    lqg_mpc_state_t state = LQG_MPC_STATE_IN(memory, set, applied, ROWS);
 
     say_anything(K, NU * NX);
     say_anything(F, (ROWS - NU) * NX);

@@ -117,17 +117,16 @@ static const lqg_real untouched = 12345;
 
 void begin_scratch(scratch_t *scratch, const lqg_mpc_t *mpc, const lqg_real u_applied[])
 {
-    const lqg_mpc_state_t state = LQG_MPC_STATE_IN(scratch->memory, scratch->set, u_applied, mpc->nu, mpc->rows);
+    const lqg_mpc_state_t state = LQG_MPC_STATE_IN(scratch->memory, scratch->set, u_applied, mpc->rows);
 
     memset(scratch->memory, 0xff, sizeof scratch->memory);
     memset(scratch->set, 0xff, sizeof scratch->set);
-    scratch->memory[LQG_MPC_MEMORY(mpc->nu, mpc->rows)] = untouched;
+    scratch->memory[LQG_MPC_MEMORY(mpc->rows)] = untouched;
     scratch->set[LQG_MPC_SET(mpc->rows)] = 123;
     scratch->state = state;
 }
 
 int is_scratch_intact(const scratch_t *scratch, const lqg_mpc_t *mpc)
 {
-    return scratch->memory[LQG_MPC_MEMORY(mpc->nu, mpc->rows)] == untouched &&
-           scratch->set[LQG_MPC_SET(mpc->rows)] == 123;
+    return scratch->memory[LQG_MPC_MEMORY(mpc->rows)] == untouched && scratch->set[LQG_MPC_SET(mpc->rows)] == 123;
 }

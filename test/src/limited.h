@@ -41,7 +41,7 @@ void describe(const problem_t *problem, description_t *out);
 
 /* A state over memory that begins as garbage, and the row behind it that must stay what it is. */
 typedef struct {
-    lqg_real memory[LQG_MPC_MEMORY(MAX_U, MAX_ROWS) + 1];
+    lqg_real memory[LQG_MPC_MEMORY(MAX_ROWS) + 1];
     unsigned char set[LQG_MPC_SET(MAX_ROWS) + 1];
     lqg_mpc_state_t state;
 } scratch_t;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string>
 
 #include <unity.h>
 
@@ -166,6 +167,36 @@ void test_u_is_that_of_the_optimum_over_all_inputs() {
   }
 }
 
+// The state after a while in a loop with the optimum, or with the law clipped.
+double distance_left(const LimitedProblem& problem, const lqg::step::LimitedLaw<double>& law, VectorXd x, bool clips) {
+  const MatrixXd A = to_doubles(problem.A), B = to_doubles(problem.B), K = to_doubles(problem.K);
+  const VectorXd low = law.low.head(law.nu), high = law.high.head(law.nu);
+  for (int k = 0; k < 400; ++k) {
+    const VectorXd u = -K * x;
+    const auto found = lqg::step::limited_input<double>(law, {}, x, u);
+    TEST_ASSERT_TRUE(found.is_optimal);
+    x = A * x + B * (clips ? VectorXd(u.cwiseMax(low).cwiseMin(high)) : VectorXd(found.u));
+  }
+  return x.cwiseAbs().maxCoeff();
+}
+
+// Clipped, the loop of two masses ends in a limit cycle.
+void test_a_loop_that_clipping_destroys_settles_from_every_start() {
+  const Digits scope(50);
+  const LimitedProblem problem = two_mass_in_blocks();
+  const auto law = target_law(problem, *limited_rows(problem));
+  Random random(5);
+  const int starts = 1000;
+  int clipped = 0, optimal = 0;
+  for (int n = 0; n < starts; ++n) {
+    const VectorXd x = random.matrix(4, 1);
+    clipped += distance_left(problem, law, x, true) < 0.01;
+    optimal += distance_left(problem, law, x, false) < 0.01;
+  }
+  TEST_ASSERT_EQUAL(starts, optimal);
+  TEST_ASSERT_INT_WITHIN(100, 250, clipped);
+}
+
 void test_a_law_without_limits_has_a_row_an_input_now_and_no_more() {
   const Digits scope(50);
   LimitedProblem problem = two_inputs_in_blocks();
@@ -234,14 +265,41 @@ void test_a_weight_that_is_not_definite_has_no_rows() {
   TEST_ASSERT_FALSE(limited_rows(problem).has_value());
 }
 
+void print_array(const char* name, const Eigen::MatrixXf& values) {
+  std::printf("static const lqg_real %s[] = {", name);
+  for (Index i = 0; i < values.rows(); ++i)
+    for (Index j = 0; j < values.cols(); ++j) std::printf("%s%.9ef", i + j ? ", " : "", double(values(i, j)));
+  std::printf("};\n");
+}
+
+// For test/bench/limits.sh: two_mass in blocks, in float.
+int print_tables() {
+  const Digits scope(50);
+  LimitedProblem problem = two_mass_in_blocks();
+  problem.tolerance = 1e-4;
+  const LimitedRows rows = *limited_rows(problem);
+  print_array("K", to_floats(problem.K));
+  print_array("F", to_floats(rows.F));
+  print_array("G", to_floats(rows.G));
+  print_array("scale", to_floats(rows.scale));
+  print_array("low", to_floats(rows.low));
+  print_array("high", to_floats(rows.high));
+  print_array("tolerance", to_floats(rows.tolerance));
+  std::printf("enum { NX = %d, NU = %d, ROWS = %d };\n", int(problem.K.cols()), int(problem.K.rows()),
+              int(rows.G.rows()));
+  return 0;
+}
+
 }  // namespace
 
 void setUp() {}
 void tearDown() {}
 
-int main() {
+int main(int count, char** words) {
+  if (count > 1 && std::string(words[1]) == "tables") return print_tables();
   UNITY_BEGIN();
   RUN_TEST(test_u_is_that_of_the_optimum_over_all_inputs);
+  RUN_TEST(test_a_loop_that_clipping_destroys_settles_from_every_start);
   RUN_TEST(test_a_law_without_limits_has_a_row_an_input_now_and_no_more);
   RUN_TEST(test_what_no_input_can_move_has_no_row);
   RUN_TEST(test_a_soft_row_has_the_inverse_of_its_price_on_the_diagonal);
