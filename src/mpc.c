@@ -249,11 +249,9 @@ static lqg_status_t take(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, int
     for (unsigned i = 0; i < mpc->nu; i++) {
         const int is_active = is_optimal && state->side[i] != NOT_ACTIVE;
         const lqg_real wanted = is_active ? limit_of(state, i) : foreseen(mpc, state, length, i);
-        lqg_real limited = wanted;
-        if (!is_finite(wanted)) {
-            limited = 0;
+        lqg_real limited = is_finite(wanted) ? wanted : 0;
+        if (!is_finite(wanted))
             status |= LQG_NOT_OPTIMAL;
-        }
         limited = limited < state->low[i] ? state->low[i] : limited;
         limited = limited > state->high[i] ? state->high[i] : limited;
         if (is_active || limited != wanted)

@@ -43,6 +43,15 @@ static inline int perhaps_all_scaled_below(const lqg_real v[], const lqg_real sc
     return 1;
 }
 
+/* Likewise: low_i ≤ v_i ≤ high_i. */
+static inline int perhaps_all_within(const lqg_real v[], const lqg_real low[], const lqg_real high[], unsigned length)
+{
+    for (unsigned i = 0; i < length; i++)
+        if (!(v[i] == v[i] && v[i] >= low[i] && v[i] <= high[i]))
+            stop();
+    return 1;
+}
+
 /* Likewise: every |P_ii| < 1/scale_i² of a lower triangle. */
 static inline int perhaps_diagonal_below(const lqg_real P[], const lqg_real scale[], unsigned nx)
 {
