@@ -94,9 +94,10 @@ struct FormChoice {
   std::optional<FormCost> folded, modal;
 };
 
-// What straight-line code of a filter that carries P has once, and not again and again: nothing, the functions over P
-// that all outputs need, or also those over A, which run over the columns of P.
-enum class Sharing { nothing, outputs, columns };
+// What straight-line code has once, and not again and again: nothing; of a filter that carries P the functions over P
+// that all outputs need, or also those over A, which run over the columns of P; of one with a constant gain the loops of
+// its products with dense matrices.
+enum class Sharing { nothing, outputs, columns, products };
 
 struct Controller {
   design::Problem problem;

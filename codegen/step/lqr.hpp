@@ -25,7 +25,7 @@ Vector<S> reference(const Model<S>& model, const State<S>& state, Listener& list
 template <class S>
 S law(const Model<S>& model, const State<S>& state, const Vector<S>& r, int i) {
   const int nxi = static_cast<int>(model.integral.size());
-  S sum = model.gives_change ? S(state.u(i)) : S(0);
+  S sum = model.law_begun.size() ? S(model.law_begun(i)) : model.gives_change ? S(state.u(i)) : S(0);
   for (int j = 0; j < model.nx; ++j) sum = multiply_subtract(S(model.K(i, j)), S(state.x(j)), sum);
   for (int j = 0; j < nxi; ++j) sum = multiply_subtract(S(model.K(i, model.nx + j)), S(state.xi(j)), sum);
   for (int j = 0; j < model.nu && model.gives_change; ++j)

@@ -46,6 +46,8 @@ struct Model {
   Matrix<S> K;                  // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
   Vector<S> u_min, u_max;       // nu, or empty: no limits
   bool has_finite_law = false;  // what the law asks for is known to be finite: nobody has to look
+  Vector<S> law_begun;          // nu, or empty: the sums of the law so far as x̂, where K has no x̂ any more
+  Vector<S> prediction_begun;   // nx, or empty: likewise A x̂, where A is 0
   // A law with a memory.
   int nr = 0;                 // references
   Matrix<S> Nbar;             // nu × nr, or no columns

@@ -122,7 +122,7 @@ void predict_state(const Model<S>& model, State<S>& state, const Vector<S>& u, B
                    -1, and_check(model.x_bound));
   Vector<S> next(model.nx);
   for (int i = 0; i < model.nx; ++i) {
-    S sum = model.A(i, 0) * state.x(0);
+    S sum = model.prediction_begun.size() ? S(model.prediction_begun(i)) : S(model.A(i, 0) * state.x(0));
     for (int j = 1; j < model.nx; ++j) sum = multiply_add(S(model.A(i, j)), S(state.x(j)), sum);
     for (int j = 0; j < model.nu; ++j) sum = multiply_add(S(model.B(i, j)), S(u(j)), sum);
     for (int j = 0; j < model.M.cols(); ++j) sum = multiply_add(S(model.M(i, j)), S(state.innovation(j)), sum);

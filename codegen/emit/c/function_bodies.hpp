@@ -32,6 +32,7 @@ FunctionBodies straight_line_bodies(const Controller& controller);
 
 FunctionBodies unrolled_bodies(const Controller& controller);
 FunctionBodies shared_bodies(const Controller& controller);
+FunctionBodies products_bodies(const Controller& controller);
 FunctionBodies compact_bodies(const Controller& controller);
 
 // Of gains that change from sample to sample, the entries that do; the others are numbers in the code.

@@ -20,6 +20,7 @@ extern const char compact_init[], compact_update[], compact_update_alone[], comp
     compact_act[], compact_recover[], compact_filter_of_sample[], compact_law_of_sample[];
 extern const char shared_project[], shared_use[], shared_correct[], shared_rows[], shared_predict_covariance[],
     shared_update[], shared_observation[];
+extern const char products_add_rows[], products_innovate[], products_update[];
 
 }  // namespace templates
 

@@ -2,6 +2,7 @@
 #include "emit/plan/code_cost.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
@@ -13,6 +14,7 @@
 #include "emit/recorded/linear_traced.hpp"
 #include "emit/recorded/row_pattern.hpp"
 #include "emit/recorded/shared_covariance.hpp"
+#include "emit/recorded/steady_products.hpp"
 #include "emit/recorded/traced.hpp"
 
 namespace lqg::emit {
@@ -25,6 +27,7 @@ namespace {
 // there once.
 constexpr long most_inlined = 80;
 constexpr long bytes_of_call = 16, bytes_of_column_loops = 220, bytes_of_observation = 40;
+constexpr long bytes_of_product = 56, bytes_of_rows = 40, stack_of_rows = 64;
 // Of a function with loops over n states: all registers, and what they do not hold.
 long bytes_of_saved_registers(long n, bool is_double) { return 100 + 2 * n + (is_double ? 64 : 0); }
 
@@ -296,6 +299,34 @@ CodeCost cost_of_shared(const Controller& controller) {
   const long code = cost.flash + aside.flash + counters;
   cost.flash = (controller.target.is_double ? with_margin(controller, code) : code + code / 32) + beginning.flash +
                bytes_of_real(controller) * tables + bytes_of_software_floats(controller, true);
+  return cost;
+}
+
+CodeCost cost_of_products(const Controller& controller) {
+  const SteadyProducts products = steady_products(controller);
+  const Beginning beginning = beginning_of(controller);
+  const long calls = controller.target.is_double ? stack_of_double : 0, real = bytes_of_real(controller);
+  CodeCost cost, aside;  // aside: for the output or the sample that is not as expected
+  const long weigh = controller.has.gate ? add_function(aside, controller, trace_weigh(controller), true).stack : 0;
+  const long innovate = add_function(cost, controller, trace_innovate(controller, products)).stack;
+  const long end = add_function(cost, controller, trace_end_of_steady_update(controller, products)).stack;
+  const long law = controller.has.regulator ? add_function(cost, controller, trace_law(controller, products)).stack : 0;
+  const long predict = add_function(cost, controller, trace_steady_predict(controller, products)).stack;
+  std::set<int> heights;
+  long entries = 0;
+  for (const Product* product : {&products.C, &products.L, &products.K, &products.A, &products.B}) {
+    for (const int height : heights_of_blocks(*product)) heights.insert(height);
+    entries += static_cast<long>(product->matrix.size());
+    cost.flash += is_in_loop(*product) ? bytes_of_product : 0;
+  }
+  for (const int height : heights) cost.flash += bytes_of_rows + (controller.target.is_double ? 60 : 24) * height;
+  cost.multiply_adds += entries;
+  cost.ram = state_bytes(controller);
+  const long sums = aligned(real * (controller.size.nx + controller.size.ny));
+  cost.stack = sums + std::max({innovate, end, law, predict}) + stack_of_rows +
+               std::max(weigh + calls, std::max(calls, beginning.stack));
+  cost.flash = with_margin(controller, cost.flash + aside.flash) + beginning.flash + real * entries +
+               bytes_of_software_floats(controller, false);
   return cost;
 }
 

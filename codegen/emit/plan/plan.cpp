@@ -7,6 +7,7 @@
 #include "emit/plan/code_cost.hpp"
 #include "emit/plan/realisation.hpp"
 #include "emit/recorded/shared_covariance.hpp"
+#include "emit/recorded/steady_products.hpp"
 #include "simulate/drop_outs.hpp"
 #include "simulate/scenario_requirements.hpp"
 
@@ -21,20 +22,44 @@ struct Way {
   CodeCost cost;
 };
 
-// Compact code has loops; over fewer columns than these they would be no shorter than what stands in them.
+const Way& smallest(const std::vector<Way>& ways) {
+  return *std::min_element(ways.begin(), ways.end(),
+                           [](const Way& a, const Way& b) { return a.cost.flash < b.cost.flash; });
+}
+
+// Compact code has loops; over fewer states than these they would be no shorter than what stands in them.
+constexpr int least_in_loops = 5;
+
 std::vector<controller::Sharing> sharings_of(const Controller& controller) {
-  constexpr int least_columns = 5;
-  if (controller.size.nx < least_columns) return {controller::Sharing::outputs};
+  if (controller.size.nx < least_in_loops) return {controller::Sharing::outputs};
   if (controller.problem.code.style == design::Style::compact) return {controller::Sharing::columns};
   return {controller::Sharing::outputs, controller::Sharing::columns};
+}
+
+// With a constant gain loops over tables, or straight lines where few of its numbers are not zero. The compact style has
+// the smaller of the two, if the library's loops, which know no zeros, are not smaller still.
+std::vector<Way> steady_ways(const Controller& controller) {
+  const Way straight = {design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)};
+  std::vector<Way> ways = {straight};
+  if (can_loop_products(controller)) {
+    Controller looping = controller;
+    looping.sharing = controller::Sharing::products;
+    ways.push_back({design::Style::unrolled, looping.sharing, cost_of_products(looping)});
+  }
+  if (controller.problem.code.style != design::Style::compact) return ways;
+  const Way& least = smallest(ways);
+  if (least.cost.flash < cost_of_compact(controller).flash) return {least};
+  return {};
 }
 
 // Those that the design file lets choose among, the fastest first: what is shared takes calls, and loops for columns.
 std::vector<Way> ways_of(const Controller& controller) {
   const design::Style asked = controller.problem.code.style;
+  const bool is_steady = controller.filter == step::Filter::steady && controller.size.nx >= least_in_loops;
   std::vector<Way> ways;
-  if (asked == design::Style::unrolled || (asked == design::Style::automatic && !controller.has.stages))
+  if (asked == design::Style::unrolled || (asked == design::Style::automatic && !controller.has.stages && !is_steady))
     ways.push_back({design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)});
+  if (asked != design::Style::unrolled && is_steady && !controller.has.stages) ways = steady_ways(controller);
   if (asked != design::Style::unrolled && can_share_covariance(controller)) {
     Controller sharing = controller;
     for (const controller::Sharing what : sharings_of(controller)) {
@@ -51,8 +76,7 @@ std::vector<Way> ways_of(const Controller& controller) {
 const Way& chosen_of(const std::vector<Way>& ways, long flash) {
   for (const Way& way : ways)
     if (way.cost.flash <= flash) return way;
-  return *std::min_element(ways.begin(), ways.end(),
-                           [](const Way& a, const Way& b) { return a.cost.flash < b.cost.flash; });
+  return smallest(ways);
 }
 
 void choose_style(Controller& controller) {

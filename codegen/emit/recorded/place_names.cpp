@@ -38,10 +38,10 @@ std::string suffix_of(const Controller& controller, const step::Place& place) {
 }
 
 std::set<std::string> reserved_names(const Controller& controller) {
-  std::set<std::string> names = {
-      "self",   "status",     "x",      "u",      "y",       "r",     "P",      "S",
-      "i",      "heard",      "there",  "lost",   "law",     "gains", "limits", "widen",
-      "narrow", "innovation", "reason", "u_char", "u_short", "u_int", "u_long"};  // the last are types of POSIX
+  std::set<std::string> names = {"self",    "status", "x",      "u",          "y",      "r",    "P",
+                                 "S",       "i",      "heard",  "there",      "lost",   "law",  "gains",
+                                 "limits",  "widen",  "narrow", "innovation", "reason", "sums", "u_char",
+                                 "u_short", "u_int",  "u_long"};  // the last are types of POSIX
   const std::string& name = controller.problem.name;
   for (const char* what : {"t",         "init",      "reset",         "recover",    "weigh",      "update",
                            "control",   "predict",   "step",          "covariance", "innovation", "partial_update",

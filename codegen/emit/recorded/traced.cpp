@@ -210,6 +210,14 @@ TracedFunction trace_lost_outputs(const Controller& controller) {
   return function;
 }
 
+std::vector<TracedFunction> trace_updates_alone(const Controller& controller) {
+  const std::vector<bool> pattern = covariance_pattern(controller);
+  std::vector<TracedFunction> updates;
+  for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
+    if (has_update_alone(controller, i)) updates.push_back(trace_update_alone(controller, pattern, i));
+  return updates;
+}
+
 TracedController trace_controller(const Controller& controller) {
   TracedController traced;
   if (controller.has.filter) {
@@ -217,8 +225,7 @@ TracedController trace_controller(const Controller& controller) {
     traced.update = trace_update(controller, pattern);
     traced.predict = trace_predict(controller, pattern);
     traced.step = trace_sample(controller, pattern);
-    for (int i = 0; i < controller.size.ny && controller.size.ny > 1; ++i)
-      if (has_update_alone(controller, i)) traced.updates_alone.push_back(trace_update_alone(controller, pattern, i));
+    traced.updates_alone = trace_updates_alone(controller);
   }
   if (controller.has.regulator) traced.control = trace_regulator(controller);
   return traced;

@@ -56,6 +56,7 @@ TracedController trace_controller(const Controller& controller);
 // Parts of it.
 TracedFunction trace_regulator(const Controller& controller);
 TracedFunction trace_prediction(const Controller& controller);
+std::vector<TracedFunction> trace_updates_alone(const Controller& controller);  // empty where there is one output only
 
 // The calls of a sample as one function, which finds the bits and the status that they find. `pattern` is that of the
 // covariance.

@@ -282,7 +282,9 @@ std::string describe_cost(const Controller& controller) {
   return "\nOne sample takes " + std::to_string(cost.multiply_adds) + " multiply-adds and " + std::to_string(cost.ram) +
          " bytes of RAM. By arm-none-eabi-gcc 12.2 at -O2, for a\nCortex-M4F, at most " + std::to_string(cost.flash) +
          " bytes of flash and " + std::to_string(cost.stack) + " bytes of stack.\nStyle: " + style_of(controller) +
-         (controller.sharing == controller::Sharing::nothing ? "" : ", outputs share the functions over P") +
+         (controller.sharing == controller::Sharing::nothing    ? ""
+          : controller.sharing == controller::Sharing::products ? ", products with dense matrices in loops"
+                                                                : ", outputs share the functions over P") +
          ". Arithmetic: " + (controller.target.is_fused ? "fused" : "plain") +
          ". Digits of the design: " + std::to_string(controller.solution.numerics.digits) + ".\n";
 }

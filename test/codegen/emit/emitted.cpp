@@ -5,6 +5,7 @@
 
 #include "emit/c/header.hpp"
 #include "emit/recorded/shared_covariance.hpp"
+#include "emit/recorded/steady_products.hpp"
 #include "emit/unit_test/unit_test.hpp"
 
 namespace lqg_test {
@@ -44,6 +45,7 @@ std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
     ways.push_back({Style::unrolled, Sharing::outputs, "_outputs"});
     if (controller.size.nx > 1) ways.push_back({Style::unrolled, Sharing::columns, "_columns"});
   }
+  if (lqg::emit::can_loop_products(controller)) ways.push_back({Style::unrolled, Sharing::products, "_products"});
   return ways;
 }
 
