@@ -36,8 +36,8 @@ std::vector<controller::Sharing> sharings_of(const Controller& controller) {
   return {controller::Sharing::outputs, controller::Sharing::columns};
 }
 
-// With a constant gain loops over tables, or straight lines where few of its numbers are not zero. The compact style has
-// the smaller of the two, if the library's loops, which know no zeros, are not smaller still.
+// With a constant gain straight lines and loops over tables. The compact style has those lines as long as the loops
+// save little, and neither where the library's loops, which know no zeros, are smaller still.
 std::vector<Way> steady_ways(const Controller& controller) {
   const Way straight = {design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)};
   std::vector<Way> ways = {straight};
@@ -48,7 +48,8 @@ std::vector<Way> steady_ways(const Controller& controller) {
   }
   if (controller.problem.code.style != design::Style::compact) return ways;
   const Way& least = smallest(ways);
-  if (least.cost.flash < cost_of_compact(controller).flash) return {least};
+  const Way& compact = 4 * straight.cost.flash <= 5 * least.cost.flash ? straight : least;
+  if (compact.cost.flash < cost_of_compact(controller).flash) return {compact};
   return {};
 }
 
