@@ -45,13 +45,6 @@ TracedFunction trace_without(const Controller& controller, const SteadyProducts&
   return function;
 }
 
-// y_i, or with C in a loop y_i − C_i x̂; NaN where the sensor cannot say y_i.
-Expr heard(const SymbolicModel& model, const Expr& y, bool is_in_loop, int i) {
-  if (!is_in_loop) return y;
-  const Expr begun = Expr::of(trace::graph().input(element("innovation", i), "begun_" + std::to_string(i)));
-  return model.y_min.size() ? trace::select(trace::is_finite(y), begun, trace::not_a_number(begun)) : begun;
-}
-
 }  // namespace
 
 SteadyProducts steady_products(const Controller& controller) {
@@ -101,12 +94,16 @@ TracedFunction trace_innovate(const Controller& controller, const SteadyProducts
   return trace_without(
       controller, products,
       [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener, TracedFunction& function) {
+        const bool is_begun = is_in_loop(products.C), has_range = model.y_min.size() > 0;
+        const Symbols begun = load(controller, "innovation", "begun", is_begun ? model.ny : 0, at_output);
         const Symbols y = step::in_range_or_nan(model, load(controller, "y", "y", model.ny, at_output), listener);
         Symbols innovation(model.ny);
         std::vector<trace::Condition> used;
         for (int i = 0; i < model.ny; ++i) {
-          const Expr begun = heard(model, y(i), is_in_loop(products.C), i);
-          const step::Innovation<Expr> found = step::innovate(model, state, begun, i, listener);
+          const Expr heard = y(i), from = is_begun ? begun(i) : heard;
+          const bool may_be_out = is_begun && has_range;
+          const Expr told = may_be_out ? trace::select(trace::is_finite(heard), from, trace::not_a_number(from)) : from;
+          const step::Innovation<Expr> found = step::innovate(model, state, told, i, listener);
           innovation(i) = found.value;
           used.push_back(found.is_used);
         }
