@@ -213,8 +213,9 @@ std::vector<KeyRule> keys_of_the_code() {
        "`plain`: every product and every sum is rounded; the result has the same bits on every target. `fused`: "
        "multiply-adds are fmaf() or fma(); the same bits on every target that has them in hardware."},
       {"code.style", Type::word, no, no, optional, {"auto", "unrolled", "compact"},
-       "`unrolled`: straight-line code of this plant's structure. `compact`: loops; a filter that updates P as it is "
-       "has loops of its own where they fit `flash`, else calls of the library's. "
+       "`unrolled`: straight-line code of this plant's structure. `compact`: loops; a filter that updates P as it is, "
+       "and from 5 states on one with a constant gain, has loops of its own where they fit `flash`, else calls of the "
+       "library's. A constant gain of few numbers stays straight-line code. "
        "`auto`: the fastest that fits `flash`."},
       {"code.realisation", Type::word, no, no, optional, {"physical", "folded", "modal", "cheapest"},
        "`physical`: the controller keeps x̂. `folded`, `modal`: it keeps other numbers, which takes fewer operations. "

@@ -14,8 +14,8 @@ namespace lqg::emit {
 
 namespace {
 
-constexpr const char* in_words[] = {"no row",     "one row",   "two rows", "three rows",
-                                      "four rows",  "five rows", "six rows"};
+constexpr const char* in_words[] = {"no row",    "one row",   "two rows", "three rows",
+                                    "four rows", "five rows", "six rows"};
 
 std::vector<const Product*> in_loops(const SteadyProducts& products) {
   std::vector<const Product*> loops;
@@ -75,8 +75,7 @@ std::string add_product(const Controller& controller, const Product& product, co
   if (whole > 1)
     out = "    for (int i = 0; i < " + std::to_string(end) + "; i += " + std::to_string(height) + ") {\n        " +
           call(height, "i", "i * " + std::to_string(columns)) + "    }\n";
-  if (heights.back() < height)
-    out += "    " + call(heights.back(), std::to_string(end), std::to_string(end * columns));
+  if (heights.back() < height) out += "    " + call(heights.back(), std::to_string(end), std::to_string(end * columns));
   return fill(out, common_words(controller));
 }
 
@@ -100,8 +99,8 @@ std::string law_body(const Controller& controller, const SteadyProducts& product
 std::string prediction_body(const Controller& controller, const SteadyProducts& products) {
   const std::string advance = advance_counters(controller);
   const TracedFunction traced = trace_steady_predict(controller, products);
-  const std::string added = add_product(controller, products.A, "self->x", "sums") +
-                            add_product(controller, products.B, "u", "sums");
+  const std::string added =
+      add_product(controller, products.A, "self->x", "sums") + add_product(controller, products.B, "u", "sums");
   // What only the loops read is used, too.
   const std::string text = controller.size.nu && !is_in_loop(products.B)
                                ? body(controller, traced, {"self", "u"}, advance)
@@ -123,10 +122,10 @@ std::string products_helpers(const Controller& controller, const SteadyProducts&
     for (const int height : heights_of_blocks(*product)) heights.insert(height);
   std::string out;
   for (const int height : heights) out += add_rows(controller, height);
-  return out + write_function(
-                   templates::products_innovate, controller,
-                   {{"body", body(controller, trace_innovate(controller, products), {"self", "y", "innovation"})}},
-                   {{"adds_C", is_in_loop(products.C)}});
+  return out +
+         write_function(templates::products_innovate, controller,
+                        {{"body", body(controller, trace_innovate(controller, products), {"self", "y", "innovation"})}},
+                        {{"adds_C", is_in_loop(products.C)}});
 }
 
 }  // namespace
