@@ -12,6 +12,7 @@
 #include "commands/new.hpp"
 #include "commands/run.hpp"
 #include "commands/simulate.hpp"
+#include "emit/c/batch.hpp"
 #include "emit/c/header.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/report/json.hpp"
@@ -79,6 +80,7 @@ std::vector<emit::File> files(const Arguments& arguments, const emit::Controller
   if (wants(arguments, "test")) out.push_back({name + "_test.c", emit::unit_test(controller)});
   if (wants(arguments, "json")) out.push_back({name + ".json", emit::json(controller)});
   if (wants(arguments, "proof")) out.push_back({name + "_proof.h", emit::proof(controller)});
+  if (wants(arguments, "batch")) out.push_back({name + "_batch.h", emit::batch_header(controller)});
   if (wants(arguments, "html")) out.push_back({name + ".html", emit::report(controller, findings)});
   return out;
 }
@@ -158,6 +160,11 @@ int generate(const Arguments& arguments) {
   design::Findings findings;
   const std::optional<emit::Controller> controller = design_controller(arguments, watch, status, findings);
   if (!controller) return status;
+  if (const auto why = wants(arguments, "batch") ? emit::why_no_batch(*controller) : std::nullopt) {
+    watch.end();
+    std::cerr << input::printable(shown_path(arguments)) << ": --only batch: " << *why << "\n";
+    return impossible;
+  }
 
   watch.show("code, test and report");
   const std::vector<emit::File> outputs = files(arguments, *controller, findings);
@@ -387,8 +394,8 @@ int main(int argc, char** argv) {
   add_folder(app, arguments.folder);
   app.add_option("--only", arguments.only, "write only these")
       ->delimiter(',')
-      ->check(CLI::IsMember({"h", "test", "json", "html", "proof"}))
-      ->option_text("h,test,json,html,proof");
+      ->check(CLI::IsMember({"h", "test", "json", "html", "proof", "batch"}))
+      ->option_text("h,test,json,html,proof,batch");
   add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
   add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");
 

@@ -26,6 +26,7 @@ struct Target {
   bool is_double = false;
   bool is_fused = false;
   bool is_prover = false;  // who reads the code, beside a compiler
+  bool is_lane = false;    // one of many instances side by side
 };
 
 struct Dimensions {

@@ -56,6 +56,7 @@ struct Target {
   bool is_double = false;
   bool is_fused = false;
   bool is_prover = false;  // reads beside each test what follows from it
+  bool is_lane = false;    // one of many side by side: [lane] behind each place, and no branches
 };
 
 // Nodes are numbered in the order in which the run made them, so a node stands after all that it uses.

@@ -63,8 +63,10 @@ void Printer::count_uses(const std::vector<int>& results) {
   for (std::size_t i = uses_.size(); i-- > 0;) {
     if (uses_[i] == 0) continue;
     const Node& node = graph_.nodes()[i];
-    for (const int operand : {node.a, node.b, node.c})
-      if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : 1;
+    const int shown = node.op == Op::resumed && is_lane() ? uses_[i] : 1;  // as what it resumes
+    const bool asks_nobody = node.op == Op::asked && is_lane();            // what it would ask about is not printed
+    for (const int operand : {node.a, asks_nobody ? -1 : node.b, asks_nobody ? -1 : node.c})
+      if (operand >= 0) uses_[static_cast<std::size_t>(operand)] += prints_twice(node, operand) ? 2 : shown;
   }
 }
 
@@ -78,6 +80,7 @@ std::string Printer::operand(int node) const { return print(node, unary + 1); }
 bool Printer::is_declared(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   if (at.op == Op::constant || at.op == Op::flag || is_parameter(at)) return false;
+  if (at.op == Op::resumed && is_lane()) return false;
   return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1 || is_variable_[static_cast<std::size_t>(node)];
 }
 
@@ -88,15 +91,16 @@ std::string Printer::print(int node, int level) const {
     const std::string text = literal(at.value, graph_.target().is_double);
     return at.value < 0 ? bracketed(text, unary, level + 1) : text;
   }
-  if (at.op == Op::asked) return bracketed(name_of(node) + " != 0", comparison, level);
-  if (at.op == Op::resumed) return name_of(node);
+  if (at.op == Op::resumed) return is_lane() ? print(at.a, level) : name_of(node);
+  if (at.op == Op::asked && !is_lane()) return bracketed(name_of(node) + " != 0", comparison, level);
   return is_declared(node) ? name_of(node) : print_operation(node, level);
 }
 
 // How tightly the operator binds that a node is printed with; a name and a call are no operators.
 int Printer::binds(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
-  if (at.op == Op::asked) return comparison;
+  if (at.op == Op::resumed && is_lane()) return binds(at.a);
+  if (at.op == Op::asked && !is_lane()) return comparison;
   if (at.op == Op::constant || is_declared(node)) return unary;
   switch (at.op) {
     case Op::select: return any;
@@ -179,10 +183,12 @@ std::string Printer::print_operation(int node, int level) const {
       return told.empty() ? text : told;
     }
     case Op::same: return binary(" == ", comparison);
-    case Op::either: return chained(" || ");
-    case Op::both: return chained(" && ");
+    case Op::either: return chained(is_lane() ? " | " : " || ");  // || is a branch
+    case Op::both: return chained(is_lane() ? " & " : " && ");
     case Op::negation: return "!" + print(at.a, unary + 1);
     case Op::resumed: return needs(at.a) ? print(at.a, level) : at.text;
+    case Op::asked: return print(at.a, level);
+    case Op::input: return place(at.text);
     default: return at.text;
   }
 }
@@ -264,19 +270,20 @@ std::string Printer::status_choice(int node, const std::string& name, int indent
 std::string Printer::raise(int status) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(status)];
   const auto is_ok = [&](int node) { return graph_.nodes()[static_cast<std::size_t>(node)].text == "LQG_OK"; };
-  if (is_declared(status) || at.op != Op::select || is_declared(at.b) || !is_ok(at.c))
+  if (is_lane() || is_declared(status) || at.op != Op::select || is_declared(at.b) || !is_ok(at.c))
     return "    status |= " + operand(status) + ";\n";
   return wrap("    if (" + print(at.a, any) + ") {", 8) + "\n        status |= " + print(at.b, any) + ";\n    }\n";
 }
 
 std::string Printer::declaration(int node) const {
-  if (is_status(node)) {
+  if (is_status(node) && !is_lane()) {
     const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
     return "    lqg_status_t " + name_of(node) + " = " + print(at.b, any) + ";\n" +
            wrap("    if (!" + print(at.a, unary + 1) + ") {", 8) + "\n" + status_choice(at.c, name_of(node), 8) +
            "    }\n";
   }
-  if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked) return question(node);
+  if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked && !is_lane())
+    return question(node);
   const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "bool"
                            : is_status(node)                                               ? "lqg_status_t"
                            : graph_.target().is_double                                     ? "double"

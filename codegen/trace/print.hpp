@@ -48,6 +48,10 @@ class Printer {
   std::string test_by_names(int condition) const;
   // The same, in brackets where it is more than a name.
   std::string operand(int node) const;
+  // Of one of many lanes: a recovery that comes between has no lane to itself, so that the whole is one part.
+  bool is_lane() const { return graph_.target().is_lane; }
+  // "self->x[0]", of one of many lanes "self->x[0][lane]".
+  std::string place(const std::string& text) const { return is_lane() ? text + "[lane]" : text; }
   // A statement that adds a status to `status`.
   std::string raise(int status) const;
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }

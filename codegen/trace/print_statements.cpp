@@ -23,6 +23,7 @@ std::vector<bool> Printer::used_in_rest(const std::vector<int>& results_of_rest)
 }
 
 void Printer::find_variables(const std::vector<int>& results_of_rest) {
+  if (is_lane()) return;
   const std::vector<bool> is_used_in_rest = used_in_rest(results_of_rest);
   for (std::size_t i = static_cast<std::size_t>(graph_.rest()); i < uses_.size(); ++i) {
     const Node& node = graph_.nodes()[i];
@@ -40,7 +41,7 @@ void Printer::find_variables(const std::vector<int>& results_of_rest) {
 }
 
 std::string Printer::assignment(const Store& store) const {
-  const std::string line = wrap("    " + store.target + " = " + expression(store.node) + ";", 8) + "\n";
+  const std::string line = wrap("    " + place(store.target) + " = " + expression(store.node) + ";", 8) + "\n";
   return graph_.target().is_prover && store.target.rfind("u[", 0) == 0 ? line + "    /*@ slevel merge; */ ;\n" : line;
 }
 

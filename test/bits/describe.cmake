@@ -36,6 +36,11 @@ foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(
   endif()
 endforeach()
 
+string(REGEX REPLACE "\\.h$" "_batch.h" batch_header "${HEADER}")
+if(EXISTS ${batch_header})
+  string(APPEND does "#undef BATCH_HEADER\n#define BATCH_HEADER \"${batch_header}\"\n")
+endif()
+
 file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 #define NAME ${NAME}
 #define UPPER_NAME ${upper_name}

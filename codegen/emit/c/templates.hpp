@@ -12,7 +12,7 @@ namespace templates {
 
 extern const char init[], reset[], recover[], weigh[], update[], update_alone[], partial_update[], innovation[],
     control[], predict[], step[], covariance[], covariance_in_loops[], set_state[], set_input[];
-extern const char linear_filter_form[], linear_predictor_form[], linear_state[];
+extern const char linear_filter_form[], linear_predictor_form[], linear_state[], batch[];
 
 // Bodies, and parts of them.
 extern const char initial_state[], counters[], recover_body[], weigh_body[], step_calls[];

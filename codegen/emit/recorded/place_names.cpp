@@ -49,6 +49,9 @@ std::set<std::string> reserved_names(const Controller& controller) {
                            "move",      "hear",      "estimate"})
     names.insert(name + "_" + what);
   for (const design::Signal& output : controller.problem.plant.outputs) names.insert(name + "_update_" + output.name);
+  if (!controller.target.is_lane) return names;
+  names.insert({"lane", "usual", "unusual", "unusual_lanes", "before"});
+  for (const char* what : {"t", "init", "get", "set", "redo", "step"}) names.insert(name + "_batch_" + what);
   return names;
 }
 
