@@ -282,8 +282,7 @@ std::string Printer::declaration(int node) const {
            wrap("    if (!" + print(at.a, unary + 1) + ") {", 8) + "\n" + status_choice(at.c, name_of(node), 8) +
            "    }\n";
   }
-  if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked && !is_lane())
-    return question(node);
+  if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked && !is_lane()) return question(node);
   const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "bool"
                            : is_status(node)                                               ? "lqg_status_t"
                            : graph_.target().is_double                                     ? "double"

@@ -87,7 +87,7 @@ result_t FUNCTION_OF(NAME)(void)
             MEMBERS COUNTERS
 #undef HASH_MEMBER
 #undef COUNTER_MEMBER
-            result.differences += !(same && status[lane] == expected);
+                result.differences += !(same && status[lane] == expected);
             result.seen |= expected;
             result.honest += expected == LQG_OK;
         }

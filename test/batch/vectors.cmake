@@ -6,8 +6,6 @@ set(failed)
 foreach(batch IN LISTS BATCHES)
   string(REGEX REPLACE "_[a-z]*_[a-z]*$" "" name ${batch})
   set(header ${FOLDER}/${batch}/${name}_batch.h)
-  file(STRINGS ${header} lines)
-  set(line 0)
   file(READ ${header} text)
   string(REPLACE ";" "," text "${text}")
   string(FIND "${text}" "\n    LQG_LANES\n" before)
@@ -16,13 +14,9 @@ foreach(batch IN LISTS BATCHES)
   list(LENGTH ends line)
   math(EXPR line "${line} + 3")  # of the loop, which is two lines below the one where the text ends
 
-  set(real FLOAT)
-  if(batch MATCHES "_double$")
-    set(real DOUBLE)
-  endif()
   file(WRITE ${WORK}/${batch}.c "#include \"${header}\"\nstatic ${name}_batch_t batch;\n"
        "void *keep(void);\nvoid *keep(void) { ${name}_batch_init(&batch); return (void *)${name}_batch_step; }\n")
-  execute_process(COMMAND ${COMPILER} -std=c99 -O2 -mavx2 -mfma -fopt-info-vec -DLQG_REAL_${real} -I${ROOT}/include
+  execute_process(COMMAND ${COMPILER} -std=c99 -O2 -mavx2 -mfma -fopt-info-vec -I${ROOT}/include
                           -S -o ${WORK}/${batch}.s ${WORK}/${batch}.c
                   RESULT_VARIABLE result ERROR_VARIABLE said)
   if(NOT result EQUAL 0 OR NOT said MATCHES "${name}_batch.h:${line}:[0-9]*: optimized: loop vectorized")

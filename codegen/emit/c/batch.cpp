@@ -47,9 +47,8 @@ std::string copied(const std::vector<Field>& fields, const std::string& to, cons
   for (const Field& field : fields) {
     const std::string i = is_array(field) ? "[i]" : "";
     const std::string line = to + field.name + i + to_lane + " = " + from + field.name + i + from_lane + ";\n";
-    out += is_array(field)
-               ? "    for (int i = 0; i < " + field.dimension + "; i++) {\n        " + line + "    }\n"
-               : "    " + line;
+    out += is_array(field) ? "    for (int i = 0; i < " + field.dimension + "; i++) {\n        " + line + "    }\n"
+                           : "    " + line;
   }
   return out;
 }
@@ -62,32 +61,30 @@ class Batch {
   std::string header() const {
     const std::vector<Field> fields = state_fields(controller_);
     const design::Problem& problem = controller_.problem;
-    return write_body(
-        templates::batch, controller_,
-        {{"brief", problem.brief.empty() ? "" : "; " + problem.brief},
-         {"provenance", provenance(controller_)},
-         {"file_h", problem.name + ".h"},
-         {"unusual_when", unusual_when()},
-         {"fused", controller_.target.is_fused ? " Fused multiply-adds need -mfma." : ""},
-         {"fields", fields_of_lanes(controller_)},
-         {"get", filled(copied(fields, "one->", "", "self->", "[lane]"))},
-         {"set", filled(copied(fields, "self->", "[lane]", "one->", ""))},
-         {"restored", restored()},
-         {"law", law()},
-         {"index_y", index("Y", problem.plant.outputs)},
-         {"index_u", index("U", problem.plant.inputs)},
-         {"rows", row("law", controller_.laws, "{NAME}_LAW", "{law_row}", "sample") +
-                      row("gains", controller_.filters, "{NAME}_GAINS", "{filter_row}", "gain_row")},
-         {"saved", saved()},
-         {"statements", further_in(statements())}},
-        {{"is_told_u", !controller_.has.regulator && controller_.size.nu > 0}});
+    return write_body(templates::batch, controller_,
+                      {{"brief", problem.brief.empty() ? "" : "; " + problem.brief},
+                       {"provenance", provenance(controller_)},
+                       {"file_h", problem.name + ".h"},
+                       {"unusual_when", unusual_when()},
+                       {"fused", controller_.target.is_fused ? " Fused multiply-adds need -mfma." : ""},
+                       {"fields", fields_of_lanes(controller_)},
+                       {"get", filled(copied(fields, "one->", "", "self->", "[lane]"))},
+                       {"set", filled(copied(fields, "self->", "[lane]", "one->", ""))},
+                       {"restored", restored()},
+                       {"law", law()},
+                       {"index_y", index("Y", problem.plant.outputs)},
+                       {"index_u", index("U", problem.plant.inputs)},
+                       {"rows", row("law", controller_.laws, "{NAME}_LAW", "{law_row}", "sample") +
+                                    row("gains", controller_.filters, "{NAME}_GAINS", "{filter_row}", "gain_row")},
+                       {"saved", saved()},
+                       {"statements", further_in(statements())}},
+                      {{"is_told_u", !controller_.has.regulator && controller_.size.nu > 0}});
   }
 
  private:
   static TracedFunction traced(Controller controller) {
     controller.target.is_lane = true;
-    return controller.linear ? trace_linear(controller).step
-                             : trace_sample(controller, covariance_pattern(controller));
+    return controller.linear ? trace_linear(controller).step : trace_sample(controller, covariance_pattern(controller));
   }
 
   std::string filled(const std::string& text) const { return fill(text, common_words(controller_)); }
@@ -115,12 +112,14 @@ class Batch {
       return out;
     }
     if (controller_.has.gate) add("an output is further from its expected value than usual, or was so shortly before");
-    add(std::string("the state leaves its bounds") + (carries_covariance(controller_) ? ", or P could not be a covariance" : ""));
+    add(std::string("the state leaves its bounds") +
+        (carries_covariance(controller_) ? ", or P could not be a covariance" : ""));
     return out;
   }
 
   std::string law() const {
-    if (controller_.linear) return controller_.is_predictor ? "u = C z,  z ← A z + B y" : "u = C z + D y,  z ← A z + B y";
+    if (controller_.linear)
+      return controller_.is_predictor ? "u = C z,  z ← A z + B y" : "u = C z + D y,  z ← A z + B y";
     const std::string update = controller_.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u)" : "x̂ ← x̂ + L (y − C x̂)";
     const std::string act = controller_.has.regulator ? "u = " + equation_of_law(controller_) + ",  " : "";
     const std::string predict = controller_.size.nu ? "x̂ ← A x̂ + B u" : "x̂ ← A x̂";
@@ -203,11 +202,14 @@ class Batch {
     for (std::size_t at = 0; (at = of_lane.find(self, at)) != std::string::npos; at += self.size())
       of_lane.insert(at + self.size(), "[lane]");
     const std::string size = std::to_string(count);
-    return filled("    {real} " + array + "[" + size + "][{NAME}_BATCH_LANES];  /* gains of the sample of each lane */\n"
+    return filled("    {real} " + array + "[" + size +
+                  "][{NAME}_BATCH_LANES];  /* gains of the sample of each lane */\n"
                   "\n    for (int lane = 0; lane < {NAME}_BATCH_LANES; lane++) {\n"
-                  "        const {real} *const row = " + table + "[" + of_lane + "];\n\n"
-                  "        for (int i = 0; i < " + size + "; i++) {\n            " + array +
-                  "[i][lane] = row[i];\n        }\n    }\n");
+                  "        const {real} *const row = " +
+                  table + "[" + of_lane +
+                  "];\n\n"
+                  "        for (int i = 0; i < " +
+                  size + "; i++) {\n            " + array + "[i][lane] = row[i];\n        }\n    }\n");
   }
 
   std::string condition(int node) const { return printer_.test_by_names(node); }
@@ -237,7 +239,8 @@ class Batch {
     if (!finds_status()) return "    status[lane] = LQG_OK;\n";
     std::string out = "    lqg_status_t status_of_lane = LQG_OK;\n";
     const auto add = [&](const std::vector<int>& statuses) {
-      for (const int status : statuses) out += trace::wrap("    status_of_lane |= " + printer_.operand(status) + ";", 8) + "\n";
+      for (const int status : statuses)
+        out += trace::wrap("    status_of_lane |= " + printer_.operand(status) + ";", 8) + "\n";
     };
     if (function_.before) add(function_.before->statuses);
     add(function_.statuses);

@@ -84,10 +84,9 @@ Condition TraceListener::accept_or(const Condition& usable, int fault) {
 
 TracedFunction new_function(const Controller& controller) {
   TracedFunction function;
-  function.graph = std::make_shared<trace::Graph>(
-      trace::Target{controller.target.is_double, controller.target.is_fused, controller.target.is_prover,
-                    controller.target.is_lane},
-      upper(controller.problem.name) + "_");
+  function.graph = std::make_shared<trace::Graph>(trace::Target{controller.target.is_double, controller.target.is_fused,
+                                                                controller.target.is_prover, controller.target.is_lane},
+                                                  upper(controller.problem.name) + "_");
   function.graph->reserve(reserved_names(controller));
   return function;
 }

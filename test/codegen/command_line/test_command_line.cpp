@@ -66,6 +66,17 @@ void test_only_what_is_asked_for_is_written() {
   TEST_ASSERT_EQUAL_UINT(1, snapshot(folder / "new").size());
 }
 
+void test_batch_is_written_beside_the_header_and_only_if_asked_for() {
+  TEST_ASSERT_EQUAL_INT(written,
+                        run_lqgen({"base.toml", "-o", "new", "--only", "h,batch", "--style", "unrolled"}).status);
+  TEST_ASSERT_EQUAL_UINT(2, snapshot(folder / "new").size());
+  TEST_ASSERT_TRUE(read_file(folder / "new/base_batch.h").find("base_batch_step(") != std::string::npos);
+  const Outcome outcome = run_lqgen({"base.toml", "-o", "out", "--only", "h,batch", "--style", "compact"});
+  expect_refusal(impossible, outcome);
+  TEST_ASSERT_TRUE(outcome.err.find("base.toml: --only batch: ") != std::string::npos);
+  TEST_ASSERT_TRUE(outcome.err.find("--style unrolled") != std::string::npos);
+}
+
 void test_quiet_leaves_notes_out_and_errors_in() {
   std::string text = base;
   text.replace(text.find("domain"), text.find("sample_time") - text.find("domain"), "\n");
@@ -294,6 +305,7 @@ int main(int count, char** arguments) {
   RUN_TEST(test_good_design_replaces_the_outputs_and_leaves_nothing_beside_them);
   RUN_TEST(test_outputs_go_into_a_folder_that_is_made);
   RUN_TEST(test_only_what_is_asked_for_is_written);
+  RUN_TEST(test_batch_is_written_beside_the_header_and_only_if_asked_for);
   RUN_TEST(test_quiet_leaves_notes_out_and_errors_in);
   RUN_TEST(test_command_line_that_is_wrong);
   RUN_TEST(test_misspelt_options_are_explained_in_their_order);
