@@ -55,7 +55,7 @@ compile() {
 # Each row: nanoseconds by one, by the batch, ratio, of each kind of vectors.
 table() {
   local compiler=$1 row vectors kinds round
-  kinds=$(vectors_of_processor)
+  kinds=$(vectors_of_processor | tr "\n" " ")
   for row in "${rows[@]}"; do
     for vectors in $kinds; do compile "$compiler" "$row" "$vectors"; done
   done
@@ -65,10 +65,8 @@ table() {
       for vectors in $kinds; do echo "$row $vectors $("$folder/$row/$compiler-$vectors")" >>"$folder/times"; done
     done
   done
-  # shellcheck disable=SC2086  # one word for each
   printf '\n## %s, -O2\n\n' "$("$compiler" --version | head -n 1)"
-  # shellcheck disable=SC2086  # likewise
-  awk -v kinds="$(echo $kinds)" -v rows="${rows[*]}" '
+  awk -v kinds="$kinds" -v rows="${rows[*]}" '
     { key = $1 " " $2
       if (!(key in alone) || $3 < alone[key]) alone[key] = $3
       if (!(key in batch) || $4 < batch[key]) batch[key] = $4

@@ -66,7 +66,7 @@ class Batch {
                        {"provenance", provenance(controller_)},
                        {"file_h", problem.name + ".h"},
                        {"unusual_when", unusual_when()},
-                       {"fused", controller_.target.is_fused ? " Fused multiply-adds need -mfma." : ""},
+                       {"needs", needs()},
                        {"fields", fields_of_lanes(controller_)},
                        {"get", filled(copied(fields, "one->", "", "self->", "[lane]"))},
                        {"set", filled(copied(fields, "self->", "[lane]", "one->", ""))},
@@ -102,6 +102,12 @@ class Batch {
   // "TWO_MASS_Y_DY1"
   std::string index(const std::string& kind, const std::vector<design::Signal>& signals) const {
     return signals.empty() ? "" : filled("{NAME}_" + kind + "_") + upper(signals.front().name);
+  }
+
+  // Of the processor: without comparisons of 64 bits, or the instruction, GCC makes no vectors at all.
+  std::string needs() const {
+    if (controller_.target.is_fused) return " Fused multiply-adds need -mfma.";
+    return controller_.target.is_double ? " Doubles need -msse4.2 or more." : "";
   }
 
   std::string unusual_when() const {
