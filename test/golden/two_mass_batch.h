@@ -25,7 +25,7 @@
  * It costs as much as two_mass_step and some copying; the other lanes do not.
  *
  * The compiler makes vectors of the loop, as wide as its options allow: -mavx2 or -march=native on x86-64.
- * GCC needs -O1 besides, clang -O2.
+ * GCC and clang need -O2 besides.
  */
 #ifndef TWO_MASS_BATCH_H
 #define TWO_MASS_BATCH_H
