@@ -74,7 +74,10 @@ table() {
     END {
       count = split(kinds, kind, " "); split(rows, row, " ")
       head = "| design |"; line = "| --- |"
-      for (k = 1; k <= count; k++) { head = head " " kind[k] ": one, ns | batch, ns | ratio |"; line = line " ---: | ---: | ---: |" }
+      for (k = 1; k <= count; k++) {
+        head = head " " kind[k] ": one, ns | batch, ns | ratio |"
+        line = line " ---: | ---: | ---: |"
+      }
       print head; print line
       for (r = 1; r in row; r++) {
         out = "| " row[r] " |"
@@ -114,7 +117,8 @@ print() {
   echo "# A batch beside single steps"
   echo
   echo "Made by \`test/bench/batch.sh --update\`, which says what the columns mean, on one core of a"
-  echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1). chain-N and dense-N are filters of N states that carry P, with a law."
+  echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)."
+  echo "chain-N and dense-N are filters of N states that carry P, with a law."
   table gcc
   if lqg_has_command clang-19; then table clang-19; fi
 }

@@ -11,7 +11,7 @@
  * What is called when:
  *
  *   once               two_mass_batch_init(&batch)                 all lanes at the start
- *   each sample        two_mass_batch_step(&batch, y, u, status)   y has been measured; u for the actuators
+ *   each sample        two_mass_batch_step(&batch, y, u, status)   y was measured; u for the actuators
  *   one lane           two_mass_batch_get(&batch, lane, &loop)     its state, for all functions of two_mass.h
  *                      two_mass_batch_set(&batch, lane, &loop)     and back
  *
