@@ -40,7 +40,8 @@ function write_call(prototype,   call, list, count, parameter, i) {
   calls++
 }
 
-$0 ~ "^static inline (lqg_status_t|void) " name "_[a-z0-9_]+\\(" ||
+# A product with rows of A is a part of the prediction, which is called.
+$0 ~ "^static inline (lqg_status_t|void) " name "_[a-z0-9_]+\\(" && $0 !~ name "_multiply_[0-9]+\\(" ||
   $0 ~ "^static lqg_status_t " name "_reset\\(" { prototype = " " }
 
 prototype {

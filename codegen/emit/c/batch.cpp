@@ -287,7 +287,9 @@ class Batch {
 std::optional<std::string> why_no_batch(const Controller& controller) {
   if (!controller.has.filter)
     return "a batch needs a filter: a regulator alone has no " + controller.problem.name + "_step";
-  if (!controller.linear && controller.style == design::Style::compact)
+  const bool has_loops =
+      controller.style == design::Style::compact || controller.sharing != controller::Sharing::nothing;
+  if (!controller.linear && has_loops)
     return "a batch is straight-line code, whose zeros may have other signs than those of compact loops: expected "
            "style unrolled; run lqgen with --style unrolled";
   return std::nullopt;
