@@ -27,8 +27,8 @@ static void check_contract(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state)
     LQG_ASSERT(state->u_applied || !mpc->u_step);
 }
 
-/* The limits of this sample: those of the size of u, narrowed by those of its change as far as they agree. A u[k−1] that
- * is NaN narrows nothing. */
+/* The limits of this sample: those of the size of u, narrowed by those of its change as far as they agree. A u[k−1]
+ * that is NaN narrows nothing. */
 static void narrow(const lqg_mpc_t *mpc, lqg_mpc_state_t *state)
 {
     LQG_STRICT_BODY

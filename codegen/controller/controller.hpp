@@ -96,8 +96,8 @@ struct FormChoice {
 };
 
 // What straight-line code has once, and not again and again: nothing; of a filter that carries P the functions over P
-// that all outputs need, or also those over A, which run over the columns of P; of one with a constant gain the loops of
-// its products with dense matrices.
+// that all outputs need, or also those over A, which run over the columns of P; of one with a constant gain the loops
+// of its products with dense matrices.
 enum class Sharing { nothing, outputs, columns, products };
 
 struct Controller {

@@ -31,8 +31,8 @@
  *   Units        Any, as long as they belong together; y and u are those of the plant.
  *   MUST         Undefined behaviour if violated: not checked on the target. LQG_ASSERT checks it, see below.
  *   Failure      Nothing stops. The status says what was left out, limited or reset.
- *   Time         Loops have fixed lengths: the number of operations does not depend on the data. Those of lqg/mpc.h have
- *                bounds.
+ *   Time         Loops have fixed lengths: the number of operations does not depend on the data. Those of lqg/mpc.h
+ *                have bounds.
  *   A sample     Filter form: update(y), control(u), predict(u). Predictor form: control(u), update(y), predict(u).
  *
  * Interrupts and tasks. No function has memory of its own, so different states are independent:

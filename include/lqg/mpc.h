@@ -2,7 +2,7 @@
 /* TinyLQG: the control law with limits that are foreseen (model predictive control). Conventions: lqg/lqg.h.
  * Derivations: src/README.md.
  *
- *     u_k = −K x_k + v_k,   J = x₀ᵀ X x₀ + Σ v_kᵀ (R + BᵀXB) v_k        X: the Riccati solution; so J is that of all time
+ *     u_k = −K x_k + v_k,   J = x₀ᵀ X x₀ + Σ v_kᵀ (R + BᵀXB) v_k      X: the Riccati solution; so J is that of all time
  *     z = F x + G m,        low ≤ z ≤ high                                limited quantities, now and ahead
  *
  * F x is what the law alone will do with the limited quantities z, G is their Gram matrix in the metric of J. The

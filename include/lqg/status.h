@@ -19,7 +19,7 @@ typedef unsigned lqg_status_t;
 #define LQG_STATE_RESET             ((lqg_status_t)16u) /* the state left its bounds: reset, as by init */
 #define LQG_REFERENCE_NOT_FINITE    ((lqg_status_t)32u) /* a reference was NaN or infinite: it counted as 0 */
 #define LQG_COVARIANCE_RESET        ((lqg_status_t)64u) /* P could not be a covariance: P reset, the estimate kept */
-#define LQG_NOT_OPTIMAL             ((lqg_status_t)128u) /* no optimum within the limits was found: u is the law's, clipped */
+#define LQG_NOT_OPTIMAL             ((lqg_status_t)128u) /* no optimum within the limits: u is the law's, clipped */
 
 /* With LQG_OUTPUT_REJECTED: bits 8 … 15 say which outputs. Output i has bit 8 + i; from the eighth on all share the
  * last. */

@@ -7,6 +7,7 @@
 # Instructions are counted by QEMU, exactly, over 20,000 states |x_i| < 2: the median while no limit is in the way, and
 # the most of all. Flash is that of the law and its tables; RAM is its scratch. Fails where a figure exceeds its budget.
 set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=../../codegen/cmake/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
 bench=$lqg_root/test/bench
 source "$bench/cores.sh"
@@ -27,8 +28,9 @@ sources=("$bench/limits.c" "$bench/counter_$family.c" "$startup" "$lqg_root"/src
 timeout 300 "${machine[@]}" "$work/limits.elf" >"$work/measured" || lqg_stop "the measurement failed"
 source "$work/measured"
 flash=$({ "$size" -A "$work/mpc.o" && "$size" -A "$work/limits.o"; } |
-  awk '$1 ~ /^\.(text.*(lqg_mpc_control|limit_law|limit_of|foreseen|substitute|row_product|copy)|rodata\.[a-zA-Z]*$)/ { sum += $2 }
-       END { print sum }')
+  awk -v functions='lqg_mpc_control|limit_law|limit_of|foreseen|substitute|row_product|copy' '
+    $1 ~ "^\\.(text.*(" functions ")|rodata\\.[a-zA-Z]*$)" { sum += $2 }
+    END { print sum }')
 
 echo "flash $flash bytes, RAM $ram bytes, instructions $idle while no limit is in the way, $most at most"
 [ "$given_up" = 0 ] || lqg_stop "$given_up states were given up"

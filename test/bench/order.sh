@@ -6,10 +6,11 @@
 #
 #   test/bench/order.sh [core]… [--update]      prints the table; --update writes it to order.md, too
 #
-# A core is one of cortex-m4, cortex-m7 and cortex-m55; without any it is all three. The models are those of peers/, each
-# with a constant gain, in its cheapest form, and with the covariance carried along. Code is GCC's at -O2, the listing of
-# step from its first instruction to its return; branches to what happens seldom are not taken, comparisons that LLVM has
-# no model of cost nothing. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi llvm-19 (or another version).
+# A core is one of cortex-m4, cortex-m7 and cortex-m55; without any it is all three. The models are those of peers/,
+# each with a constant gain, in its cheapest form, and with the covariance carried along. Code is GCC's at -O2, the
+# listing of step from its first instruction to its return; branches to what happens seldom are not taken, comparisons
+# that LLVM has no model of cost nothing. Debian's packages: gcc-arm-none-eabi libnewlib-arm-none-eabi llvm-19 (or
+# another version).
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=../../codegen/cmake/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../codegen/cmake/setup.sh"
@@ -88,15 +89,16 @@ print_row() {
   kept=$(cycles "$core" "$here/$2.h" "$unmoved")
   free=$(cycles "$core" "$here/$2.h" "$moved")
   awk -v model="$name" -v what="$3" -v emitted="$emitted" -v kept="$kept" -v free="$free" 'BEGIN {
-    printf "| %s | %s | %d | %d | %d | %.2f |\n", model, what, kept, free, emitted, emitted / (kept < free ? kept : free)
+    better = kept < free ? kept : free
+    printf "| %s | %s | %d | %d | %d | %.2f |\n", model, what, kept, free, emitted, emitted / better
   }'
 }
 
 print_core() {
-  local design name kind here=$folder
+  local design name kind here=$folder shipped=$lqg_root/codegen/designs
   printf '\n### %s\n\n| model | gain | kept | moved | as emitted | over the better one |\n' "$1"
   echo '| --- | --- | ---: | ---: | ---: | ---: |'
-  for design in "$bench"/peers/models/*.toml "$lqg_root"/codegen/designs/{double_integrator,dc_motor,two_mass,quadrotor}.toml; do
+  for design in "$bench"/peers/models/*.toml "$shipped"/{double_integrator,dc_motor,two_mass,quadrotor}.toml; do
     name=$(sed -n '/^[[:space:]]*name *= *"\([a-z0-9_]*\)".*/{s//\1/p;q}' "$design")
     kind=constant
     emit plain '' unrolled

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Proves of the library's own estimators, and of its law with limits, what README.md says, by Frama-C's Eva; fails when it cannot.
+# Proves of the library's own estimators, and of its law with limits, what README.md says, by Frama-C's Eva; fails when
+# it cannot.
 #
 #   test/proof/prove_library.sh <folder for scratch> [option of the preprocessor]…
 set -euo pipefail

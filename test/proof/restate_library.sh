@@ -25,11 +25,13 @@ restate_library() {
   local applied='(!state->u_applied || perhaps_all_finite(state->u_applied, servo->nu))'
   sed -i "s/^    if (is_within_bounds(&check))\$/    if ($xi \\&\\& $applied)/" "$1/servo.c"
   local known='/*@ dynamic_split n; */ /*@ dynamic_split blocking; */' # so that the active rows are told apart
-  sed -i "s|^    unsigned n = 0, blocking = 0;\$|&\n    $known|; s/if (\(lowest\|highest\) /if (\1 == \1 \&\& \1 /" "$1/mpc.c"
+  sed -i "s|^    unsigned n = 0, blocking = 0;\$|&\n    $known|" "$1/mpc.c"
+  sed -i 's/if (\(lowest\|highest\) /if (\1 == \1 \&\& \1 /' "$1/mpc.c"
   local inside='perhaps_all_within(u, mpc->low, mpc->high, mpc->nu)' # what foresee has found
   sed -i "s/if (foresee(mpc, state, x, u))/if (foresee(mpc, state, x, u) \\&\\& $inside)/" "$1/mpc.c"
   [ "$(grep -l perhaps_all "$1"/{kalman_*,ekf,rls,servo}.c | wc -l)" = 6 ] && grep -q 'BELOW(a' "$1/kernel.h" &&
-    grep -q dynamic_split "$1/mpc.c" && grep -q perhaps_all_within "$1/mpc.c" && grep -q 'highest == highest' "$1/mpc.c" &&
+    grep -q dynamic_split "$1/mpc.c" && grep -q perhaps_all_within "$1/mpc.c" &&
+    grep -q 'highest == highest' "$1/mpc.c" &&
     ! grep -q 'is_within_bounds(&check)' "$1"/{kalman_*,ekf,rls,servo}.c || {
     echo "not understood: the library's test of its state reads otherwise than it did" >&2
     return 1

@@ -78,6 +78,17 @@ void add_outlier(std::size_t sample, std::vector<double>& y) {
   if (sample % every == 0) y[sample / every % y.size()] = 1024;
 }
 
+// What sensors with ranges would deliver. Without a range the limits of an output are empty.
+void keep_in_range(const Controller& controller, std::vector<double>& y) {
+  const design::Estimator& estimator = *controller.problem.estimator;
+  const Eigen::VectorXd least = in_target(controller.target, estimator.output_min),
+                        most = in_target(controller.target, estimator.output_max);
+  for (Eigen::Index i = 0; i < least.size(); ++i) {
+    double& each = y[static_cast<std::size_t>(i)];
+    each = std::clamp(each, least(i), most(i));
+  }
+}
+
 bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i)
     if (!(std::abs(x(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound)))
@@ -105,6 +116,7 @@ std::vector<Sample> closed_loop(const Controller& controller, EmittedController<
     if (controller.is_predictor) apply();
     sample.y = list_of(in_target(controller.target, plant.measure(applied)));
     if (controller.has.filter && controller.problem.estimator->gate > 0) add_outlier(samples.size(), sample.y);
+    if (controller.has.filter) keep_in_range(controller, sample.y);
     emitted.update(numbers_of<S>(sample.y));
     if (!controller.is_predictor) apply();
     applied = in_target(controller.target, applied);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Makes limits_reference.hpp, the inputs that test_limits.cpp expects: python3 limits_reference.py >limits_reference.hpp,
-# with mpmath, numpy and daqp (pip).
+# Makes limits_reference.hpp, the inputs that test_limits.cpp expects:
+# python3 limits_reference.py >limits_reference.hpp, with mpmath, numpy and daqp (pip).
 #
 # Nothing here is shared with the design engine. All inputs of the horizon are unknowns, the cost is summed sample by
 # sample with xᵀXx at the end, X by the Riccati recursion; that v is held over a block is an equation. DAQP finds which
@@ -165,13 +165,28 @@ def optimum(case, x0, u_last):
 def two_mass(N):
     A = double([[0, 1, 0, 0], [-0.1, -0.004, 0.1, 0.004], [0, 0, 0, 1], [0.5, 0.02, -0.5, -0.02]])
     A, B = sampled(A, double([[0], [1], [0], [0]]), 0.5)
-    return {"A": A, "B": B, "Q": diag([1, 0, 1, 0]), "R": double([[0.1]]), "N": double(N), "scale": [1] * 4, "quantities": []}
+    return {
+        "A": A,
+        "B": B,
+        "Q": diag([1, 0, 1, 0]),
+        "R": double([[0.1]]),
+        "N": double(N),
+        "scale": [1] * 4,
+        "quantities": [],
+    }
 
 
 def servo():
     A = double([[0, 1], [0, -59.2236711684]])
     A, B = sampled(A, double([[0], [2121.79407756]]), 0.001)
-    return {"A": A, "B": B, "Q": diag([400, mpf(1) / 1024]), "R": double([[1 / 128]]), "N": zeros(2, 1), "scale": [1 / 16, 16]}
+    return {
+        "A": A,
+        "B": B,
+        "Q": diag([400, mpf(1) / 1024]),
+        "R": double([[1 / 128]]),
+        "N": zeros(2, 1),
+        "scale": [1 / 16, 16],
+    }
 
 
 none, box = zeros(4, 1), [mpf(0.3)]
