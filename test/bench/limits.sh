@@ -16,8 +16,8 @@ budget_flash=2560 budget_ram=300 budget_idle=400 budget_most=9000
 
 options=(-Os -std=c99)
 select_core cortex-m4f
-missing=$(missing_tools)
-[ -z "$missing" ] || { echo "Nothing to compare: no$missing" && exit; }
+absent=$(missing_tools)
+[ -z "$absent" ] || { echo "Nothing to compare: no$absent" && exit; }
 
 rm -rf "$work"
 mkdir -p "$work"
@@ -26,6 +26,7 @@ sources=("$bench/limits.c" "$bench/counter_$family.c" "$startup" "$lqg_root"/src
 (cd "$work" && "${compiler[@]}" "-DMEGAHERTZ=$megahertz" '-DTABLES="tables.h"' -I"$work" -I"$bench" -c "${sources[@]}")
 "${compiler[@]}" "$work"/*.o "${linked[@]}" -lm -o "$work/limits.elf"
 timeout 300 "${machine[@]}" "$work/limits.elf" >"$work/measured" || lqg_stop "the measurement failed"
+# shellcheck disable=SC1091  # it has just been made
 source "$work/measured"
 flash=$({ "$size" -A "$work/mpc.o" && "$size" -A "$work/limits.o"; } |
   awk -v functions='lqg_mpc_control|limit_law|limit_of|foreseen|substitute|row_product|copy' '
