@@ -54,7 +54,8 @@ typedef struct {
     lqg_real *next;             /* rows, where m goes */
     unsigned char *active;      /* rows, the active rows in the order of L */
     unsigned char *side;        /* rows, of each row: 0 where it is not active, 1 at its low limit, 2 at its high one */
-    const lqg_real *low, *high; /* rows, limits of this sample: the description's, or narrowed */
+    const lqg_real *low;        /* rows, lower limits of this sample: the description's, or narrowed */
+    const lqg_real *high;       /* rows, upper ones, likewise */
 } lqg_mpc_state_t;
 
 /* A static state and its memory; numbers of reals and of bytes; an initializer of a state over

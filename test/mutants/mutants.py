@@ -118,7 +118,9 @@ class Library:
         self.texts = {Path(file.name): file.read_text() for file in sources if not names or file.name in names}
         for file, text in self.texts.items():
             file.write_text(text)
-        helpers = [file for file in sorted(tests.glob("*.c")) if file.stem in ("model", "textbook", "loop", "bits")]
+        helpers = [
+            file for file in sorted(tests.glob("*.c")) if file.stem in ("model", "textbook", "loop", "bits", "limited")
+        ]
         self.helpers = [compiled(file, self.options, "helper_") for file in [unity(build) / "unity.c", *helpers]]
         names_of_tests = [file for file in sorted(tests.glob("test_*.c")) if file.stem not in LEFT_OUT]
         self.tests = [compiled(file, self.options) for file in names_of_tests]

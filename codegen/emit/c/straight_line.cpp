@@ -270,8 +270,8 @@ namespace {
 // A compiler that moves statements has even more values at once, which it spills where there are more than registers.
 // Where there are not, moved statements wait less for the results of others.
 bool keeps_order(const Controller& controller) {
-  constexpr long registers = 31;  // of an FPU with 32: one for a result
-  return controller.cost.values_at_once > registers;
+  const long registers = controller.target.is_double ? 16 : 32;  // of an FPU
+  return controller.cost.values_at_once >= registers;            // one is for the result
 }
 
 }  // namespace
