@@ -47,6 +47,7 @@ lqg_status_t status_bit(int event) {
     case Event::reference_not_finite: return LQG_REFERENCE_NOT_FINITE;
     case Event::output_gated: return LQG_OUTPUT_GATED;
     case Event::covariance_reset: return LQG_COVARIANCE_RESET;
+    case Event::not_optimal: return LQG_NOT_OPTIMAL;
     case Event::first_rejected: break;
   }
   return LQG_OUTPUT_REJECTED_BIT(event - static_cast<int>(Event::first_rejected));

@@ -52,6 +52,7 @@ Terms terms_of(const Controller& controller) {
   has.range = has.filter && problem.estimator->output_min.size() > 0;
   has.variance = solution.online || (solution.estimator && solution.estimator->S.size() > 0);
   has.input_change = has.regulator && problem.regulator->input_rate.size() > 0;
+  has.foresight = solution.foreseen.has_value();
   has.rate_limit = has.regulator && problem.limits && problem.limits->u_rate.size() > 0;
   has.last_input = has.input_change || has.rate_limit;
   has.servo = controller.size.nr > 0 || controller.size.nxi > 0 || has.last_input;
@@ -147,6 +148,12 @@ void check_emittable(const Controller& controller, design::Findings& findings) {
              : "expected " + none + ": there is no variance of the innovations to compare with");
 }
 
+// TODO certificate
+unsigned iterations_of(const Controller& controller) {
+  const int given = controller.problem.limits->iterations;
+  return given > 0 ? static_cast<unsigned>(given) : 4u * static_cast<unsigned>(controller.solution.foreseen->G.rows());
+}
+
 // A start that the bounds, which cannot be wider than the target's squares, would not let be.
 void check_start(const Controller& controller, design::Findings& findings) {
   constexpr int bits_to_bound = 4;
@@ -184,6 +191,7 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
   controller.last_sample =
       std::max(controller.laws.empty() ? 0 : controller.laws.size() - 1, controller.stage_starts.back());
   controller.keeps = memory_of(controller);
+  if (controller.has.foresight) controller.iterations = iterations_of(controller);
   controller.bounds = bounds_of(controller);
   controller.gate = gate_of(controller);
   controller.recovery = recovery_of(controller);

@@ -51,6 +51,7 @@ struct Terms {
   bool rate_limit = false;
   bool last_input = false;  // the law begins with u[k−1]
   bool servo = false;       // the law is more than −K x̂ within limits
+  bool foresight = false;   // of limits: u is optimal, not only clipped
 };
 
 // What is kept from one call to the next beside x̂ and its covariance.
@@ -120,6 +121,7 @@ struct Controller {
   Bounds bounds;
   Gate gate;                                      // empty without one
   Recovery recovery;                              // of a filter
+  unsigned iterations = 0;                        // with foresight: changes of the set of active limits, at most
   std::optional<design::LinearForm> linear;       // the controller keeps z of this form; else it keeps x̂
   std::optional<FormChoice> forms;                // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic

@@ -9,6 +9,7 @@
 #include "controller/controller.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/numeric/linear_algebra.hpp"
+#include "design/rounding.hpp"
 #include "step/model.hpp"
 
 namespace lqg::controller {
@@ -87,14 +88,33 @@ inline Eigen::VectorXd rate_steps(const Controller& controller) {
 }
 
 template <class S, class Round>
+step::LimitedLaw<S> limited_law_of(const Controller& controller, Round round) {
+  const design::LimitedRows& rows = *controller.solution.foreseen;
+  const bool is_double = controller.target.is_double;
+  step::LimitedLaw<S> law;
+  law.nu = controller.size.nu;
+  law.iterations = controller.iterations;
+  law.F = convert<S>(rows.F, round);
+  law.G = convert<S>(rows.G, round);
+  law.scale = convert<S>(rows.scale, round);
+  law.low = convert_limits<S>(design::to_doubles(rows.low), +1, is_double);
+  law.high = convert_limits<S>(design::to_doubles(rows.high), -1, is_double);
+  law.tolerance = convert<S>(rows.tolerance, round);
+  if (controller.has.rate_limit) law.u_step = convert_limits<S>(rate_steps(controller), -1, is_double);
+  return law;
+}
+
+template <class S, class Round>
 void convert_regulator(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
   const Gains& gains = row_of(controller.laws, sample);
   model.K = convert<S>(gains[0], round);
-  if (const auto& limits = controller.problem.limits; limits && limits->u_min.size()) {
+  if (controller.has.foresight) model.foreseen = limited_law_of<S>(controller, round);
+  const auto& limits = controller.problem.limits;
+  if (limits && limits->u_min.size() && !controller.has.foresight) {
     model.u_min = convert_limits<S>(limits->u_min, +1, controller.target.is_double);
     model.u_max = convert_limits<S>(limits->u_max, -1, controller.target.is_double);
   }
-  if (controller.has.rate_limit)
+  if (controller.has.rate_limit && !controller.has.foresight)
     model.u_step = convert_limits<S>(rate_steps(controller), -1, controller.target.is_double);
   model.gives_change = controller.has.input_change;
   const std::vector<int> references = controller.references;

@@ -109,10 +109,24 @@ struct Estimator {
 // Placed poles need no noise.
 inline bool has_noise(const std::optional<Estimator>& estimator) { return estimator && !estimator->poles; }
 
+// Limits that may be exceeded, for price · excess², in units of the cost.
+struct SoftLimits {
+  Eigen::MatrixXd range;  // of each signal the smallest and the largest value, −∞ or +∞ where there is none; or empty
+  Eigen::VectorXd price;  // of each signal, > 0
+};
+
 struct Limits {
   Eigen::VectorXd u_min, u_max;  // −∞ or +∞ where there is none
   Eigen::VectorXd u_rate;        // largest |u[k] − u[k−1]| / sample_time, or empty
+  int horizon = 0;               // samples ahead in which limits are foreseen; 0: u is clipped
+  std::vector<int> blocks;       // lengths in samples over which v of u = −K x + v is held, or empty: the usual ones
+  SoftLimits states, outputs, output_rates;  // with a horizon; rates in units per second
+  Eigen::VectorXd u_rate_price;              // nu; of changes that are not those of the sample at hand
+  int iterations = 0;                        // changes of the set of active limits, at most; 0: as many as are needed
 };
+
+// Limits are foreseen, not only clipped at.
+inline bool foresees(const std::optional<Limits>& limits) { return limits && limits->horizon > 0; }
 
 // From step `from` on these are the plant, the weights and the noises; an empty one stays as it was in the stage
 // before.

@@ -95,6 +95,19 @@ struct OnlineSolution {
   RealVector D0;      // nx, ≥ 0
 };
 
+// A law that foresees limits: z = [−K; F] s + G m, m_i ≥ 0 where z_i = low_i, ≤ 0 where z_i = high_i, else 0; s = [x;
+// u[k−1] with `input_rate`; r]. The first nu rows are u of this sample, whether they have limits or not. What no input
+// can move is left out.
+struct LimitedRows {
+  RealMatrix F;      // (rows − nu) × ns
+  RealMatrix G;      // rows × rows
+  RealVector scale;  // 1/√G_ii
+  RealVector low, high;
+  RealVector tolerance;
+  std::vector<int> sample;         // in which sample each is
+  std::vector<std::string> names;  // "wheel_rate", "change of voltage"
+};
+
 // From step `from` on: what replaces the plant, the noise, the cost and the online filter (if they are there).
 // With stages, K, L and all that is steady are those of the last one.
 struct StageSolution {
@@ -135,6 +148,7 @@ struct Solution {
   std::optional<EstimatorSolution> estimator;  // empty beside `online` where the filter never becomes steady
   std::optional<OnlineSolution> online;        // with Gain::online only
   std::vector<StageSolution> stages;           // by rising `from`
+  std::optional<LimitedRows> foreseen;         // with limits that are foreseen
   LoopSolution loop;
   Numerics numerics;
 };

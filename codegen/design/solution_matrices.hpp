@@ -90,6 +90,13 @@ void visit_stage(A& stage, Visit visit) {
   if (stage.online) visit_online(*stage.online, visit);
 }
 
+template <typename A, typename Visit>
+void visit_rows(A& rows, Visit visit) {
+  visit("limits.F", Place::target, rows.F);
+  visit("limits.G", Place::target, rows.G);
+  visit("limits.scale", Place::target, rows.scale);
+}
+
 }  // namespace detail
 
 // visit(name, place, matrix or vector) for every one; `A` is Solution or const Solution.
@@ -101,6 +108,7 @@ void for_each_matrix(A& solution, Visit visit) {
   if (solution.estimator) detail::visit_estimator(*solution.estimator, visit);
   if (solution.online) detail::visit_online(*solution.online, visit);
   for (auto& stage : solution.stages) detail::visit_stage(stage, visit);
+  if (solution.foreseen) detail::visit_rows(*solution.foreseen, visit);
 }
 
 }  // namespace lqg::design

@@ -168,6 +168,23 @@ design::Estimator observer(const Values& values, const design::Plant& plant) {
   return result;
 }
 
+// Of each of these signals.
+Eigen::VectorXd prices(const Values& values, Size size) {
+  constexpr double usual = 1e6;
+  const std::vector<std::string> names = signal_names(values, size);
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()),
+                                                     values.number("limits.price", usual));
+  const auto named = values.named.find("limits.price");
+  for (std::size_t i = 0; i < names.size() && named != values.named.end(); ++i)
+    if (const auto price = named->second.find(names[i]); price != named->second.end())
+      result(static_cast<Eigen::Index>(i)) = price->second;
+  return result;
+}
+
+design::SoftLimits soft_limits(const Values& values, const std::string& key, Size size) {
+  return {empty_or(values, key), prices(values, size)};
+}
+
 design::Limits limits(const Values& values) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd* lower = values.matrix("limits.u_min");
@@ -177,6 +194,15 @@ design::Limits limits(const Values& values) {
   result.u_min = lower != nullptr ? Eigen::VectorXd(lower->col(0)) : Eigen::VectorXd::Constant(nu, -infinity);
   result.u_max = upper != nullptr ? Eigen::VectorXd(upper->col(0)) : Eigen::VectorXd::Constant(nu, infinity);
   result.u_rate = vector_or_empty(values, "limits.u_rate");
+  result.horizon = values.has("limits.horizon") ? whole(values, "limits.horizon") : 0;
+  if (result.horizon == 0) return result;
+  if (const auto blocks = values.indices.find("limits.blocks"); blocks != values.indices.end())
+    result.blocks = blocks->second;
+  result.states = soft_limits(values, "limits.states", Size::nx);
+  result.outputs = soft_limits(values, "limits.outputs", Size::ny);
+  result.output_rates = soft_limits(values, "limits.output_rates", Size::ny);
+  result.u_rate_price = prices(values, Size::nu);
+  if (values.has("limits.iterations")) result.iterations = whole(values, "limits.iterations");
   return result;
 }
 

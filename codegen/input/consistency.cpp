@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "input/definite.hpp"
 #include "input/matrices.hpp"
@@ -28,8 +29,9 @@ void check_tables(const Values& values, Report& report) {
     report.error("pole_placement", "expected [lqr] or [pole_placement], found both");
   if (values.has("kalman") && values.has("observer"))
     report.error("observer", "expected [kalman] or [observer], found both");
-  if (values.tables.count("limits") != 0 && !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate"}))
-    report.error("limits", "expected u_min, u_max or both, found neither");
+  if (values.tables.count("limits") != 0 && !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate", "limits.states",
+                                                                 "limits.outputs", "limits.output_rates"}))
+    report.error("limits", "expected u_min, u_max or another limit, found none");
   if (values.tables.count("plant") == 0) return;
   for (const char* key : {"lqr", "pole_placement"})
     if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
@@ -264,6 +266,20 @@ void check_range(const Values& values, const std::string& table, const std::stri
   }
 }
 
+// What means something only where limits are foreseen, and blocks that are the horizon.
+void check_horizon(const Values& values, Report& report) {
+  const double horizon = values.number("limits.horizon", 0);
+  for (const char* key : {"limits.blocks", "limits.states", "limits.outputs", "limits.output_rates", "limits.price",
+                          "limits.iterations"})
+    if (values.has(key) && horizon == 0) report.error(key, "needs limits.horizon > 0: only then limits are foreseen");
+  const auto blocks = values.indices.find("limits.blocks");
+  if (horizon == 0 || blocks == values.indices.end()) return;
+  const long sum = std::accumulate(blocks->second.begin(), blocks->second.end(), 0L);
+  if (static_cast<double>(sum) != horizon)
+    report.error("limits.blocks", "expected lengths that add up to limits.horizon = " + shown(horizon) + ", found " +
+                                      std::to_string(sum));
+}
+
 // u_rate > 0, and what is between two limits is something.
 void check_limits(const Values& values, Report& report) {
   if (const Eigen::MatrixXd* rate = values.matrix("limits.u_rate"))
@@ -272,6 +288,7 @@ void check_limits(const Values& values, Report& report) {
         report.error("limits.u_rate",
                      "expected numbers > 0, found " + shown((*rate)(i, 0)) + " for input " + std::to_string(i));
   check_range(values, "limits.", "u_min", "u_max", "input", report);
+  check_horizon(values, report);
   check_range(values, "kalman.", "output_min", "output_max", "output", report);
 }
 

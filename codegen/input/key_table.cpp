@@ -181,6 +181,24 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Largest value of each input that `control` returns.", "inf"},
       {"limits.u_rate", Type::bounds, nu, no, optional, {},
        "Largest |u[k] − u[k−1]| / T of each input, per second.", "inf"},
+      {"limits.horizon", Type::steps, no, no, optional, {},
+       "Samples ahead in which limits are foreseen: u is the one with the smallest cost that keeps them (model "
+       "predictive control), and −K x̂ as long as no limit is in the way. 0: u is clipped.", "0",
+       "README.md#limits-that-are-foreseen"},
+      {"limits.blocks", Type::counts, no, no, optional, {},
+       "Lengths in samples, `horizon` in all, over which the change of the law is held; limits are looked at in the "
+       "first sample of each.", "single steps with limits of rates, states or outputs, else 1, 1, 2, 4, 4, 8, 8, …"},
+      {"limits.states", Type::ranges, nx, no, optional, {},
+       "Limits of states within the horizon, in their units. They may be exceeded, at `price`."},
+      {"limits.outputs", Type::ranges, ny, no, optional, {}, "Likewise of outputs, without their noise."},
+      {"limits.output_rates", Type::ranges, ny, no, optional, {},
+       "Likewise of the change of outputs from sample to sample, per second."},
+      {"limits.price", Type::prices, no, no, optional, {},
+       "Price of an excess e in the first sample of a block: price · e² is added to the cost. Of changes of inputs "
+       "after the sample at hand, too.", "1e6"},
+      {"limits.iterations", Type::whole, no, no, optional, {},
+       "Changes of the set of active limits in one sample, at most. Where they are not enough, u is clipped, and the "
+       "status says so.", "the bound that lqgen finds"},
 
       {"stage", Type::tables, no, no, optional, {},
        "A time-varying plant: from step `from` on, these matrices replace those before. A key that is left out keeps "

@@ -28,6 +28,9 @@ enum class Type {
   vector,     // an array of numbers
   positives,  // the same, all > 0
   bounds,     // the same, infinite ones too
+  counts,     // an array of whole numbers ≥ 1
+  ranges,     // a table: of names of the signals that `rows` counts each a largest size, or [low, high]
+  prices,     // a number > 0, or a table: of names of states, inputs and outputs each such a number
   indices,    // an array of different whole numbers from 0 to below `rows`
   signal,     // one of the signals that `rows` counts: its name, or its number from 0
   entry,      // the same of a row or column whose signals another key tells

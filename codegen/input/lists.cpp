@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/problem.hpp"
 #include "input/matrices.hpp"
 #include "input/text.hpp"
 #include "input/values.hpp"
@@ -83,6 +84,27 @@ std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& no
     indices.push_back(static_cast<int>(item.number));
   }
   return indices;
+}
+
+std::optional<std::vector<int>> read_counts(const std::string& key, const Node& node, Report& report) {
+  constexpr double most = design::most_steps;
+  if (node.kind != Kind::array || node.items.empty()) {
+    report.error(key, "expected an array of whole numbers, found " + describe(node));
+    return {};
+  }
+  std::vector<int> counts;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const Node& item = node.items[i];
+    const bool is_number = item.kind == Kind::number;
+    if (!is_number || !(item.number >= 1 && item.number <= most) || item.number != std::floor(item.number)) {
+      report.error(item_of(key, i), item.where,
+                   "expected a whole number from 1 to " + shown(most) + ", found " +
+                       (is_number ? shown(item.number) : describe(item)));
+      return {};
+    }
+    counts.push_back(static_cast<int>(item.number));
+  }
+  return counts;
 }
 
 std::optional<int> read_signal_index(const KeyRule& rule, const Node& node, const std::vector<std::string>& names,

@@ -22,6 +22,9 @@ std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& no
 std::optional<int> read_signal_index(const KeyRule& rule, const Node& node, const std::vector<std::string>& names,
                                      Report& report);
 
+// Whole numbers ≥ 1.
+std::optional<std::vector<int>> read_counts(const std::string& key, const Node& node, Report& report);
+
 // Numbers, and [re, im] with their conjugates somewhere in the list; in the result these stand side by side,
 // the positive imaginary part first.
 std::optional<std::vector<std::complex<double>>> read_poles(const std::string& key, const Node& node, Report& report);

@@ -10,6 +10,7 @@
 
 #include "input/lists.hpp"
 #include "input/matrices.hpp"
+#include "input/named.hpp"
 #include "input/names.hpp"
 #include "input/text.hpp"
 
@@ -133,6 +134,18 @@ class ValueReader {
         if (auto indices = read_indices(rule, node, values_.sizes, names_of(Size::ny), report_))
           values_.indices[rule.path] = *indices;
         break;
+      case Type::counts:
+        if (auto counts = read_counts(rule.path, node, report_)) values_.indices[rule.path] = *counts;
+        break;
+      case Type::ranges:
+        if (auto ranges = read_ranges(rule, node, names_of(rule.rows), report_)) values_.matrices[rule.path] = *ranges;
+        break;
+      case Type::prices:
+        if (node.kind != Kind::table)
+          read_number(rule, node, "a number > 0, or names with numbers > 0", [](double x) { return x > 0; });
+        else if (auto prices = read_prices(rule.path, node, all_names(), report_))
+          values_.named[rule.path] = *prices;
+        break;
       case Type::signal:
         if (const auto index = read_signal_index(rule, node, names_of(rule.rows), report_))
           values_.numbers[rule.path] = *index;
@@ -160,6 +173,12 @@ class ValueReader {
 
  private:
   std::vector<std::string> names_of(Size size) const { return signal_names(values_, size); }
+  std::vector<std::string> all_names() const {
+    std::vector<std::string> all;
+    for (const Size size : {Size::nx, Size::nu, Size::ny})
+      for (const std::string& name : names_of(size)) all.push_back(name);
+    return all;
+  }
 
   // A mask whose rows may be lists of names, [["angle", "rate"]]: as rows of 0 and 1.
   std::optional<Node> mask_of_names(const KeyRule& rule, const Node& node) {

@@ -31,11 +31,16 @@ const Json number = {{"type", "number"}};
 const Json number_above_0 = {{"type", "number"}, {"exclusiveMinimum", 0}};
 const Json matrix = array_of(array_of(number));
 
-Json pole() {
-  Json pair = array_of(number);
+Json pair_of(const Json& items) {
+  Json pair = array_of(items);
   pair["minItems"] = pair["maxItems"] = 2;
-  return {{"anyOf", {number, pair}}};
+  return pair;
 }
+
+Json pole() { return {{"anyOf", {number, pair_of(number)}}}; }
+
+// A table whose keys are names of signals.
+Json named(const Json& value) { return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", value}}; }
 
 // Rows of 0 and 1, or of names; a row of names may be empty.
 Json mask() {
@@ -82,6 +87,9 @@ Json value_schema(const KeyRule& rule) {
     case Type::vector: return array_of(number);
     case Type::positives: return array_of(number_above_0);
     case Type::bounds: return array_of(number_or_infinity());
+    case Type::counts: return array_of({{"type", "integer"}, {"minimum", 1}});
+    case Type::ranges: return named({{"anyOf", {number_above_0, pair_of(number_or_infinity())}}});
+    case Type::prices: return {{"anyOf", {number_above_0, named(number_above_0)}}};
     case Type::indices: return indices();
     case Type::signal:
     case Type::entry: return {{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}};
@@ -114,7 +122,7 @@ Json conditions(const std::string& table) {
   for (const Alternatives& alternatives : input::alternatives())
     if (alternatives.table == table) all.push_back(choice(alternatives));
   if (table == "lqr") all.push_back(choice({table, {"R", "bryson"}, Need::required}));
-  if (table == "limits") all.push_back(any_of({"u_min", "u_max", "u_rate"}));
+  if (table == "limits") all.push_back(any_of({"u_min", "u_max", "u_rate", "states", "outputs", "output_rates"}));
   if (!table.empty()) return all;
   all.push_back(any_of({"lqr", "pole_placement", "kalman", "observer"}));
   all.push_back(choice({table, {"lqr", "pole_placement"}, Need::optional}));

@@ -46,6 +46,9 @@ std::string values_of(const KeyRule& rule) {
     case Type::vector: return rows + " numbers";
     case Type::positives: return rows + " numbers > 0";
     case Type::bounds: return rows + " numbers, inf allowed";
+    case Type::counts: return "whole numbers ≥ 1";
+    case Type::ranges: return "name = largest size, or [low, high]";
+    case Type::prices: return "number > 0, or name = number > 0";
     case Type::indices: return "names or numbers of outputs";
     case Type::signal:
     case Type::entry: return "name or number of a signal";

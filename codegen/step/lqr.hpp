@@ -2,7 +2,9 @@
 // The control law.
 #pragma once
 
-#include "step/model.hpp"
+#include <type_traits>
+
+#include "step/mpc.hpp"
 
 namespace lqg::step {
 
@@ -57,8 +59,7 @@ std::string equation_of_law(const Model<S>& model) {
 
 // u by the law, finite, within its limits: no further from the last one than u_step, and above all in [u_min, u_max].
 template <class S, class Listener>
-Vector<S> control(const Model<S>& model, State<S>& state, Listener& listener) {
-  const Vector<S> r = reference(model, state, listener);
+Vector<S> clipped_law(const Model<S>& model, State<S>& state, const Vector<S>& r, Listener& listener) {
   listener.section(equation_of_law(model));
   Vector<S> u(model.nu);
   for (int i = 0; i < model.nu; ++i) {
@@ -83,6 +84,36 @@ Vector<S> control(const Model<S>& model, State<S>& state, Listener& listener) {
     }
     u(i) = value;
   }
+  return u;
+}
+
+// [x̂; u[k−1] where the law gives its change; r]: what limits are foreseen of.
+template <class S>
+Vector<S> foreseen_state(const Model<S>& model, const State<S>& state, const Vector<S>& r) {
+  const Eigen::Index last = model.gives_change ? model.nu : 0;
+  Vector<S> s(model.nx + last + r.size());
+  s << state.x, state.u.head(last), r;
+  return s;
+}
+
+// The u of least cost that keeps the limits that are foreseen, of the law's u.
+template <class S, class Listener>
+Vector<S> limited_law(const Model<S>& model, const State<S>& state, const Vector<S>& r, const Vector<S>& law,
+                      Listener& listener) {
+  const Vector<S> last = model.foreseen.u_step.size() ? Vector<S>(state.u) : Vector<S>();
+  const LimitedInput<S> found = limited_input(model.foreseen, last, foreseen_state(model, state, r), law);
+  listener.raise(Event::not_optimal, !found.is_optimal);
+  listener.raise(Event::input_limited, found.is_limited);
+  return found.u;
+}
+
+// The law with its limits. Those that are foreseen are for numbers: a symbol cannot say how often it loops.
+template <class S, class Listener>
+Vector<S> control(const Model<S>& model, State<S>& state, Listener& listener) {
+  const Vector<S> r = reference(model, state, listener);
+  Vector<S> u = clipped_law(model, state, r, listener);
+  if constexpr (std::is_same_v<decltype(is_less(S(), S())), bool>)
+    if (model.foreseen.G.rows() > 0) u = limited_law(model, state, r, u, listener);
   if (has_feedthrough(model)) state.u = u;
   return u;
 }

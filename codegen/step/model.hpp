@@ -17,6 +17,19 @@ using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
 enum class Filter { none, steady, plain, ud };
 
+// z = [u; F x] + G m within [low, high]: rows 0 … nu − 1 are u of this sample.
+template <class S>
+struct LimitedLaw {
+  int nu = 0;
+  unsigned iterations = 0;  // changes of the set of active limits, at most
+  Matrix<S> F;              // (rows − nu) × nx
+  Matrix<S> G;              // rows × rows
+  Vector<S> scale;          // 1/√G_ii
+  Vector<S> low, high;      // rows, infinite where there is none
+  Vector<S> tolerance;      // rows: a smaller violation is none
+  Vector<S> u_step;         // nu, or empty
+};
+
 // Absent parts have no rows or no columns: C without a filter, K without a regulator, D and M when they are zero.
 template <class S>
 struct Model {
@@ -53,6 +66,7 @@ struct Model {
   Matrix<S> Nbar;             // nu × nr, or no columns
   bool gives_change = false;  // −K z + Nbar r is u[k] − u[k−1]
   Vector<S> u_step;           // nu: largest |u[k] − u[k−1]|, or empty
+  LimitedLaw<S> foreseen;     // or no rows: u_min, u_max and u_step are clipped at; with rows they are not there
   std::vector<int> integral;  // the output that each ξ integrates,
   std::vector<int> wanted;    // and which r it has to follow
   Vector<S> error_limit;      // nxi: an r − y that is not below it does not count; or empty
@@ -81,7 +95,7 @@ bool has_feedthrough(const Model<S>& model) {
 // The law begins with the last input.
 template <class S>
 bool continues(const Model<S>& model) {
-  return model.gives_change || model.u_step.size() > 0;
+  return model.gives_change || model.u_step.size() > 0 || model.foreseen.u_step.size() > 0;
 }
 
 // P is carried along.
@@ -144,6 +158,7 @@ enum class Event {
   reference_not_finite,
   output_gated,
   covariance_reset,
+  not_optimal,     // not all limits could be kept, and u is clipped
   first_rejected,  // and seven more behind it: which outputs were rejected
 };
 

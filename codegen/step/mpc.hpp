@@ -13,19 +13,6 @@
 
 namespace lqg::step {
 
-// z = [u; F x] + G m within [low, high]: rows 0 … nu − 1 are u of this sample.
-template <class S>
-struct LimitedLaw {
-  int nu = 0;
-  unsigned iterations = 0;  // changes of the set of active limits, at most
-  Matrix<S> F;              // (rows − nu) × nx
-  Matrix<S> G;              // rows × rows
-  Vector<S> scale;          // 1/√G_ii
-  Vector<S> low, high;      // rows, infinite where there is none
-  Vector<S> tolerance;      // rows: a smaller violation is none
-  Vector<S> u_step;         // nu, or empty
-};
-
 template <class S>
 struct LimitedInput {
   Vector<S> u;

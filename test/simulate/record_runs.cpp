@@ -56,6 +56,7 @@ lqg_status_t status_of(unsigned events) {
   add(Event::state_reset, LQG_STATE_RESET);
   add(Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE);
   add(Event::covariance_reset, LQG_COVARIANCE_RESET);
+  add(Event::not_optimal, LQG_NOT_OPTIMAL);
   for (int i = 0; i < step::told_rejections; ++i) add(step::rejection_of(i), LQG_OUTPUT_REJECTED_BIT(i));
   return status;
 }

@@ -57,9 +57,12 @@ struct Rows {
   std::vector<Real> low, high;
   std::vector<std::optional<Real>> price;
   std::vector<int> sample;
+  std::vector<std::string> names;
 
-  void add(const Foreseen& row, const Real& least, const Real& most, const std::optional<Real>& cost, int when) {
+  void add(const Foreseen& row, const Real& least, const Real& most, const std::optional<Real>& cost, int when,
+           const std::string& name) {
     z.push_back(row);
+    names.push_back(name);
     low.push_back(least);
     high.push_back(most);
     price.push_back(cost);
@@ -81,19 +84,25 @@ void add_quantities(const LimitedProblem& problem, const Prediction& now, const 
     if (!has_limit(quantity.low, quantity.high) || (quantity.is_change && !before)) continue;
     Foreseen z = combined(quantity.c, now.x(), quantity.d, now.u());
     if (quantity.is_change) z = change(z, combined(quantity.c, before->x(), quantity.d, before->u()));
-    if (can_be_moved(z)) rows.add(z, quantity.low, quantity.high, quantity.price, sample);
+    if (can_be_moved(z)) rows.add(z, quantity.low, quantity.high, quantity.price, sample,
+                                 (quantity.is_change ? "change of " : "") + quantity.name);
   }
+}
+
+std::string name_of_input(const LimitedProblem& problem, Index i) {
+  const std::size_t at = static_cast<std::size_t>(i);
+  return at < problem.inputs.size() ? problem.inputs[at] : "u" + std::to_string(i);
 }
 
 void add_inputs(const LimitedProblem& problem, const Prediction& now, const Prediction* before, int sample,
                 Rows& rows) {
   for (Index i = 0; i < problem.B.cols(); ++i)
     if (!before || has_limit(problem.u_min(i), problem.u_max(i)))
-      rows.add(row_of(now.u(), i), problem.u_min(i), problem.u_max(i), {}, sample);
+      rows.add(row_of(now.u(), i), problem.u_min(i), problem.u_max(i), {}, sample, name_of_input(problem, i));
   for (Index i = 0; before && i < problem.u_step.size(); ++i)
     if (isfinite(problem.u_step(i)))
       rows.add(change(row_of(now.u(), i), row_of(before->u(), i)), -problem.u_step(i), problem.u_step(i),
-               problem.step_price, sample);
+               problem.step_price(i), sample, "change of " + name_of_input(problem, i));
 }
 
 Rows rows_of(const LimitedProblem& problem) {
@@ -114,16 +123,25 @@ Rows rows_of(const LimitedProblem& problem) {
   return rows;
 }
 
-// N diag(length weight)⁻¹ Nᵀ: what v costs is that of every sample of its block.
+// Σ α²ᵏ over the samples of a block.
+Real cost_of_block(const Real& decay, int first, int length) {
+  Real sum = 0;
+  for (int k = first; k < first + length; ++k) sum += pow(decay, 2 * k);
+  return sum;
+}
+
+// N diag(Σ α²ᵏ weight)⁻¹ Nᵀ: what v costs is that of every sample of its block.
 std::optional<RealMatrix> gram_matrix(const LimitedProblem& problem, const RealMatrix& N) {
   const Index nu = problem.B.cols();
   if (!positive_definite(problem.weight)) return {};
   const std::optional<RealMatrix> inverse = solve(problem.weight, identity(nu));
   if (!inverse) return {};
   RealMatrix G = zeros(N.rows(), N.rows());
+  int first = 0;
   for (std::size_t block = 0; block < problem.blocks.size(); ++block) {
     const RealMatrix part = N.middleCols(static_cast<Index>(block) * nu, nu);
-    G += congruence(part, symmetric_part(*inverse)) / Real(problem.blocks[block]);
+    G += congruence(part, symmetric_part(*inverse)) / cost_of_block(problem.decay, first, problem.blocks[block]);
+    first += problem.blocks[block];
   }
   return G;
 }
@@ -162,6 +180,7 @@ std::optional<LimitedRows> limited_rows(const LimitedProblem& problem) {
   result.G = *G;
   result.scale = result.low = result.high = result.tolerance = zeros(count, 1);
   result.sample = rows.sample;
+  result.names = rows.names;
   for (Index i = 0; i < count; ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
     Real& diagonal = result.G(i, i);

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "design/numeric/linear_algebra.hpp"
+#include "design/solution.hpp"
 
 namespace lqg::design {
 
@@ -17,6 +19,7 @@ struct LimitedQuantity {
   bool is_change = false;
   Real low, high;
   std::optional<Real> price;
+  std::string name = {};
 };
 
 // x⁺ = A x + B u, u = −K x + v; J = x₀ᵀXx₀ + Σ vᵀ weight v, weight = R + BᵀXB. v is held over each block of samples and
@@ -27,21 +30,12 @@ struct LimitedProblem {
   std::vector<int> blocks;  // lengths, ≥ 1
   RealVector u_min, u_max;  // nu, infinite where there is none
   RealVector u_step;        // nu, largest |u[k] − u[k−1]|, infinite where there is none; or empty
-  Real step_price;          // > 0; not looked at without u_step
+  RealVector step_price;    // nu, > 0; not looked at without u_step
   std::vector<LimitedQuantity> quantities;
   Real tolerance;  // of a limit, as a share of its range
   Real softening;  // on the diagonal of G of hard rows, as a share of it
-};
-
-// z = [−K; F] x + G m: m_i ≥ 0 where z_i = low_i, ≤ 0 where z_i = high_i, else 0. The first nu rows are u of this
-// sample, whether they have limits or not. What no v can move is left out.
-struct LimitedRows {
-  RealMatrix F;      // (rows − nu) × nx
-  RealMatrix G;      // rows × rows
-  RealVector scale;  // 1/√G_ii
-  RealVector low, high;
-  RealVector tolerance;
-  std::vector<int> sample;  // in which sample each is
+  Real decay = 1;  // α: J = x₀ᵀXx₀ + Σ α²ᵏ vᵀ weight v
+  std::vector<std::string> inputs = {};  // names, or none
 };
 
 // The lengths of blocks of a horizon in samples: single steps where changes or quantities are limited, else 1, 1, 2,

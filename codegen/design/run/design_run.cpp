@@ -87,6 +87,7 @@ DesignRun run_design(const Problem& problem, const DesignRun* coarser) {
   if (problem.estimator) check_model(stages.back().samples.plant, problem.code.real, result.findings);
   if (has_error(result.findings)) return result;
   if (problem.regulator) run_regulator(problem, stages, coarser, result);
+  if (foresees(problem.limits) && !has_error(result.findings)) run_limits(problem, stages.back().samples, result);
   if (problem.estimator) run_estimator(problem, stages, coarser, result);
   if (has_error(result.findings)) return result;
   result.has_steady_loop = has_steady_loop(problem, result);

@@ -13,6 +13,9 @@ void run_regulator(const Problem& problem, const std::vector<SampledStage>& stag
 void run_estimator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                    DesignRun& result);
 
+// The rows of limits that are foreseen with the law that was found.
+void run_limits(const Problem& problem, const Samples& samples, DesignRun& result);
+
 bool is_stable(const std::vector<ComplexReal>& poles);
 
 // Keeps the condition of the worst equation.

@@ -145,7 +145,7 @@ std::string predict_body(const Controller& controller) {
 
 std::string control_body(const Controller& controller) {
   Words words = law_words(controller);
-  const bool copies = copies_memory(controller);
+  const bool copies = controller.has.foresight || copies_memory(controller);
   const auto entries = [](const char* array, int count) {
     std::string out;
     for (int i = 0; i < count; ++i) out += (i ? ", " : "") + element(array, i);
@@ -155,7 +155,7 @@ std::string control_body(const Controller& controller) {
   words["references"] = entries("self->r", controller.size.nr);
   words["last_input"] = entries("self->u_applied", controller.size.nu);
   return write_body(
-      templates::compact_control, controller, words,
+      controller.has.foresight ? templates::compact_law : templates::compact_control, controller, words,
       {{"copies_r", copies && controller.size.nr > 0},
        {"copies_u", copies && controller.has.last_input},
        {"needs_empty_line", controller.has.feedthrough || has_law_table(controller) || controller.has.servo}});
@@ -185,6 +185,8 @@ std::string act_body(const Controller& controller, std::string& constants) {
   return write_body(templates::compact_act, controller, words, conditions);
 }
 
+}  // namespace
+
 std::string options_check(const Controller& controller) {
   const auto check = [&](const char* option, bool wanted, const char* what) {
     return std::string(wanted ? "#ifndef " : "#ifdef ") + option + "\n#error \"This file " + what + ": " +
@@ -195,8 +197,6 @@ std::string options_check(const Controller& controller) {
          check("LQG_FUSED", controller.target.is_fused,
                controller.target.is_fused ? "uses fused multiply-adds" : "uses plain arithmetic");
 }
-
-}  // namespace
 
 FunctionBodies compact_bodies(const Controller& controller) {
   FunctionBodies bodies;
@@ -219,8 +219,9 @@ FunctionBodies compact_bodies(const Controller& controller) {
   }
   if (controller.has.regulator) {
     bodies.constants += controller.has.servo ? servo_constants(controller) : lqr_constants(controller);
-    bodies.control = controller.has.filter || !controller.keeps.any ? control_body(controller)
-                                                                    : act_body(controller, bodies.constants);
+    bodies.control = controller.has.filter || !controller.keeps.any || controller.has.foresight
+                         ? control_body(controller)
+                         : act_body(controller, bodies.constants);
   }
   return bodies;
 }

@@ -190,10 +190,10 @@ std::string online_fields(const Controller& controller, std::size_t start, Table
          ",  /* x0, U0, d0 */\n" + last_fields(controller, tables);
 }
 
-// The limits of the file; nothing is defined for those that no input has.
+// The limits of the file; nothing is defined for those that no input has, or that are foreseen.
 std::pair<std::string, std::string> limits_fields(const Controller& controller, Tables& tables) {
   const auto& limits = controller.problem.limits;
-  if (!limits || limits->u_min.size() == 0) return {"NULL", "NULL"};
+  if (!limits || limits->u_min.size() == 0 || controller.has.foresight) return {"NULL", "NULL"};
   const std::string low = tables.add("U_MIN", names_of(controller, step::Quantity::u_min, limits->u_min));
   return {low, tables.add("U_MAX", names_of(controller, step::Quantity::u_max, limits->u_max))};
 }
@@ -319,7 +319,7 @@ std::string servo_constants(const Controller& controller) {
   const std::string xi_scale = tables.add("XI_SCALE", inverse_powers(controller, controller.bounds.xi));
   const std::string error_limit = tables.add("ERROR_LIMIT", names_of(controller, step::Quantity::error_limit, error));
   const std::string u_step =
-      controller.has.rate_limit
+      controller.has.rate_limit && !controller.has.foresight
           ? tables.add("U_STEP", names_of(controller, step::Quantity::u_step, controller::rate_steps(controller)))
           : "NULL";
   return tables.text + "static const lqg_servo_t " + SERVO + " = {\n    " +

@@ -21,6 +21,9 @@ struct FunctionBodies {
   bool resets = false;                     // they call NAME_reset, or NAME_recover where P is carried
 };
 
+// #error where the library is compiled with other numbers.
+std::string options_check(const Controller& controller);
+
 // What predict does to the counters at its end.
 std::string advance_counters(const Controller& controller);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "emit/c/foresight.hpp"
 #include "emit/c/functions.hpp"
 #include "emit/c/preamble.hpp"
 #include "controller/state_fields.hpp"
@@ -181,11 +182,12 @@ std::string state_type(const Controller& controller) {
 }  // namespace
 
 std::string header(const Controller& controller) {
-  const FunctionBodies bodies = controller.linear                                     ? straight_line_bodies(controller)
+  FunctionBodies bodies = controller.linear                                     ? straight_line_bodies(controller)
                                 : controller.style == design::Style::compact          ? compact_bodies(controller)
                                 : controller.sharing == controller::Sharing::products ? products_bodies(controller)
                                 : controller.sharing != controller::Sharing::nothing  ? shared_bodies(controller)
                                                                                       : unrolled_bodies(controller);
+  if (controller.has.foresight) add_foresight(controller, bodies);
   const design::Plant& plant = controller.problem.plant;
   const std::string guard = upper(controller.problem.name) + "_H", code = functions(controller, bodies);
   std::string out = preamble(controller, code) + "#ifndef " + guard + "\n#define " + guard + "\n\n" + bodies.includes;

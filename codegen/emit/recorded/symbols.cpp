@@ -69,6 +69,11 @@ void name_constants(const Controller& controller, SymbolicModel& model) {
   name(model.u_min, step::Quantity::u_min);
   name(model.u_max, step::Quantity::u_max);
   name(model.u_step, step::Quantity::u_step);
+  name(model.foreseen.u_step, step::Quantity::u_step);
+  for (int i = 0; i < model.nu && controller.has.foresight; ++i) {
+    model.foreseen.low(i) = named(controller, model.foreseen.low(i), step::Quantity::u_min, i);
+    model.foreseen.high(i) = named(controller, model.foreseen.high(i), step::Quantity::u_max, i);
+  }
   name(model.y_min, step::Quantity::y_min);
   name(model.y_max, step::Quantity::y_max);
   name(model.nu_limit, step::Quantity::innovation_limit);

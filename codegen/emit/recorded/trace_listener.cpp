@@ -18,6 +18,7 @@ std::string status_name(step::Event event) {
     case step::Event::output_gated: return "LQG_OUTPUT_GATED";
     case step::Event::reference_not_finite: return "LQG_REFERENCE_NOT_FINITE";
     case step::Event::covariance_reset: return "LQG_COVARIANCE_RESET";
+    case step::Event::not_optimal: return "LQG_NOT_OPTIMAL";
     default: return "LQG_STATE_RESET";
   }
 }

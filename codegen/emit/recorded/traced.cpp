@@ -63,13 +63,15 @@ TracedFunction trace_regulator(const Controller& controller) {
   State state = load_state(controller, model, {});
   TraceListener listener(controller, function);
   Symbols u;
-  if (controller.has.filter || !controller.has.servo)
+  if (controller.has.foresight)
+    u = step::clipped_law(model, state, step::reference(model, state, listener), listener);
+  else if (controller.has.filter || !controller.has.servo)
     u = step::control(model, state, listener);
   else
     function.finite = step::act(model, state, u, listener).node;
   for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
   state.x.resize(0);  // it is only read
-  store_state(function, state, {});
+  if (!controller.has.foresight) store_state(function, state, {});
   return function;
 }
 

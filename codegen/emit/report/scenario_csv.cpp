@@ -104,6 +104,7 @@ std::string event_name(step::Event event) {
     case step::Event::reference_not_finite: return "reference_not_finite";
     case step::Event::output_gated: return "output_gated";
     case step::Event::covariance_reset: return "covariance_reset";
+    case step::Event::not_optimal: return "not_optimal";
     case step::Event::first_rejected: break;
   }
   const int output = static_cast<int>(event) - static_cast<int>(step::Event::first_rejected);

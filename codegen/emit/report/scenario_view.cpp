@@ -77,6 +77,7 @@ class ScenarioCharts {
     for (Index k = 0; k < run_.times.size(); ++k) {
       if (run_.has(k, step::Event::state_reset)) out.events.push_back({run_.times(k), "reset"});
       if (run_.has(k, step::Event::covariance_reset)) out.events.push_back({run_.times(k), "reset of the covariance"});
+      if (run_.has(k, step::Event::not_optimal)) out.events.push_back({run_.times(k), "limits that cannot be kept"});
     }
     return out;
   }

@@ -53,7 +53,7 @@ std::vector<double> handed_over(const Turn& turn, std::vector<double> row, const
 inline constexpr std::array told_events = {
     step::Event::output_rejected, step::Event::output_gated, step::Event::innovation_not_positive,
     step::Event::input_limited,   step::Event::state_reset,  step::Event::reference_not_finite,
-    step::Event::covariance_reset};
+    step::Event::covariance_reset, step::Event::not_optimal};
 
 // Whether the header has what the turn calls.
 bool has_call(const Controller& controller, Call call);

@@ -116,15 +116,19 @@ class PhysicalPlayer : public Player {
     const unsigned events = controller_.has.filter ? emitted_.control(u) : emitted_.control(given(turn, &Sample::y), u);
     answer.results = list_of(u);
     const step::Model<S>& model = emitted_.model();
+    const bool foresees = model.foreseen.G.rows() > 0;
+    const Vector<S> least = foresees ? Vector<S>(model.foreseen.low.head(u.size())) : model.u_min;
+    const Vector<S> most = foresees ? Vector<S>(model.foreseen.high.head(u.size())) : model.u_max;
+    const Vector<S>& steps = foresees ? model.foreseen.u_step : model.u_step;
     for (Eigen::Index i = 0; i < u.size(); ++i) {
       const auto is = [&](const Vector<S>& values, const S& value) {
         return values.size() && step::is_zero(S(u(i) - value));
       };
-      const S step = model.u_step.size() ? S(model.u_step(i)) : S(0);
-      answer.at_limits.push_back(is(model.u_min, model.u_min.size() ? S(model.u_min(i)) : S(0)));
-      answer.at_limits.push_back(is(model.u_max, model.u_max.size() ? S(model.u_max(i)) : S(0)));
-      answer.at_limits.push_back(is(model.u_step, last.size() ? S(last(i) - step) : S(0)));
-      answer.at_limits.push_back(is(model.u_step, last.size() ? S(last(i) + step) : S(0)));
+      const S step = steps.size() ? S(steps(i)) : S(0);
+      answer.at_limits.push_back(is(least, least.size() ? S(least(i)) : S(0)));
+      answer.at_limits.push_back(is(most, most.size() ? S(most(i)) : S(0)));
+      answer.at_limits.push_back(is(steps, last.size() ? S(last(i) - step) : S(0)));
+      answer.at_limits.push_back(is(steps, last.size() ? S(last(i) + step) : S(0)));
     }
     return events;
   }

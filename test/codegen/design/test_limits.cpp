@@ -84,7 +84,7 @@ LimitedProblem servo_with_limits_of_rate_and_speed() {
   problem.u_min = reals({-12});
   problem.u_max = reals({12});
   problem.u_step = reals({2});
-  problem.step_price = 10000;
+  problem.step_price = RealVector::Constant(1, Real(10000));
   problem.quantities = {{row({0, 1}), row({0}), false, -20, 20, Real(1000)}};
   return problem;
 }

@@ -82,7 +82,8 @@ class Record {
                                                    {Event::state_reset, LQG_STATE_RESET},
                                                    {Event::reference_not_finite, LQG_REFERENCE_NOT_FINITE},
                                                    {Event::output_gated, LQG_OUTPUT_GATED},
-                                                   {Event::covariance_reset, LQG_COVARIANCE_RESET}};
+                                                   {Event::covariance_reset, LQG_COVARIANCE_RESET},
+                                                   {Event::not_optimal, LQG_NOT_OPTIMAL}};
     lqg_status_t status = LQG_OK;
     for (const auto& [event, bit] : bits)
       if (events >> static_cast<unsigned>(event) & 1) status |= bit;
