@@ -9,6 +9,7 @@
 #include "controller/bounds.hpp"
 #include "controller/gate.hpp"
 #include "controller/recovery.hpp"
+#include "controller/worth.hpp"
 #include "design/finding.hpp"
 #include "design/linear_form.hpp"
 #include "design/solution.hpp"
@@ -122,6 +123,7 @@ struct Controller {
   Gate gate;                                      // empty without one
   Recovery recovery;                              // of a filter
   unsigned iterations = 0;                        // with foresight: changes of the set of active limits, at most
+  std::optional<Worth> worth;                     // with foresight
   std::optional<design::LinearForm> linear;       // the controller keeps z of this form; else it keeps x̂
   std::optional<FormChoice> forms;                // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic

@@ -104,7 +104,9 @@ struct LimitedRows {
   RealVector scale;  // 1/√G_ii
   RealVector low, high;
   RealVector tolerance;
-  std::vector<int> sample;         // in which sample each is
+  std::vector<std::optional<Real>> price;  // of soft rows, as the target has it
+  std::vector<bool> is_cheaper;            // than the design asks for
+  std::vector<int> sample;                 // in which sample each is
   std::vector<std::string> names;  // "wheel_rate", "change of voltage"
 };
 

@@ -53,6 +53,7 @@ for suffix in _f32 _f32_fused _f64 _f64_fused; do
     measure "$filter, whole update" kalman_${filter}_{init,update,predict}
   done
   measure law lqr_control
+  measure "limits that are foreseen" mpc_limit
   measure "steady and servo" kalman_steady_{init,partial_update,predict} servo_{init,control,advance}
   measure "steady, servo and integrals" kalman_steady_{init,partial_update,predict} servo_{init,control,advance,observe}
 done

@@ -60,6 +60,8 @@ text() { "$compiler" -E -P -I"$root/include" "${@:2}" - <"$1" | tr -d ' \n'; }
 
 defines=() style=unrolled real=float variant=f32
 ! is COMPACT || style=compact
+uses_library=''
+{ ! is COMPACT && ! is FORESIGHT; } || uses_library=1
 ! is DOUBLE || { defines+=(-DLQG_REAL_DOUBLE) real=double variant=f64; }
 ! is FUSED || { defines+=(-DLQG_FUSED) variant+=_fused; }
 sed 's|/\*@ slevel merge; \*/ ;||' "$proof" >"$folder/same.h"
@@ -72,13 +74,13 @@ awk -v name="$name" -f "$here/calls.awk" "$header" >"$folder/calls.h" ||
 # What is said to follow from the tests is tried first.
 flags=(-I"$folder" -I"$here" -I"$root/include" "${defines[@]}" "-DHEADER=\"$(basename "$proof")\"")
 library=()
-[ "$style" = unrolled ] || library=("$root"/src/*.c)
+[ -z "$uses_library" ] || library=("$root"/src/*.c)
 "$compiler" -std=c99 -O1 -ffp-contract=off "${flags[@]}" -DPROOF_TRIED -include "$here/tried.h" "$here/tried.c" \
   "${library[@]}" -lm -o "$folder/tried" || stop 2 "not understood: $header does not compile with $here/tried.c"
 "$folder/tried" || stop 1 "not proved: what should follow from a test does not"
 [ -z "$only_try" ] || { echo "$name, $style, $real: tried"; exit 0; }
 
-if [ "$style" = compact ]; then
+if [ -n "$uses_library" ]; then
   mkdir -p "$folder/library"
   restate_library "$folder/library" || exit 2
   library=("$folder"/library/*.c)

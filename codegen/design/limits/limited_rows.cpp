@@ -184,7 +184,11 @@ std::optional<LimitedRows> limited_rows(const LimitedProblem& problem) {
   for (Index i = 0; i < count; ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
     Real& diagonal = result.G(i, i);
-    diagonal += rows.price[at] ? Real(1 / *rows.price[at]) : Real(problem.softening * diagonal);
+    const Real added = rows.price[at] ? std::max<Real>(1 / *rows.price[at], problem.softness * diagonal)
+                                      : Real(problem.softening * diagonal);
+    result.is_cheaper.push_back(rows.price[at] && added > 1 / *rows.price[at]);
+    result.price.push_back(rows.price[at] ? std::optional<Real>(1 / added) : std::nullopt);
+    diagonal += added;
     result.scale(i) = 1 / sqrt(diagonal);
     result.low(i) = rows.low[at];
     result.high(i) = rows.high[at];

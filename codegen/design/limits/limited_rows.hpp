@@ -34,6 +34,7 @@ struct LimitedProblem {
   std::vector<LimitedQuantity> quantities;
   Real tolerance;  // of a limit, as a share of its range
   Real softening;  // on the diagonal of G of hard rows, as a share of it
+  Real softness = 0;  // likewise of soft rows, at least: with less the target takes them for rows that others make up
   Real decay = 1;  // α: J = x₀ᵀXx₀ + Σ α²ᵏ vᵀ weight v
   std::vector<std::string> inputs = {};  // names, or none
 };

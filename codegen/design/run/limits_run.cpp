@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "design/limits/limited_rows.hpp"
+#include "design/numeric/poles.hpp"
+#include "design/rounding.hpp"
 #include "design/run/design_run_parts.hpp"
 #include "design/sampled/augmentation.hpp"
 
@@ -7,13 +9,14 @@ namespace lqg::design {
 
 namespace {
 
-// Of the numbers of the target: a violation that is none, as a share of the range, and what stands on the diagonal of G
-// of hard rows, as a share of it. u of the sample at hand is exact either way.
+// Of the numbers of the target: a violation that is none, as a share of the range; what is added to the diagonal of G
+// of hard rows, and at least to that of soft ones, as a share of it. u of the sample at hand is exact either way. The
+// last is 4 times what the target's solver takes for 0 (src/mpc.c).
 struct Tolerances {
-  double violation, softening;
+  double violation, softening, softness;
 };
 Tolerances tolerances_of(Scalar real) {
-  return real == Scalar::float32 ? Tolerances{1e-4, 1e-6} : Tolerances{1e-12, 0};
+  return real == Scalar::float32 ? Tolerances{1e-4, 1e-6, 0x1p-18} : Tolerances{1e-12, 0, 0x1p-44};
 }
 
 // The optimum is that of one law for ever, with the cost that the law is optimal for.
@@ -106,9 +109,21 @@ LimitedProblem limited_problem(const Problem& problem, const Samples& samples, c
                      blocks_of(limits), reals(limits.u_min), reals(limits.u_max),
                      reals(limits.u_rate * problem.plant.sample_time), reals(limits.u_rate_price),
                      quantities_of(problem, all), Real(tolerances.violation), Real(tolerances.softening)};
+  out.softness = tolerances.softness;
   out.decay = decay_of(problem);
   for (const Signal& input : problem.plant.inputs) out.inputs.push_back(input.name);
   return out;
+}
+
+// Prices that the target cannot tell from infinite ones.
+void note_prices(const LimitedRows& rows, Scalar real, Findings& findings) {
+  std::optional<Real> least;
+  for (std::size_t i = 0; i < rows.price.size(); ++i)
+    if (rows.is_cheaper[i] && (!least || *rows.price[i] < *least)) least = rows.price[i];
+  if (least)
+    add_note(findings, "limits.price",
+             "an excess is not as dear as asked for: with a higher price than " + short_number(to_double(*least)) + " " +
+                 (real == Scalar::float32 ? "float" : "double") + " cannot tell soft limits from hard ones");
 }
 
 }  // namespace
@@ -125,6 +140,8 @@ void run_limits(const Problem& problem, const Samples& samples, DesignRun& resul
     add_error(result.findings, "limits.horizon",
               "expected at most " + std::to_string(most_rows) + " limits that are looked at, found " +
                   std::to_string(rows->G.rows()) + ": choose a shorter horizon, or longer blocks");
+  else
+    note_prices(*rows, problem.code.real, result.findings);
 }
 
 }  // namespace lqg::design

@@ -292,6 +292,9 @@ std::optional<std::string> why_no_batch(const Controller& controller) {
   if (!controller.linear && has_loops)
     return "a batch is straight-line code, whose zeros may have other signs than those of compact loops: expected "
            "style unrolled; run lqgen with --style unrolled";
+  if (controller.has.foresight)
+    return "limits that are foreseen take as long as each instance needs, one after the other: expected no "
+           "limits.horizon";
   return std::nullopt;
 }
 

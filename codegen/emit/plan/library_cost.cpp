@@ -32,6 +32,7 @@ constexpr FilterFigures factored = {{{3576, 3480, 4784, 4784}}, 24, {{168, 176, 
 constexpr Variants law_flash = {{200, 196, 280, 304}}, law_stack = {{36, 36, 100, 120}};
 constexpr Variants servo_flash = {{1048, 1072, 1504, 1584}};  // beside a filter, with which it shares a function
 constexpr Variants observe_flash = {{140, 140, 172, 172}};
+constexpr Variants limit_flash = {{2560, 2540, 3318, 3376}}, limit_stack = {{100, 100, 236, 284}};
 constexpr Variants servo_stack = {{88, 88, 196, 240}};
 
 const FilterFigures& figures_of(step::Filter filter) {
@@ -167,6 +168,22 @@ long bytes_of_software_floats(const Controller& controller, bool divides) {
   const long sums = 888, products = 596, products_and_quotients = 1060, comparisons = 272, fused = 32, bridges = 24;
   return sums + (divides ? products_and_quotients : products) + comparisons + bridges +
          (controller.target.is_fused ? fused : 0);
+}
+
+void add_foresight(const Controller& controller, CodeCost& cost) {
+  if (!controller.has.foresight) return;
+  const design::LimitedRows& limits = *controller.solution.foreseen;
+  const long rows = static_cast<long>(limits.G.rows()), ns = static_cast<long>(limits.F.cols());
+  const long numbers = static_cast<long>(limits.F.size()) + rows * rows + 4 * rows + (controller.has.rate_limit ? controller.size.nu : 0);
+  const bool copies = controller.has.input_change || controller.size.nr > 0;
+  constexpr long description = 48, control = 150, frame = 104, check = 1;
+  cost.flash += limit_flash.of(controller) + bytes_of_real(controller) * numbers + description + control +
+                bytes_of_software_floats(controller, true) - bytes_of_software_floats(controller, carries_covariance(controller)) +
+                (copies ? 20 * ns : 0);
+  const long memory = bytes_of_real(controller) * (7 * rows + rows * (rows - 1) / 2 + (copies ? ns : 0)) + 2 * rows;
+  cost.stack = std::max(cost.stack, aligned(memory) + frame + limit_stack.of(controller) + 8);
+  cost.multiply_adds += static_cast<long>(limits.F.size()) + check * rows;
+  cost.instructions.clear();
 }
 
 CodeCost cost_of_loops(const Controller& controller) {

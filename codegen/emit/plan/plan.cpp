@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "emit/plan/code_cost.hpp"
+#include "emit/plan/library_cost.hpp"
 #include "emit/plan/realisation.hpp"
 #include "emit/recorded/shared_covariance.hpp"
 #include "emit/recorded/steady_products.hpp"
 #include "simulate/drop_outs.hpp"
+#include "simulate/foresight.hpp"
 #include "simulate/scenario_requirements.hpp"
 
 namespace lqg::emit {
@@ -70,6 +72,7 @@ std::vector<Way> ways_of(const Controller& controller) {
   }
   if (asked != design::Style::unrolled)
     ways.push_back({design::Style::compact, controller::Sharing::nothing, cost_of_compact(controller)});
+  for (Way& way : ways) add_foresight(controller, way.cost);
   return ways;
 }
 
@@ -113,6 +116,7 @@ std::optional<Controller> make_controller(design::Problem problem, design::Solut
   std::optional<Controller> chosen = in_chosen_form(*std::move(physical), findings);
   if (!chosen) return std::nullopt;
   choose_style(*chosen);
+  if (chosen->has.foresight) chosen->worth = simulate::worth_of_foresight(*chosen);
   check_flash(*chosen, findings);
   simulate::check_drop_outs(*chosen, findings);
   simulate::check_scenario_requirements(*chosen, findings);

@@ -116,6 +116,36 @@ Json lqr(const Controller& controller) {
   return out;
 }
 
+Json worth(const controller::Worth& worth) {
+  return {{"starts", worth.starts},
+          {"clipped_settle", worth.clipped_settle},
+          {"optimal_settle", worth.optimal_settle},
+          {"both_settle", worth.both_settle},
+          {"median_ratio", worth.median_ratio},
+          {"high_ratio", worth.high_ratio},
+          {"clipped_excess", worth.clipped_excess},
+          {"optimal_excess", worth.optimal_excess}};
+}
+
+Json foreseen_limits(const Controller& controller) {
+  const design::LimitedRows& rows = *controller.solution.foreseen;
+  Json quantities = Json::array();
+  for (std::size_t i = 0; i < rows.names.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    Json quantity = {{"name", rows.names[i]}, {"sample", rows.sample[i]}};
+    if (isfinite(rows.low(at))) quantity["low"] = design::to_double(rows.low(at));
+    if (isfinite(rows.high(at))) quantity["high"] = design::to_double(rows.high(at));
+    if (rows.price[i]) quantity["price"] = design::to_double(*rows.price[i]);
+    quantities.push_back(std::move(quantity));
+  }
+  return {{"horizon", controller.problem.limits->horizon},
+          {"quantities", quantities},
+          {"F", lqg::emit::rows(rows.F)},
+          {"G", lqg::emit::rows(rows.G)},
+          {"iterations", controller.iterations},
+          {"worth", worth(*controller.worth)}};
+}
+
 // The steady filter as a system of its own, from [u; y − D u] to x̂: x⁺ = A x + B […], x̂ = C x + D […].
 Json observer(const Controller& controller) {
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
@@ -268,6 +298,7 @@ std::string json(const Controller& controller) {
       add(out["cost"], "Q_final", regulator.Q_final);
     }
     out["lqr"] = lqr(controller);
+    if (controller.has.foresight) out["limits"] = foreseen_limits(controller);
   }
   if (controller.has.filter) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);

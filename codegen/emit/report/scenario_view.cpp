@@ -102,6 +102,7 @@ class ScenarioCharts {
       if (run_.left_out(row, k))
         out.events.push_back({run_.times(k), is_gated(run_, k, static_cast<int>(i)) ? "gated" : "left out"});
     add_sensor_limits(i, out);
+    if (controller_.has.foresight) add_soft_limits(controller_.problem.limits->outputs, row, out);
     // An outlier does not make the rest small.
     if (!scenario_.outlier.empty()) look_at_truth(out);
     return out;
@@ -144,6 +145,12 @@ class ScenarioCharts {
     return out;
   }
 
+  static void add_soft_limits(const design::SoftLimits& limits, Index row, Chart& out) {
+    for (Index side = 0; side < 2 && row < limits.range.rows(); ++side)
+      if (std::isfinite(limits.range(row, side)))
+        out.guides.push_back({Guide::Axis::y, limits.range(row, side), "soft limit"});
+  }
+
   void add_samples_at_limits(Index row, double low, double high, Chart& out) const {
     Curve at_limit = {"at a limit", Mark::rings, 1, {}, {}};
     const double slack = 1e-6 * (high - low);  // u has the target's digits
@@ -157,6 +164,7 @@ class ScenarioCharts {
     const auto row = static_cast<Index>(i);
     Chart out = chart(controller_.problem.plant.states[i], "x", i);
     out.curves = {true_curve(controller_.has.filter ? "true" : "x", run_.fine_x, run_.x, row)};
+    if (controller_.has.foresight) add_soft_limits(controller_.problem.limits->states, row, out);
     if (!controller_.has.filter) return out;
     out.curves.push_back({"estimate", Mark::dashes, 1, times_, values_of(run_.estimate, row)});
     if (run_.sigma.rows() <= row) return out;

@@ -14,11 +14,15 @@ void add_head(const Controller& controller, const design::Findings& findings, Pa
 
 using Runs = std::vector<ShownRun>;
 PageSection at_work(const Controller& controller, const Runs& runs);            // what does it do?
+PageSection foresight_section(const Controller& controller);                    // what are foreseen limits worth?
 PageSection far_from_trouble(const Controller& controller);                     // what may be wrong with the model?
 PageSection pole_section(const Controller& controller);                         // how fast, how damped?
 PageSection estimator_section(const Controller& controller, const Runs& runs);  // does it know what it knows?
 PageSection target_section(const Controller& controller);                       // what does it cost?
 PageSection number_section(const Controller& controller);
+
+// Of a controller with foresight: one or two sentences.
+std::string worth_in_words(const Controller& controller);
 
 // Whose poles a person wants to see beside the plant's: regulator and estimator, whose poles are those of the loop,
 // else the loop itself.

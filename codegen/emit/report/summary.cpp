@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "emit/report/summary.hpp"
 
+#include "emit/report/sections.hpp"
 #include "emit/text/description.hpp"
+#include "trace/wrap.hpp"
 
 namespace lqg::emit {
 
 std::string summary(const Controller& controller) {
-  return controller.problem.name + "\n" + describe_regulator(controller) + describe_gains(controller) +
+  const std::string worth = controller.worth ? "\n" + trace::wrap(worth_in_words(controller), 0, 96) + "\n" : "";
+  return controller.problem.name + "\n" + describe_regulator(controller) + worth + describe_gains(controller) +
          describe_loop(controller) + describe_rms(controller) + describe_poles(controller) +
          describe_forms(controller) + describe_cost(controller);
 }

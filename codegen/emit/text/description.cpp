@@ -79,6 +79,30 @@ std::string limit(double value, const std::string& sign, bool before) {
   return before ? number + sign : sign + number;
 }
 
+// "  -0.5 ≤ speed ≤ 0.5, or price 1000000 · excess²\n"
+std::string soft_limits(const design::SoftLimits& limits, const std::vector<design::Signal>& signals,
+                        const std::string& end) {
+  std::string out;
+  for (Eigen::Index i = 0; i < limits.range.rows(); ++i) {
+    const double low = limits.range(i, 0), high = limits.range(i, 1);
+    if (std::isinf(low) && std::isinf(high)) continue;
+    out += "  " + limit(low, " ≤ ", true) + signals[static_cast<std::size_t>(i)].name + limit(high, " ≤ ", false) +
+           end + ", soft: " + decimal(limits.price(i)) + " · excess²\n";
+  }
+  return out;
+}
+
+std::string foreseen_limits(const Controller& controller) {
+  if (!controller.has.foresight) return "";
+  const design::Limits& limits = *controller.problem.limits;
+  const design::Plant& plant = controller.problem.plant;
+  return soft_limits(limits.states, plant.states, "") + soft_limits(limits.outputs, plant.outputs, "") +
+         soft_limits(limits.output_rates, plant.outputs, " per second") + "  foreseen for " +
+         std::to_string(limits.horizon) + " samples: " + std::to_string(controller.solution.foreseen->G.rows()) +
+         " limited quantities, at most " + std::to_string(controller.iterations) +
+         " changes of the active ones in a sample\n";
+}
+
 std::string limits(const Controller& controller) {
   std::string out;
   if (!controller.problem.limits) return out;
@@ -90,7 +114,7 @@ std::string limits(const Controller& controller) {
     if (controller.has.rate_limit && std::isfinite(limits.u_rate(i)))
       out += "  |change of " + u + "| ≤ " + trace::literal(limits.u_rate(i), true) + " per second\n";
   }
-  return out;
+  return out + foreseen_limits(controller);
 }
 
 std::string integrals(const Controller& controller) {
