@@ -173,9 +173,9 @@ static void solve_active(lqg_mpc_state_t *state, unsigned length, int is_singula
         next[j] = is_singular ? 0 : state->y[j] / state->d[j];
     if (is_singular)
         next[length - 1] = state->side[state->active[length - 1]] == AT_LOW ? 1 : -1;
-    for (unsigned j = length; j-- > 1;) {
-        const lqg_real *row = row_of(state->L, j), known = next[j];
-        for (unsigned i = 0; i < j; i++)
+    for (unsigned j = length; j > 1; j--) {
+        const lqg_real *row = row_of(state->L, j - 1), known = next[j - 1];
+        for (unsigned i = 0; i < j - 1; i++)
             next[i] = multiply_subtract(row[i], known, next[i]);
     }
 }
@@ -221,10 +221,14 @@ static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *
 {
     unsigned n = 0, blocking = 0;
 
+    for (unsigned i = 0; i < mpc->rows; i++) { /* so that a reader need not prove that only the first n are read */
+        state->m[i] = 0;
+        state->active[i] = 0;
+    }
     for (unsigned changes = 0; changes <= mpc->iterations && blocking <= n; changes++) {
         const int is_solved = blocking == n, is_done = is_rounding(state, n, blocking);
         const unsigned row = is_solved && n < mpc->rows ? most_violated(mpc, state, n) : mpc->rows;
-        if (!is_solved)
+        if (blocking < n)
             drop(state, n--, blocking);
         if (is_done || (is_solved && row == mpc->rows)) {
             *length = n;
@@ -232,7 +236,7 @@ static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *
         }
         if (changes == mpc->iterations)
             break;
-        if (is_solved)
+        if (row < mpc->rows && n < mpc->rows)
             append(mpc, state, n++, row);
         blocking = advance(mpc, state, n);
     }

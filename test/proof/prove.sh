@@ -60,8 +60,7 @@ text() { "$compiler" -E -P -I"$root/include" "${@:2}" - <"$1" | tr -d ' \n'; }
 
 defines=() style=unrolled real=float variant=f32
 ! is COMPACT || style=compact
-uses_library=''
-{ ! is COMPACT && ! is FORESIGHT; } || uses_library=1
+foresees=$(word FORESIGHT)
 ! is DOUBLE || { defines+=(-DLQG_REAL_DOUBLE) real=double variant=f64; }
 ! is FUSED || { defines+=(-DLQG_FUSED) variant+=_fused; }
 sed 's|/\*@ slevel merge; \*/ ;||' "$proof" >"$folder/same.h"
@@ -74,17 +73,34 @@ awk -v name="$name" -f "$here/calls.awk" "$header" >"$folder/calls.h" ||
 # What is said to follow from the tests is tried first.
 flags=(-I"$folder" -I"$here" -I"$root/include" "${defines[@]}" "-DHEADER=\"$(basename "$proof")\"")
 library=()
-[ -z "$uses_library" ] || library=("$root"/src/*.c)
+[ "$style" = unrolled ] && [ -z "$foresees" ] || library=("$root"/src/*.c)
 "$compiler" -std=c99 -O1 -ffp-contract=off "${flags[@]}" -DPROOF_TRIED -include "$here/tried.h" "$here/tried.c" \
   "${library[@]}" -lm -o "$folder/tried" || stop 2 "not understood: $header does not compile with $here/tried.c"
 "$folder/tried" || stop 1 "not proved: what should follow from a test does not"
 [ -z "$only_try" ] || { echo "$name, $style, $real: tried"; exit 0; }
 
-if [ -n "$uses_library" ]; then
+if [ ${#library[@]} -gt 0 ]; then
   mkdir -p "$folder/library"
   restate_library "$folder/library" || exit 2
   library=("$folder"/library/*.c)
   flags=(-I"$folder/library" "${flags[@]}")
+fi
+
+# Limits that are foreseen: first the library's solver with the tables of this controller and anything else of any
+# bits, then the controller, which takes it at its word. The solver's rows need not be told apart here.
+if [ -n "$foresees" ]; then
+  sed -i '/dynamic_split/d' "$folder/library/mpc.c"
+  frama-c -eva -eva-precision 2 -eva-domains equality -eva-split-return full -eva-slevel-function take:10000 \
+    -eva-auto-loop-unroll 200 -eva-min-loop-unroll 16 -warn-special-float none -machdep x86_64 \
+    -cpp-extra-args="$(printf '%q ' "${flags[@]}") -include unknown.h" "$here/foresight.c" \
+    "$folder"/library/{mpc,kernel}.c >"$folder/foresight.log" 2>&1 ||
+    stop 2 "not understood: $(tail -n 20 "$folder/foresight.log")"
+  grep -q "^  0 alarms generated" "$folder/foresight.log" &&
+    grep -Eq "Assertions +2 valid +0 unknown +0 invalid +2 total" "$folder/foresight.log" ||
+    stop 1 "$name: not proved: the limits that are foreseen; see $folder/foresight.log"
+  rm "$folder/library/mpc.c"
+  library=("$here/foresight_word.c")
+  [ "$style" = unrolled ] || library+=("$folder"/library/*.c)
 fi
 control=$(grep -o 'lqg_[a-z]*_control(' "$header" | tail -n 1 | tr -d '(' || true)
 control=${control:+${control}_$variant}

@@ -40,7 +40,7 @@ std::string words_of(const Controller& controller) {
   out += define(controller.style == design::Style::compact ? "COMPACT" : "UNROLLED");
   if (controller.target.is_double) out += define("DOUBLE");
   if (controller.target.is_fused) out += define("FUSED");
-  if (controller.has.foresight) out += define("FORESIGHT");
+  if (controller.has.foresight) out += define("FORESIGHT", std::to_string(controller.solution.foreseen->F.cols()));
   if (controller.has.regulator) out += define("GIVES_INPUT");
   if (!controller.bounds.x.empty()) out += define("BOUNDS");
   const std::vector<Field> fields = controller::state_fields(controller);
