@@ -98,7 +98,7 @@ std::optional<std::vector<int>> read_counts(const std::string& key, const Node& 
     const bool is_number = item.kind == Kind::number;
     if (!is_number || !(item.number >= 1 && item.number <= most) || item.number != std::floor(item.number)) {
       report.error(item_of(key, i), item.where,
-                   "expected a whole number from 1 to " + shown(most) + ", found " +
+                   "expected a whole number from 1 to " + std::to_string(design::most_steps) + ", found " +
                        (is_number ? shown(item.number) : describe(item)));
       return {};
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "design/limits/limited_rows.hpp"
 #include "design/numeric/poles.hpp"
 #include "design/rounding.hpp"
@@ -19,6 +21,36 @@ Tolerances tolerances_of(Scalar real) {
   return real == Scalar::float32 ? Tolerances{1e-4, 1e-6, 0x1p-18} : Tolerances{1e-12, 0, 0x1p-44};
 }
 
+std::vector<int> blocks_of(const Limits& limits) {
+  if (!limits.blocks.empty()) return limits.blocks;
+  const bool has_single_steps = limits.u_rate.size() > 0 || limits.states.range.size() > 0 ||
+                                limits.outputs.range.size() > 0 || limits.output_rates.range.size() > 0;
+  return default_blocks(limits.horizon, has_single_steps);
+}
+
+bool is_limited(const SoftLimits& limits, Index i) {
+  return limits.range.size() > 0 && (std::isfinite(limits.range(i, 0)) || std::isfinite(limits.range(i, 1)));
+}
+
+// Those that some input can move: at most all limits in the first sample of each block.
+constexpr Index most_rows = 255;
+
+Index limited(const SoftLimits& limits) {
+  Index count = 0;
+  for (Index i = 0; i < limits.range.rows(); ++i) count += is_limited(limits, i);
+  return count;
+}
+
+Index most_rows_of(const Problem& problem) {
+  const Limits& limits = *problem.limits;
+  const Index later = static_cast<Index>(blocks_of(limits).size()) - 1;
+  Index inputs = limits.u_rate.size();
+  for (Index i = 0; i < limits.u_min.size(); ++i)
+    inputs += std::isfinite(limits.u_min(i)) || std::isfinite(limits.u_max(i));
+  return problem.plant.B.cols() +
+         later * (inputs + limited(limits.states) + limited(limits.outputs) + limited(limits.output_rates));
+}
+
 // The optimum is that of one law for ever, with the cost that the law is optimal for.
 void check_foreseeable(const Problem& problem, Findings& findings) {
   const auto needs = [&](bool good, const char* what) {
@@ -33,6 +65,10 @@ void check_foreseeable(const Problem& problem, Findings& findings) {
   needs(lqr.structure.size() == 0, "cannot be had with lqr.structure: that gain is optimal for no cost");
   needs(!lqr.integral,
         "cannot be had with lqr.integral: while a limit keeps y from r, an integral that is foreseen winds up");
+  const Index rows = most_rows_of(problem);
+  needs(rows <= most_rows, ("expected at most " + std::to_string(most_rows) + " limits that are looked at, found " +
+                            std::to_string(rows) + ": choose a shorter horizon, or longer blocks")
+                               .c_str());
 }
 
 // Of [x; u[k−1] with `input_rate`; r]: r stays, and u is kept.
@@ -57,8 +93,10 @@ Extended extended(const Problem& problem, const SampledPlant& plant, const Regul
   return all;
 }
 
-bool is_limited(const SoftLimits& limits, Index i) {
-  return limits.range.size() > 0 && (std::isfinite(limits.range(i, 0)) || std::isfinite(limits.range(i, 1)));
+// Libraries may leave out the names of a file.
+std::string name_of_limited(const std::vector<Signal>& signals, Index i, const char* letter) {
+  const std::size_t at = static_cast<std::size_t>(i);
+  return at < signals.size() ? signals[at].name : letter + std::to_string(i);
 }
 
 LimitedQuantity quantity_of(const SoftLimits& limits, Index i, const RealMatrix& c, const RealMatrix& d,
@@ -73,12 +111,12 @@ std::vector<LimitedQuantity> quantities_of(const Problem& problem, const Extende
   for (Index i = 0; i < limits.states.range.rows(); ++i)
     if (is_limited(limits.states, i))
       out.push_back(quantity_of(limits.states, i, identity(ns).row(i), zeros(1, nu),
-                                problem.plant.states[static_cast<std::size_t>(i)].name));
+                                name_of_limited(problem.plant.states, i, "x")));
   for (const SoftLimits* of_outputs : {&limits.outputs, &limits.output_rates})
     for (Index i = 0; i < of_outputs->range.rows(); ++i) {
       if (!is_limited(*of_outputs, i)) continue;
       out.push_back(quantity_of(*of_outputs, i, all.C.row(i), all.D.row(i),
-                                problem.plant.outputs[static_cast<std::size_t>(i)].name));
+                                name_of_limited(problem.plant.outputs, i, "y")));
       if (of_outputs == &limits.outputs) continue;
       out.back().is_change = true;
       out.back().low *= problem.plant.sample_time;
@@ -91,13 +129,6 @@ RealVector reals(const Eigen::VectorXd& values) {
   RealVector out(values.size());
   for (Index i = 0; i < values.size(); ++i) out(i) = values(i);
   return out;
-}
-
-std::vector<int> blocks_of(const Limits& limits) {
-  if (!limits.blocks.empty()) return limits.blocks;
-  const bool has_single_steps = limits.u_rate.size() > 0 || limits.states.range.size() > 0 ||
-                                limits.outputs.range.size() > 0 || limits.output_rates.range.size() > 0;
-  return default_blocks(limits.horizon, has_single_steps);
 }
 
 LimitedProblem limited_problem(const Problem& problem, const Samples& samples, const RegulatorSolution& regulator) {
@@ -115,15 +146,23 @@ LimitedProblem limited_problem(const Problem& problem, const Samples& samples, c
   return out;
 }
 
-// Prices that the target cannot tell from infinite ones.
-void note_prices(const LimitedRows& rows, Scalar real, Findings& findings) {
-  std::optional<Real> least;
+// Prices of states and outputs that the target cannot tell from infinite ones.
+void note_prices(const Problem& problem, const LimitedRows& rows, Findings& findings) {
+  const auto is_of_input = [&](const std::string& name) {
+    return std::any_of(problem.plant.inputs.begin(), problem.plant.inputs.end(),
+                       [&](const Signal& input) { return name == "change of " + input.name; });
+  };
+  std::size_t least = rows.price.size();
   for (std::size_t i = 0; i < rows.price.size(); ++i)
-    if (rows.is_cheaper[i] && (!least || *rows.price[i] < *least)) least = rows.price[i];
-  if (least)
-    add_note(findings, "limits.price",
-             "an excess is not as dear as asked for: with a higher price than " + short_number(to_double(*least)) + " " +
-                 (real == Scalar::float32 ? "float" : "double") + " cannot tell soft limits from hard ones");
+    if (rows.is_cheaper[i] && !is_of_input(rows.names[i]) &&
+        (least == rows.price.size() || *rows.price[i] < *rows.price[least]))
+      least = i;
+  if (least == rows.price.size()) return;
+  const std::string real = problem.code.real == Scalar::float32 ? "float" : "double";
+  add_note(findings, "limits.price",
+           "an excess of " + rows.names[least] + " counts with the price " +
+               short_number(to_double(*rows.price[least])) + ": beyond it " + real +
+               " cannot tell a soft limit from a hard one");
 }
 
 }  // namespace
@@ -132,16 +171,10 @@ void run_limits(const Problem& problem, const Samples& samples, DesignRun& resul
   check_foreseeable(problem, result.findings);
   if (has_error(result.findings)) return;
   result.solution.foreseen = limited_rows(limited_problem(problem, samples, *result.solution.regulator));
-  constexpr Index most_rows = 255;
-  const LimitedRows* const rows = result.solution.foreseen ? &*result.solution.foreseen : nullptr;
-  if (rows == nullptr)
-    add_error(result.findings, "lqr.R", "R + BᵀXB is not positive definite: some input costs nothing and does nothing");
-  else if (rows->G.rows() > most_rows)
-    add_error(result.findings, "limits.horizon",
-              "expected at most " + std::to_string(most_rows) + " limits that are looked at, found " +
-                  std::to_string(rows->G.rows()) + ": choose a shorter horizon, or longer blocks");
-  else
-    note_prices(*rows, problem.code.real, result.findings);
+  if (!result.solution.foreseen)
+    return add_error(result.findings, "lqr.R",
+                     "R + BᵀXB is not positive definite: some input costs nothing and does nothing");
+  note_prices(problem, *result.solution.foreseen, result.findings);
 }
 
 }  // namespace lqg::design
