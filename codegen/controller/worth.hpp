@@ -8,7 +8,7 @@ namespace lqg::controller {
 
 // One start, with both laws: what is limited, one column a sample.
 struct WorthOfRun {
-  Eigen::VectorXd x;                   // the start
+  Eigen::VectorXd x;                     // the start
   Eigen::MatrixXd clipped_u, optimal_u;  // inputs
   Eigen::MatrixXd clipped_x, optimal_x;  // states of the plant
 };
@@ -19,7 +19,7 @@ struct Worth {
   int starts = 0, clipped_settle = 0, optimal_settle = 0, both_settle = 0;
   double median_ratio = 1, high_ratio = 1;        // of J; the second is the 99th percentile
   double clipped_excess = 0, optimal_excess = 0;  // over a soft limit, as a share of its range: the mean of the largest
-  WorthOfRun shown;                               // of the start with the median ratio, or that clipping does not survive
+  WorthOfRun shown;  // of the start with the median ratio, or that clipping does not survive
 };
 
 }  // namespace lqg::controller

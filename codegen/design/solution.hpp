@@ -107,7 +107,7 @@ struct LimitedRows {
   std::vector<std::optional<Real>> price;  // of soft rows, as the target has it
   std::vector<bool> is_cheaper;            // than the design asks for
   std::vector<int> sample;                 // in which sample each is
-  std::vector<std::string> names;  // "wheel_rate", "change of voltage"
+  std::vector<std::string> names;          // "wheel_rate", "change of voltage"
 };
 
 // From step `from` on: what replaces the plant, the noise, the cost and the online filter (if they are there).

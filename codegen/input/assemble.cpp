@@ -172,8 +172,8 @@ design::Estimator observer(const Values& values, const design::Plant& plant) {
 Eigen::VectorXd prices(const Values& values, Size size) {
   constexpr double usual = 1e6;
   const std::vector<std::string> names = signal_names(values, size);
-  Eigen::VectorXd result = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()),
-                                                     values.number("limits.price", usual));
+  Eigen::VectorXd result =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()), values.number("limits.price", usual));
   const auto named = values.named.find("limits.price");
   for (std::size_t i = 0; i < names.size() && named != values.named.end(); ++i)
     if (const auto price = named->second.find(names[i]); price != named->second.end())

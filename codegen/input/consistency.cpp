@@ -29,8 +29,9 @@ void check_tables(const Values& values, Report& report) {
     report.error("pole_placement", "expected [lqr] or [pole_placement], found both");
   if (values.has("kalman") && values.has("observer"))
     report.error("observer", "expected [kalman] or [observer], found both");
-  if (values.tables.count("limits") != 0 && !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate", "limits.states",
-                                                                 "limits.outputs", "limits.output_rates"}))
+  if (values.tables.count("limits") != 0 &&
+      !has_any(values, {"limits.u_min", "limits.u_max", "limits.u_rate", "limits.states", "limits.outputs",
+                        "limits.output_rates"}))
     report.error("limits", "expected u_min, u_max or another limit, found none");
   if (values.tables.count("plant") == 0) return;
   for (const char* key : {"lqr", "pole_placement"})
@@ -269,8 +270,8 @@ void check_range(const Values& values, const std::string& table, const std::stri
 // What means something only where limits are foreseen, and blocks that are the horizon.
 void check_horizon(const Values& values, Report& report) {
   const double horizon = values.number("limits.horizon", 0);
-  for (const char* key : {"limits.blocks", "limits.states", "limits.outputs", "limits.output_rates", "limits.price",
-                          "limits.iterations"})
+  for (const char* key :
+       {"limits.blocks", "limits.states", "limits.outputs", "limits.output_rates", "limits.price", "limits.iterations"})
     if (values.has(key) && horizon == 0) report.error(key, "needs limits.horizon > 0: only then limits are foreseen");
   const auto blocks = values.indices.find("limits.blocks");
   if (horizon == 0 || blocks == values.indices.end()) return;

@@ -86,9 +86,9 @@ std::optional<std::map<std::string, double>> read_prices(const std::string& key,
     const std::string& name = names[static_cast<std::size_t>(i)];
     const bool is_price = value.kind == Kind::number && value.number > 0 && std::isfinite(value.number);
     if (!is_price)
-      report.error(key + "." + name, value.where,
-                   "expected a number > 0, found " +
-                       (value.kind == Kind::number ? shown(value.number) : describe(value)));
+      report.error(
+          key + "." + name, value.where,
+          "expected a number > 0, found " + (value.kind == Kind::number ? shown(value.number) : describe(value)));
     else
       prices[name] = value.number;
     return is_price;

@@ -23,8 +23,8 @@ struct Values {
   std::map<std::string, std::string> texts;
   std::map<std::string, double> numbers;
   std::map<std::string, std::vector<design::Signal>> signals;
-  std::map<std::string, std::vector<int>> indices;  // and counts
-  std::map<std::string, std::map<std::string, double>> named;  // prices by name
+  std::map<std::string, std::vector<int>> indices;                 // and counts
+  std::map<std::string, std::map<std::string, double>> named;      // prices by name
   std::map<std::string, std::vector<std::complex<double>>> poles;  // conjugates side by side, +j first
   std::map<Size, int> sizes;      // 0: there are none; −1: not known, because what tells them is wrong
   std::set<std::string> present;  // keys in the file, right or wrong, and those that an unknown key seems to mean

@@ -84,8 +84,9 @@ void add_quantities(const LimitedProblem& problem, const Prediction& now, const 
     if (!has_limit(quantity.low, quantity.high) || (quantity.is_change && !before)) continue;
     Foreseen z = combined(quantity.c, now.x(), quantity.d, now.u());
     if (quantity.is_change) z = change(z, combined(quantity.c, before->x(), quantity.d, before->u()));
-    if (can_be_moved(z)) rows.add(z, quantity.low, quantity.high, quantity.price, sample,
-                                 (quantity.is_change ? "change of " : "") + quantity.name);
+    if (can_be_moved(z))
+      rows.add(z, quantity.low, quantity.high, quantity.price, sample,
+               (quantity.is_change ? "change of " : "") + quantity.name);
   }
 }
 

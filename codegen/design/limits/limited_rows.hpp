@@ -32,10 +32,10 @@ struct LimitedProblem {
   RealVector u_step;        // nu, largest |u[k] − u[k−1]|, infinite where there is none; or empty
   RealVector step_price;    // nu, > 0; not looked at without u_step
   std::vector<LimitedQuantity> quantities;
-  Real tolerance;  // of a limit, as a share of its range
-  Real softening;  // on the diagonal of G of hard rows, as a share of it
+  Real tolerance;     // of a limit, as a share of its range
+  Real softening;     // on the diagonal of G of hard rows, as a share of it
   Real softness = 0;  // likewise of soft rows, at least: with less the target takes them for rows that others make up
-  Real decay = 1;  // α: J = x₀ᵀXx₀ + Σ α²ᵏ vᵀ weight v
+  Real decay = 1;     // α: J = x₀ᵀXx₀ + Σ α²ᵏ vᵀ weight v
   std::vector<std::string> inputs = {};  // names, or none
 };
 

@@ -56,12 +56,14 @@ void check_foreseeable(const Problem& problem, Findings& findings) {
   const auto needs = [&](bool good, const char* what) {
     if (!good) add_error(findings, "limits.horizon", what);
   };
-  if (!has_cost(problem.regulator)) return needs(false, "needs [lqr]: placed poles have no cost that could be smallest");
+  if (!has_cost(problem.regulator))
+    return needs(false, "needs [lqr]: placed poles have no cost that could be smallest");
   const Regulator& lqr = *problem.regulator;
   needs(lqr.horizon == 0 && problem.stages.empty(),
         "needs one plant and lqr.horizon = 0: limits are foreseen with a law that is the same in every sample");
-  needs(lqr.cost != Cost::continuous,
-        "needs lqr.cost = \"sampled\" or \"discrete\": the gain of a continuous cost is optimal for no cost of samples");
+  needs(
+      lqr.cost != Cost::continuous,
+      "needs lqr.cost = \"sampled\" or \"discrete\": the gain of a continuous cost is optimal for no cost of samples");
   needs(lqr.structure.size() == 0, "cannot be had with lqr.structure: that gain is optimal for no cost");
   needs(!lqr.integral,
         "cannot be had with lqr.integral: while a limit keeps y from r, an integral that is foreseen winds up");
@@ -115,8 +117,8 @@ std::vector<LimitedQuantity> quantities_of(const Problem& problem, const Extende
   for (const SoftLimits* of_outputs : {&limits.outputs, &limits.output_rates})
     for (Index i = 0; i < of_outputs->range.rows(); ++i) {
       if (!is_limited(*of_outputs, i)) continue;
-      out.push_back(quantity_of(*of_outputs, i, all.C.row(i), all.D.row(i),
-                                name_of_limited(problem.plant.outputs, i, "y")));
+      out.push_back(
+          quantity_of(*of_outputs, i, all.C.row(i), all.D.row(i), name_of_limited(problem.plant.outputs, i, "y")));
       if (of_outputs == &limits.outputs) continue;
       out.back().is_change = true;
       out.back().low *= problem.plant.sample_time;
@@ -136,10 +138,18 @@ LimitedProblem limited_problem(const Problem& problem, const Samples& samples, c
   const Extended all = extended(problem, samples.plant, regulator);
   const RiccatiEquation equation = regulator_equation(problem, samples);
   const Tolerances tolerances = tolerances_of(problem.code.real);
-  LimitedProblem out{all.A, all.B, all.K, equation.R + transpose_congruence(equation.B, regulator.X),
-                     blocks_of(limits), reals(limits.u_min), reals(limits.u_max),
-                     reals(limits.u_rate * problem.plant.sample_time), reals(limits.u_rate_price),
-                     quantities_of(problem, all), Real(tolerances.violation), Real(tolerances.softening)};
+  LimitedProblem out{all.A,
+                     all.B,
+                     all.K,
+                     equation.R + transpose_congruence(equation.B, regulator.X),
+                     blocks_of(limits),
+                     reals(limits.u_min),
+                     reals(limits.u_max),
+                     reals(limits.u_rate * problem.plant.sample_time),
+                     reals(limits.u_rate_price),
+                     quantities_of(problem, all),
+                     Real(tolerances.violation),
+                     Real(tolerances.softening)};
   out.softness = tolerances.softness;
   out.decay = decay_of(problem);
   for (const Signal& input : problem.plant.inputs) out.inputs.push_back(input.name);

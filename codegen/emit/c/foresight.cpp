@@ -109,9 +109,10 @@ std::string extended_state(const Controller& controller) {
 
 void add_foresight(const Controller& controller, FunctionBodies& bodies) {
   if (controller.style != design::Style::compact) {
-    bodies.includes = "#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n\n#include \"lqg/arithmetic.h\"\n"
-                      "#include \"lqg/mpc.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n\n" +
-                      options_check(controller);
+    bodies.includes =
+        "#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n\n#include \"lqg/arithmetic.h\"\n"
+        "#include \"lqg/mpc.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n\n" +
+        options_check(controller);
   } else if (bodies.includes.find("<math.h>") == std::string::npos) {
     bodies.includes = "#include <math.h>\n" + bodies.includes;
   }
@@ -137,7 +138,7 @@ std::string foreseeing_control_body(const Controller& controller) {
   const std::string x = controller.has.filter ? "self->x" : "x";
   return write_body(templates::foreseeing_control, controller,
                     {{"applied", controller.has.rate_limit ? "self->u_applied" : "NULL"},
-                     {"arguments", controller.has.filter       ? "self, u"
+                     {"arguments", controller.has.filter  ? "self, u"
                                    : controller.keeps.any ? "self, x, u"
                                                           : "x, u"},
                      {"state", state},

@@ -161,23 +161,26 @@ std::string predict_function(const Controller& controller, const FunctionBodies&
 std::string control_function(const Controller& controller, const FunctionBodies& bodies) {
   const bool has_filter = controller.has.filter, writes = control_changes_state(controller);
   const bool limits = controller.problem.limits.has_value(), foresees = controller.has.foresight;
-  return (foresees ? law_function(controller, bodies.control) : "") + write_function(
-      templates::control, controller,
-      {{"law", equation_of_law(controller)},
-       {"within_limits", foresees ? ", or the u of least cost that keeps the limits from now to their horizon"
-                        : limits ? ", limited"
-                                 : ""},
-       {"delayed", controller.size.delayed ? "; after them the delayed inputs, the oldest first" : ""},
-       {"limits", limits ? " and within the limits" : ""},
-       {"reference", controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as 0), " : ""},
-       {"limited", foresees ? " (a limit holds an input, or it was not finite and set to 0), LQG_NOT_OPTIMAL (the limits "
-                              "contradict each other or took too many changes: the law is clipped)"
-                   : limits ? " (at a limit, or not finite and set to 0)" : " (not finite and set to 0)"},
-       {"reset", !has_filter && controller.has.servo && !foresees ? ", LQG_STATE_RESET" : ""},
-       {"body", foresees ? foreseeing_control_body(controller) : bodies.control}},
-      {{"writes_beside_filter", has_filter && writes},
-       {"reads_beside_filter", has_filter && !writes},
-       {"remembers", !has_filter && controller.keeps.any}});
+  return (foresees ? law_function(controller, bodies.control) : "") +
+         write_function(
+             templates::control, controller,
+             {{"law", equation_of_law(controller)},
+              {"within_limits", foresees ? ", or the u of least cost that keeps the limits from now to their horizon"
+                                : limits ? ", limited"
+                                         : ""},
+              {"delayed", controller.size.delayed ? "; after them the delayed inputs, the oldest first" : ""},
+              {"limits", limits ? " and within the limits" : ""},
+              {"reference", controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as 0), " : ""},
+              {"limited",
+               foresees ? " (a limit holds an input, or it was not finite and set to 0), LQG_NOT_OPTIMAL (the limits "
+                          "contradict each other or took too many changes: the law is clipped)"
+               : limits ? " (at a limit, or not finite and set to 0)"
+                        : " (not finite and set to 0)"},
+              {"reset", !has_filter && controller.has.servo && !foresees ? ", LQG_STATE_RESET" : ""},
+              {"body", foresees ? foreseeing_control_body(controller) : bodies.control}},
+             {{"writes_beside_filter", has_filter && writes},
+              {"reads_beside_filter", has_filter && !writes},
+              {"remembers", !has_filter && controller.keeps.any}});
 }
 
 std::string step_function(const Controller& controller, const FunctionBodies& bodies) {

@@ -183,10 +183,10 @@ std::string state_type(const Controller& controller) {
 
 std::string header(const Controller& controller) {
   FunctionBodies bodies = controller.linear                                     ? straight_line_bodies(controller)
-                                : controller.style == design::Style::compact          ? compact_bodies(controller)
-                                : controller.sharing == controller::Sharing::products ? products_bodies(controller)
-                                : controller.sharing != controller::Sharing::nothing  ? shared_bodies(controller)
-                                                                                      : unrolled_bodies(controller);
+                          : controller.style == design::Style::compact          ? compact_bodies(controller)
+                          : controller.sharing == controller::Sharing::products ? products_bodies(controller)
+                          : controller.sharing != controller::Sharing::nothing  ? shared_bodies(controller)
+                                                                                : unrolled_bodies(controller);
   if (controller.has.foresight) add_foresight(controller, bodies);
   const design::Plant& plant = controller.problem.plant;
   const std::string guard = upper(controller.problem.name) + "_H", code = functions(controller, bodies);

@@ -174,12 +174,13 @@ void add_foresight(const Controller& controller, CodeCost& cost) {
   if (!controller.has.foresight) return;
   const design::LimitedRows& limits = *controller.solution.foreseen;
   const long rows = static_cast<long>(limits.G.rows()), ns = static_cast<long>(limits.F.cols());
-  const long numbers = static_cast<long>(limits.F.size()) + rows * rows + 4 * rows + (controller.has.rate_limit ? controller.size.nu : 0);
+  const long numbers = static_cast<long>(limits.F.size()) + rows * rows + 4 * rows +
+                       (controller.has.rate_limit ? controller.size.nu : 0);
   const bool copies = controller.has.input_change || controller.size.nr > 0;
   constexpr long description = 48, control = 150, frame = 104, check = 1;
   cost.flash += limit_flash.of(controller) + bytes_of_real(controller) * numbers + description + control +
-                bytes_of_software_floats(controller, true) - bytes_of_software_floats(controller, carries_covariance(controller)) +
-                (copies ? 20 * ns : 0);
+                bytes_of_software_floats(controller, true) -
+                bytes_of_software_floats(controller, carries_covariance(controller)) + (copies ? 20 * ns : 0);
   const long memory = bytes_of_real(controller) * (7 * rows + rows * (rows - 1) / 2 + (copies ? ns : 0)) + 2 * rows;
   cost.stack = std::max(cost.stack, aligned(memory) + frame + limit_stack.of(controller) + 8);
   cost.multiply_adds += static_cast<long>(limits.F.size()) + check * rows;

@@ -301,7 +301,7 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["samples"] = std::to_string(vectors.samples.size());
   words["every"] = std::to_string(samples_per_covariance);
   words["samples_at_limits"] = std::to_string(vectors.limited);
-  words["limited"] = controller.has.foresight         ? " & ~(LQG_INPUT_LIMITED | LQG_NOT_OPTIMAL)"
+  words["limited"] = controller.has.foresight    ? " & ~(LQG_INPUT_LIMITED | LQG_NOT_OPTIMAL)"
                      : controller.problem.limits ? " & ~LQG_INPUT_LIMITED"
                                                  : "";
   words["gated"] = !controller.has.gate ? ""

@@ -51,8 +51,8 @@ std::vector<double> handed_over(const Turn& turn, std::vector<double> row, const
 
 // What a status tells, in the order in which the test counts it; behind it, which outputs were rejected.
 inline constexpr std::array told_events = {
-    step::Event::output_rejected, step::Event::output_gated, step::Event::innovation_not_positive,
-    step::Event::input_limited,   step::Event::state_reset,  step::Event::reference_not_finite,
+    step::Event::output_rejected,  step::Event::output_gated, step::Event::innovation_not_positive,
+    step::Event::input_limited,    step::Event::state_reset,  step::Event::reference_not_finite,
     step::Event::covariance_reset, step::Event::not_optimal};
 
 // Whether the header has what the turn calls.
