@@ -13,16 +13,13 @@
 #include "design/numeric/modal_basis.hpp"
 #include "design/numeric/modes.hpp"
 #include "design/numeric/poles.hpp"
-#include "design/numeric/ziv_test.hpp"
-#include "design/rounding.hpp"
 #include "design/sampled/reference.hpp"
 #include "design/sampled/stages.hpp"
+#include "design/settled_form.hpp"
 
 namespace lqg::design {
 
 namespace {
-
-constexpr unsigned least_digits = 100;  // of which half have to settle what is emitted
 
 // The numbers of `solution` that a form is made of, in the digits in force.
 Solution in_present_digits(const Solution& solution) {
@@ -56,29 +53,6 @@ LinearForm in_physical_states(const Problem& problem, const Solution& solution) 
   return form;
 }
 
-// Columns of T within a block, times R = [p q; −q p] (or [p]), which the block does not notice: the largest row of its
-// C becomes [1 0]. A block that u does not see stays as it is.
-void take_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C) {
-  const RealMatrix columns = basis.T.middleCols(start, size), own = multiply(C, columns);
-  const RealMatrix squares = own.cwiseProduct(own).rowwise().sum();
-  Index largest = 0;
-  for (Index i = 1; i < own.rows(); ++i)
-    if (squares(i) > 1.001 * squares(largest)) largest = i;  // of equal ones the first, whatever their rounding is
-  if (!(sqrt(squares(largest)) > negligible(0.6) * largest_entry(C) * largest_entry(columns))) return;
-  const RealMatrix row = own.row(largest);
-  RealMatrix R = zeros(size, size), inverse = zeros(size, size);
-  for (Index i = 0; i < size; ++i) {
-    R(i, i) = row(0) / squares(largest);
-    inverse(i, i) = row(0);
-  }
-  if (size == 2) {
-    R(1, 0) = row(1) / squares(largest), R(0, 1) = -R(1, 0);
-    inverse(0, 1) = row(1), inverse(1, 0) = -row(1);
-  }
-  basis.T.middleCols(start, size) = multiply(columns, R);
-  basis.inverse.middleRows(start, size) = multiply(inverse, basis.inverse.middleRows(start, size));
-}
-
 // What modal_form calls the condition. P_j = Σ Aᵏ b_j b_jᵀ Aᵏᵀ holds all norms: ‖c z‖² = c P_j cᵀ.
 double cancellation(const LinearForm& form, const std::vector<Index>& starts) {
   const RealMatrix C = above(form.C, form.estimate), D = above(form.D, form.heard);
@@ -108,8 +82,7 @@ std::optional<LinearForm> in_modes(const Problem& problem, const Solution& solut
   LinearForm form = in_physical_states(problem, solution);
   std::optional<ModalBasis> basis = modal_basis(form.A);
   if (!basis) return std::nullopt;
-  for (std::size_t i = 0; i + 1 < basis->starts.size(); ++i)
-    take_to_one(*basis, basis->starts[i], basis->starts[i + 1] - basis->starts[i], form.C);
+  take_to_one(*basis, form.C);
   const RealMatrix &T = basis->T, &inverse = basis->inverse;
   form.A = basis->blocks;
   form.B = multiply(inverse, form.B);
@@ -130,55 +103,21 @@ auto matrices_of(Form& form) {
                     &form.estimate, &form.heard, &form.of_state, &form.keep, &form.z0};
 }
 
-bool form_passes_ziv_test(const LinearForm& coarse, LinearForm& fine, unsigned coarse_digits) {
-  const auto before = matrices_of(coarse);
-  const auto after = matrices_of(fine);
-  bool settled = true;
-  for (std::size_t i = 0; i < after.size(); ++i)
-    settled = passes_ziv_test(*before[i], *after[i], coarse_digits) && settled;
-  return settled;
-}
-
-bool fits(const LinearForm& form, Scalar scalar) {
-  for (const RealMatrix* matrix : matrices_of(form))
-    for (Index i = 0; i < matrix->size(); ++i) {
-      const Real& entry = matrix->data()[i];
-      if (!(scalar == Scalar::float32 ? std::isfinite(to_float(entry)) : std::isfinite(to_double(entry)))) return false;
-    }
-  return true;
-}
-
-double largest_condition(Scalar scalar) {
-  return scalar == Scalar::float32 ? std::sqrt(1 / static_cast<double>(std::numeric_limits<float>::epsilon()))
-                                   : std::sqrt(1 / std::numeric_limits<double>::epsilon());
-}
-
-std::string name_of(Scalar scalar) { return scalar == Scalar::float32 ? "float" : "double"; }
-
-// Made twice: of the solution, and of the same with half of its digits, which stands in for a coarser run of the
-// design.
+// Made of the solution in the digits in force.
 template <class Make>
-LinearFormResult settled_form(const Problem& problem, const Solution& solution, Make make) {
-  const unsigned digits = std::max(solution.numerics.digits, least_digits);
-  std::optional<LinearForm> coarse;
-  {
-    const Digits half(digits / 2);
-    coarse = make(problem, in_present_digits(solution));
-  }
-  const Digits scope(digits);
-  LinearFormResult result;
-  result.form = make(problem, in_present_digits(solution));
-  const auto refuse = [&](const std::string& why) { return LinearFormResult{std::nullopt, why}; };
-  if (!coarse || !result.form) return refuse("a pole of the controller is repeated");
-  const double most = largest_condition(problem.code.real);
-  if (!(result.form->condition <= most))
-    return refuse("poles of the controller are so near each other that their modes cancel by a factor of " +
-                  short_number(result.form->condition) + ", in " + name_of(problem.code.real) + " at most " +
-                  short_number(most) + " will do");
-  if (!form_passes_ziv_test(*coarse, *result.form, digits / 2))
-    return refuse(std::to_string(digits / 2) + " digits do not settle its numbers");
-  if (!fits(*result.form, problem.code.real))
-    return refuse("a number of it is too large for " + name_of(problem.code.real));
+LinearFormResult settled_linear_form(const Problem& problem, const Solution& solution, Make make) {
+  const auto made = [&] { return make(problem, in_present_digits(solution)); };
+  const auto visit_both = [](const LinearForm& coarse, LinearForm& fine, auto visit) {
+    const auto before = matrices_of(coarse);
+    const auto after = matrices_of(fine);
+    for (std::size_t i = 0; i < after.size(); ++i) visit(*before[i], *after[i]);
+  };
+  Settled<LinearForm> settled = settled_form<LinearForm>(solution.numerics.digits, problem.code.real, made, visit_both);
+  LinearFormResult result{std::move(settled.form), std::move(settled.obstacle)};
+  if (settled.is_singular) result.obstacle = "a pole of the controller is repeated";
+  if (settled.is_ill_conditioned)
+    result.obstacle =
+        "poles of the controller are so near each other that their modes cancel by a factor of " + result.obstacle;
   return result;
 }
 
@@ -196,7 +135,7 @@ std::string no_linear_form(const Problem& problem, const Solution& solution) {
   if (regulator.horizon > 0) return "the regulator's gain is not constant";
   if (!reference_outputs(problem).empty()) return "the law follows a reference";
   if (regulator.input_rate.size() > 0) return "the law goes on from the input that was applied";
-  const Digits scope(std::max(solution.numerics.digits, least_digits));
+  const Digits scope(std::max(solution.numerics.digits, least_digits_of_form));
   for (const ComplexReal& pole : eigenvalues(compensator(problem, solution).A))
     if (on_or_outside_circle(pole))
       return "the controller by itself has a pole at z = " + short_complex(pole, 1) +
@@ -205,13 +144,13 @@ std::string no_linear_form(const Problem& problem, const Solution& solution) {
 }
 
 LinearFormResult folded_form(const Problem& problem, const Solution& solution) {
-  return settled_form(problem, solution, [](const Problem& of, const Solution& in) {
+  return settled_linear_form(problem, solution, [](const Problem& of, const Solution& in) {
     return std::optional<LinearForm>(in_physical_states(of, in));
   });
 }
 
 LinearFormResult modal_form(const Problem& problem, const Solution& solution) {
-  return settled_form(problem, solution, in_modes);
+  return settled_linear_form(problem, solution, in_modes);
 }
 
 void check_rounded_form(const Problem& problem, const LinearForm& form, Solution& solution, Findings& findings) {

@@ -61,6 +61,28 @@ bool is_before(const Eigenmode& a, const Eigenmode& b) {
   return size(a) != size(b) ? size(a) > size(b) : to_float(a.value.re) > to_float(b.value.re);
 }
 
+// Columns of T within a block, times R = [p q; −q p] (or [p]), which the block does not notice.
+void take_block_to_one(ModalBasis& basis, Index start, Index size, const RealMatrix& C) {
+  const RealMatrix columns = basis.T.middleCols(start, size), own = multiply(C, columns);
+  const RealMatrix squares = own.cwiseProduct(own).rowwise().sum();
+  Index largest = 0;
+  for (Index i = 1; i < own.rows(); ++i)
+    if (squares(i) > 1.001 * squares(largest)) largest = i;  // of equal ones the first, whatever their rounding is
+  if (!(sqrt(squares(largest)) > negligible(0.6) * largest_entry(C) * largest_entry(columns))) return;
+  const RealMatrix row = own.row(largest);
+  RealMatrix R = zeros(size, size), inverse = zeros(size, size);
+  for (Index i = 0; i < size; ++i) {
+    R(i, i) = row(0) / squares(largest);
+    inverse(i, i) = row(0);
+  }
+  if (size == 2) {
+    R(1, 0) = row(1) / squares(largest), R(0, 1) = -R(1, 0);
+    inverse(0, 1) = row(1), inverse(1, 0) = -row(1);
+  }
+  basis.T.middleCols(start, size) = multiply(columns, R);
+  basis.inverse.middleRows(start, size) = multiply(inverse, basis.inverse.middleRows(start, size));
+}
+
 }  // namespace
 
 std::optional<ModalBasis> modal_basis(const RealMatrix& A) {
@@ -86,6 +108,11 @@ std::optional<ModalBasis> modal_basis(const RealMatrix& A) {
   if (!inverse) return std::nullopt;
   basis.inverse = *inverse;
   return basis;
+}
+
+void take_to_one(ModalBasis& basis, const RealMatrix& C) {
+  for (std::size_t i = 0; i + 1 < basis.starts.size(); ++i)
+    take_block_to_one(basis, basis.starts[i], basis.starts[i + 1] - basis.starts[i], C);
 }
 
 }  // namespace lqg::design

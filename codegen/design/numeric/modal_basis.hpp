@@ -16,4 +16,8 @@ struct ModalBasis {
 // Within one part a repeated eigenvalue makes T singular, exactly (empty) or up to the digits.
 std::optional<ModalBasis> modal_basis(const RealMatrix& A);
 
+// Uses up what freedom the blocks leave: in each of them the largest row of C T becomes [1] or [1 0], which takes no
+// multiplication. A mode that C does not see stays as it is.
+void take_to_one(ModalBasis& basis, const RealMatrix& C);
+
 }  // namespace lqg::design
