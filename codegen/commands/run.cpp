@@ -135,7 +135,7 @@ Answer take_sample(const Controller& controller, EmittedController<S>& emitted, 
   }
   const auto hear = [&] { answer.events |= emitted.update(numbers_of<S>(told.measured)); };
   if (!controller.is_predictor) hear();
-  answer.x = as_doubles(emitted.state().x);
+  answer.x = as_doubles(emitted.estimate());
   if (controller.has.regulator) {
     answer.events |= emitted.control(u);
     answer.u = as_doubles(u);

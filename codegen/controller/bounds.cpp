@@ -8,6 +8,7 @@
 #include "controller/controller.hpp"
 #include "controller/rounding.hpp"
 #include "controller/stage_in_force.hpp"
+#include "design/numeric/linear_algebra.hpp"
 
 namespace lqg::controller {
 
@@ -74,11 +75,20 @@ class Scales {
   VectorXd start() const {
     const design::Estimator& estimator = *controller_.problem.estimator;
     VectorXd scales = VectorXd::Zero(controller_.size.nx);
-    scales.head(estimator.P0.rows()) = deviations(estimator.P0);
-    scales = scales.cwiseMax(controller_.x0.cwiseAbs());
+    if (controller_.modal)
+      scales = deviations(design::to_doubles(controller_.modal->online.P0));
+    else
+      scales.head(estimator.P0.rows()) = deviations(estimator.P0);
+    scales = scales.cwiseMax(design::to_doubles(kept_start(controller_)).cwiseAbs());
     if (controller_.solution.estimator && controller_.solution.estimator->P_prior.size())
-      scales = scales.cwiseMax(deviations(design::to_doubles(controller_.solution.estimator->P_prior)));
+      scales = scales.cwiseMax(deviations(kept_prior()));
     return scales;
+  }
+
+  // The covariance before an update, in the steady state.
+  MatrixXd kept_prior() const {
+    const design::RealMatrix& P = controller_.solution.estimator->P_prior;
+    return design::to_doubles(controller_.modal ? design::congruence(controller_.modal->inverse, P) : P);
   }
 
   // |K_x| start: what the law asks for.
@@ -101,7 +111,7 @@ class Scales {
 
   // Where the start, the inputs and the noise take the states within nx samples: further samples reach no other state.
   VectorXd states_at(std::size_t sample) const {
-    const design::SampledPlant& plant = plant_at(controller_, sample);
+    const design::SampledPlant& plant = kept_plant_at(controller_, sample);
     const MatrixXd A = design::to_doubles(plant.A);
     VectorXd drive = design::to_doubles(plant.B).cwiseAbs() * inputs_;
     if (const design::SampledNoise* noise = noise_at(controller_, sample)) {
@@ -120,7 +130,8 @@ class Scales {
 
   // |C| x of the integrated outputs.
   VectorXd error_scales() const {
-    const MatrixXd C = design::to_doubles(controller_.solution.plant.C).cwiseAbs();
+    const design::RealMatrix& outputs = controller_.modal ? controller_.modal->plant.C : controller_.solution.plant.C;
+    const MatrixXd C = design::to_doubles(outputs).cwiseAbs();
     VectorXd scales(controller_.size.nxi);
     for (int i = 0; i < scales.size(); ++i)
       scales(i) = C.row(controller_.integrated[static_cast<std::size_t>(i)]).dot(states_);
@@ -139,7 +150,7 @@ struct Outputs {
 };
 
 Outputs outputs_as_they_are(const Controller& controller, std::size_t sample) {
-  const design::SampledPlant& plant = plant_at(controller, sample);
+  const design::SampledPlant& plant = kept_plant_at(controller, sample);
   VectorXd V = VectorXd::Zero(plant.C.rows());
   if (const design::SampledNoise* noise = noise_at(controller, sample)) V = design::to_doubles(noise->V).diagonal();
   return {design::to_doubles(plant.C), design::to_doubles(plant.D), V};
@@ -147,7 +158,7 @@ Outputs outputs_as_they_are(const Controller& controller, std::size_t sample) {
 
 Outputs outputs_of_filter(const Controller& controller, std::size_t sample) {
   if (!controller.solution.online) return outputs_as_they_are(controller, sample);
-  const design::OnlineSolution& online = online_at(controller, sample);
+  const design::OnlineSolution& online = kept_online_at(controller, sample);
   return {design::to_doubles(online.C), design::to_doubles(online.D), design::to_doubles(online.V)};
 }
 
@@ -194,7 +205,7 @@ bool has_finite_law(const Controller& controller) {
   constexpr double for_rounding = 0.5;  // of the sums on their way
   const std::vector<double> bounds = powers_of_two(controller.bounds.x);
   const VectorXd b = Eigen::Map<const VectorXd>(bounds.data(), controller.size.nx);
-  if ((controller.x0.cwiseAbs().array() >= b.array()).any()) return false;
+  if ((design::to_doubles(kept_start(controller)).cwiseAbs().array() >= b.array()).any()) return false;
   for (const Gains& law : controller.laws) {
     VectorXd reach = design::to_doubles(law[0]).cwiseAbs() * b / largest;
     if (law[1].size()) reach += design::to_doubles(law[1]).cwiseAbs().rowwise().sum();

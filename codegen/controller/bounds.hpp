@@ -11,7 +11,7 @@ struct Controller;
 
 // All of them powers of two, so that scaling by one is exact; src/README.md has the derivation. Empty without a filter.
 struct Bounds {
-  std::vector<int> x, xi;             // |x_i| < 2^x_i, |P_ii| < 4^x_i, |ξ_i| < 2^xi_i
+  std::vector<int> x, xi;             // |x_i| < 2^x_i, |P_ii| < 4^x_i, of what the filter keeps; |ξ_i| < 2^xi_i
   Eigen::VectorXd innovation, error;  // of each output that the filter takes; of each r − y that is integrated
 };
 

@@ -154,9 +154,10 @@ unsigned iterations_of(const Controller& controller) {
   return given > 0 ? static_cast<unsigned>(given) : 4u * static_cast<unsigned>(controller.solution.foreseen->G.rows());
 }
 
+constexpr int bits_to_bound = 4;  // from a start
+
 // A start that the bounds, which cannot be wider than the target's squares, would not let be.
 void check_start(const Controller& controller, design::Findings& findings) {
-  constexpr int bits_to_bound = 4;
   const auto check = [&](const char* key, const char* what, int i, double size) {
     const double most = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound);
     if (size >= most)
@@ -207,6 +208,35 @@ Controller with_form(Controller controller, const design::LinearForm& form) {
   controller.size.nz = static_cast<int>(form.A.rows());
   controller.recovery = recovery_of(controller);
   controller.bounds = {};
+  return controller;
+}
+
+namespace {
+
+// Row k is K of sample k, the last one that which is held.
+void take_laws_of_modes(const design::ModalPlant& modal, std::vector<Gains>& laws) {
+  for (std::size_t k = 0; k < laws.size(); ++k) laws[k][0] = k + 1 < laws.size() ? modal.K_schedule[k] : modal.K;
+}
+
+}  // namespace
+
+std::optional<Controller> with_modes(Controller controller, const design::ModalPlant& modal,
+                                     design::Findings& findings) {
+  controller.physical = std::make_shared<const Controller>(controller);
+  controller.modal = modal;
+  take_laws_of_modes(modal, controller.laws);
+  controller.bounds = bounds_of(controller);
+  controller.recovery = recovery_of(controller);
+  const Eigen::VectorXd z0 = design::to_doubles(kept_start(controller)).cwiseAbs(),
+                        P0 = design::to_doubles(modal.online.P0).diagonal();
+  for (int i = 0; i < controller.size.nx; ++i)
+    if (std::max(z0(i), std::sqrt(P0(i))) >=
+        std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound)) {
+      design::add_error(findings, "code.realisation",
+                        std::string("the square of the start of a mode is too large for ") +
+                            (controller.target.is_double ? "double" : "float"));
+      return std::nullopt;
+    }
   return controller;
 }
 

@@ -2,6 +2,7 @@
 // One solved design as it is emitted: data only, in the target's terms. `controller_of` makes it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "controller/worth.hpp"
 #include "design/finding.hpp"
 #include "design/linear_form.hpp"
+#include "design/modal_plant.hpp"
 #include "design/solution.hpp"
 #include "step/model.hpp"
 
@@ -86,10 +88,10 @@ struct CodeCost {
 
 // What each form that the design can have costs and loses, when it asks for another than the physical one.
 struct FormCost {
-  long multiply_adds = 0;  // in one sample, of straight-line code
-  double rounding_error =
-      0;                 // of u for the same y: rms of the error in the target's numbers / rms of u, the worst input
-  double agreement = 0;  // digits in which a linear form answers outputs as the physical form does
+  long multiply_adds = 0;     // in one sample, of straight-line code
+  double rounding_error = 0;  // for the same y: rms of the error in the target's numbers / rms, of the worst input u;
+                              // where the filter carries P of the worst input or estimate
+  double agreement = 0;       // digits in which another form answers outputs as the physical form does
 };
 struct FormChoice {
   design::Realisation chosen = design::Realisation::physical;
@@ -125,6 +127,8 @@ struct Controller {
   unsigned iterations = 0;                        // with foresight: changes of the set of active limits, at most
   std::optional<Worth> worth;                     // with foresight
   std::optional<design::LinearForm> linear;       // the controller keeps z of this form; else it keeps x̂
+  std::optional<design::ModalPlant> modal;        // the filter keeps z, x̂ = T z: laws and bounds are those of z
+  std::shared_ptr<const Controller> physical;     // beside `modal`: the same controller, which keeps x̂
   std::optional<FormChoice> forms;                // among which it was chosen
   design::Style style = design::Style::unrolled;  // never automatic
   Sharing sharing = Sharing::nothing;             // of straight-line code
@@ -139,6 +143,11 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
 // The same controller, which keeps z of `form`. Its bounds are gone: they are of x̂; z has to be finite.
 Controller with_form(Controller controller, const design::LinearForm& form);
 
+// The same controller, whose filter keeps z of `modal`. None, with a finding at code.realisation, where its start is
+// beyond what the bounds can be.
+std::optional<Controller> with_modes(Controller controller, const design::ModalPlant& modal,
+                                     design::Findings& findings);
+
 // What the form that the controller keeps costs and loses.
 const FormCost& chosen_form(const FormChoice& forms);
 
@@ -149,6 +158,9 @@ std::string name_of(design::Realisation realisation);
 inline bool carries_covariance(const Controller& controller) {
   return controller.filter == step::Filter::plain || controller.filter == step::Filter::ud;
 }
+
+// "x", or "z" of a filter that keeps that in its place: the name of it in the header.
+inline const char* kept_name(const Controller& controller) { return controller.modal ? "z" : "x"; }
 
 // The law reads a table of gains, row by row.
 inline bool has_law_table(const Controller& controller) { return controller.laws.size() > 1; }

@@ -24,7 +24,8 @@ step::Matrix<S> convert(const design::RealMatrix& from, Round round) {
 
 template <class S, class Round>
 void convert_online(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
-  const design::OnlineSolution &online = online_at(controller, sample), &first = *controller.solution.online;
+  const design::OnlineSolution& online = kept_online_at(controller, sample);
+  const design::OnlineSolution& first = controller.modal ? online : *controller.solution.online;
   model.E = convert<S>(online.E, round);
   model.C = convert<S>(online.C, round);
   if (controller.has.feedthrough) model.D = convert<S>(online.D, round);
@@ -146,14 +147,16 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
   model.nu = controller.size.nu;
   model.ny = controller.size.ny;
   model.delayed = controller.size.delayed;
-  model.A = convert<S>(plant_at(controller, sample).A, round);
-  model.B = convert<S>(plant_at(controller, sample).B, round);
+  model.A = convert<S>(kept_plant_at(controller, sample).A, round);
+  model.B = convert<S>(kept_plant_at(controller, sample).B, round);
   model.D.resize(model.ny, 0);
   model.M.resize(model.nx, 0);
   if (controller.has.filter) {
-    const Eigen::VectorXd& x0 = controller.x0;
-    model.x0.resize(model.nx);
-    for (int i = 0; i < model.nx; ++i) model.x0(i) = round(design::Real(x0(i)));
+    model.x0 = convert<S>(kept_start(controller), round);
+    if (controller.modal) {
+      model.to_estimate = convert<S>(controller.modal->T, round);
+      model.of_estimate = convert<S>(controller.modal->inverse, round);
+    }
     model.x_bound = controller.bounds.x;
     model.nu_limit = controller.bounds.innovation.template cast<S>();
     if (const design::Estimator& estimator = *controller.problem.estimator; estimator.output_min.size()) {

@@ -13,7 +13,7 @@ namespace lqg::controller {
 // E⁻¹ diag(V) E⁻ᵀ. `round` turns a Real into an S.
 template <class S, class Round>
 void take_outputs_as_they_are(const Controller& controller, Round round, step::Model<S>& model) {
-  model.C = convert<S>(controller.solution.plant.C, round);
+  model.C = convert<S>((controller.modal ? controller.modal->plant : controller.solution.plant).C, round);
   if (controller.has.feedthrough) model.D = convert<S>(controller.solution.plant.D, round);
   if (!controller.solution.online) return;
   const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));

@@ -87,14 +87,20 @@ std::vector<int> lasting_states(const Controller& controller) {
 
 // ---- the recursions ------------------------------------------------------------------------------------------------
 
+// The states as far as what the filter keeps is at its bounds, times 2^exponent.
+VectorXd states_at_bounds(const Controller& controller, int exponent) {
+  VectorXd far(controller.size.nx);
+  for (int i = 0; i < far.size(); ++i)
+    far(i) = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] + exponent);
+  return controller.modal ? VectorXd(design::to_doubles(controller.modal->T).cwiseAbs() * far) : far;
+}
+
 // What is unknown of a state in the long run, and what is rounding beside its scale.
 VectorXd standard_deviations(const Controller& controller, const MatrixXd& P) {
-  const int below = controller.target.is_double ? bound_to_negligible_of_double : bound_to_negligible_of_float;
-  VectorXd within(controller.size.nx);
-  for (int i = 0; i < within.size(); ++i) {
-    const double least = std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - below);
-    within(i) = P.size() ? std::max(std::sqrt(std::max(P(i, i), 0.0)), least) : least;
-  }
+  VectorXd within = states_at_bounds(
+      controller, controller.target.is_double ? -bound_to_negligible_of_double : -bound_to_negligible_of_float);
+  for (int i = 0; P.size() && i < within.size(); ++i)
+    within(i) = std::max(within(i), std::sqrt(std::max(P(i, i), 0.0)));
   return within;
 }
 
@@ -194,11 +200,9 @@ bool has_limits(const Controller& controller) {
 
 // What the states can be before all begins anew.
 VectorXd farthest(const Controller& controller) {
-  VectorXd far(controller.size.nx);
+  if (!controller.linear) return states_at_bounds(controller, 0);
   const int largest = controller.target.is_double ? largest_exponent_of_double : largest_exponent_of_float;
-  for (int i = 0; i < far.size(); ++i)
-    far(i) = std::ldexp(1.0, controller.linear ? largest : controller.bounds.x[static_cast<std::size_t>(i)]);
-  return far;
+  return VectorXd::Constant(controller.size.nx, std::ldexp(1.0, largest));
 }
 
 }  // namespace

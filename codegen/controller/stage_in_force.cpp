@@ -26,4 +26,17 @@ const design::OnlineSolution& online_at(const Controller& controller, std::size_
   return stage && stage->online ? *stage->online : *controller.solution.online;
 }
 
+const design::SampledPlant& kept_plant_at(const Controller& controller, std::size_t sample) {
+  return controller.modal ? controller.modal->plant : plant_at(controller, sample);
+}
+
+const design::OnlineSolution& kept_online_at(const Controller& controller, std::size_t sample) {
+  return controller.modal ? controller.modal->online : online_at(controller, sample);
+}
+
+design::RealVector kept_start(const Controller& controller) {
+  if (controller.modal) return controller.modal->z0;
+  return controller.x0.unaryExpr([](double value) { return design::Real(value); });
+}
+
 }  // namespace lqg::controller

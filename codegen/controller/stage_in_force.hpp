@@ -16,4 +16,9 @@ const design::SampledNoise* noise_at(const Controller& controller, std::size_t s
 // Of a filter that carries its covariance.
 const design::OnlineSolution& online_at(const Controller& controller, std::size_t sample);
 
+// What the filter runs on: of a filter that keeps z those of z, else those above, and x0 as they have it.
+const design::SampledPlant& kept_plant_at(const Controller& controller, std::size_t sample);
+const design::OnlineSolution& kept_online_at(const Controller& controller, std::size_t sample);
+design::RealVector kept_start(const Controller& controller);
+
 }  // namespace lqg::controller

@@ -20,11 +20,13 @@ void add_estimate(const Controller& controller, Fields& fields) {
   const auto model =
       model_of<double>(controller, [&](const design::Real& value) { return rounded_to_target(value, is_double); });
   const auto size = [](const std::vector<double>& values) { return static_cast<int>(values.size()); };
-  add_reals(fields, "x", model.nx, "{NAME}_NX",
-            "estimate x̂: of this sample after update, of the next one after predict",
+  const std::string estimate = controller.modal ? "z of the estimate x̂ = T z" : "estimate x̂";
+  const std::string error = controller.modal ? "z" : "x̂";
+  add_reals(fields, controller::kept_name(controller), model.nx, "{NAME}_NX",
+            estimate + ": of this sample after update, of the next one after predict",
             {model.x0.data(), model.x0.data() + model.nx});
   add_reals(fields, "P", size(model.P0), std::to_string(model.P0.size()),
-            "covariance of the error of x̂: lower triangle, P_ij at [i*(i+1)/2 + j]", model.P0);
+            "covariance of the error of " + error + ": lower triangle, P_ij at [i*(i+1)/2 + j]", model.P0);
   add_reals(fields, "U", size(model.U0), std::to_string(model.U0.size()),
             "P = U diag(d) Uᵀ: strict upper triangle, U_ij at [j*(j-1)/2 + i]", model.U0);
   add_reals(fields, "d", size(model.D0), "{NAME}_NX", "diagonal of P = U diag(d) Uᵀ", model.D0);

@@ -40,7 +40,7 @@ struct CountingListener : step::Listener {
   std::vector<bool>& left_out;
 };
 
-// A controller that keeps x̂. Each call is the one of that name in the header, limits, gate, faults and resets
+// A controller that keeps x̂, or z of it. Each call is the one of that name in the header, limits, gate, faults and resets
 // included, and returns the events that its status would tell. `constants` turns a number of the design into an S.
 template <class S>
 class EmittedController {
@@ -90,6 +90,11 @@ class EmittedController {
     variances.resize(controller_.has.variance ? nu.size() : 0);
     for (Eigen::Index i = 0; i < variances.size(); ++i)
       variances(i) = step::innovation_variance(as_they_are, state_, static_cast<int>(i), listener);
+  }
+  // x̂
+  Vector<S> estimate() const {
+    step::Listener listener;
+    return step::estimate(model_, state_, listener);
   }
   unsigned set_state(const Vector<S>& x) {
     step::Listener listener;

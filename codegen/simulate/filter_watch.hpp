@@ -14,7 +14,7 @@
 namespace lqg::simulate {
 
 template <class S>
-Eigen::MatrixXd covariance_of(const step::Model<S>& model, const step::State<S>& state) {
+Eigen::MatrixXd kept_covariance_of(const step::Model<S>& model, const step::State<S>& state) {
   const Eigen::Index nx = model.nx;
   if (model.filter == step::Filter::plain) {
     Eigen::MatrixXd P(nx, nx);
@@ -30,6 +30,15 @@ Eigen::MatrixXd covariance_of(const step::Model<S>& model, const step::State<S>&
   return ordered_product(ordered_product(U, D), U.transpose());
 }
 
+// P of the error of x̂.
+template <class S>
+Eigen::MatrixXd covariance_of(const Controller& controller, const EmittedController<S>& emitted) {
+  const Eigen::MatrixXd P = kept_covariance_of(emitted.model(), emitted.state());
+  if (!controller.modal) return P;
+  const Eigen::MatrixXd T = design::to_doubles(controller.modal->T);
+  return ordered_product(ordered_product(T, P), T.transpose());
+}
+
 // Called around each call of the filter, in the order of its form.
 class FilterWatch {
  public:
@@ -42,14 +51,14 @@ class FilterWatch {
   void before_update(const EmittedController<S>& emitted, const Eigen::VectorXd& y) {
     const design::SampledPlant& plant = controller::plant_at(controller_, emitted.sample());
     load(plant);
-    const Eigen::VectorXd x = as_doubles(emitted.state().x);
+    const Eigen::VectorXd x = as_doubles(emitted.estimate());
     Eigen::VectorXd expected = ordered_image(C_, x);
     if (controller_.has.feedthrough) add_product(D_, as_doubles(emitted.state().u), expected);
     innovation_ = y - expected;
     gain_row_ = emitted.gain_row();
     if (!error_) return;
     error_->go_to(emitted.sample());
-    if (carries_covariance(controller_)) error_->set(covariance_of(emitted.model(), emitted.state()));
+    if (carries_covariance(controller_)) error_->set(covariance_of(controller_, emitted));
     S_ = error_->of_innovation();
     if (controller_.is_predictor) keep(x);
   }
@@ -60,11 +69,11 @@ class FilterWatch {
     if (error_) {
       nis_ = normalised_square(S_, innovation_, used).value;
       if (carries_covariance(controller_))
-        error_->set(covariance_of(emitted.model(), emitted.state()));
+        error_->set(covariance_of(controller_, emitted));
       else
         error_->update(gain_row_, emitted.left_out());
     }
-    if (!controller_.is_predictor) keep(as_doubles(emitted.state().x));
+    if (!controller_.is_predictor) keep(as_doubles(emitted.estimate()));
   }
   // Of a sample with these events.
   void end_sample(unsigned events) {

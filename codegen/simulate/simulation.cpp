@@ -120,6 +120,15 @@ Trajectory simulate(const Problem& problem, const Solution& solution, const Simu
   if (!physical) stop_on(findings.back().key + ": " + findings.back().message);
   const Realisation wanted = problem.code.realisation;
   if (wanted != Realisation::folded && wanted != Realisation::modal) return simulate::simulate(*physical, options);
+  if (wanted == Realisation::modal && controller::carries_covariance(*physical)) {
+    const std::string why = no_modal_plant(problem);
+    if (!why.empty()) stop_on("code.realisation: " + why);
+    const ModalPlantResult found = modal_plant(problem, solution);
+    if (!found.modal) stop_on("code.realisation: " + found.obstacle);
+    physical = controller::with_modes(*std::move(physical), *found.modal, findings);
+    if (!physical) stop_on(findings.back().key + ": " + findings.back().message);
+    return simulate::simulate(*physical, options);
+  }
   const std::string obstacle = no_linear_form(problem, solution);
   if (!obstacle.empty()) stop_on("code.realisation: " + obstacle);
   const LinearFormResult found =

@@ -37,7 +37,7 @@ Sample take_sample(EmittedController<S>& emitted, Around& around) {
   Sample sample;
   Vector<S> u;
   const auto act = [&] {
-    sample.estimate = as_doubles(emitted.state().x);
+    sample.estimate = as_doubles(emitted.estimate());
     if (controller.has.regulator)
       sample.events |= emitted.control(u);
     else

@@ -51,16 +51,17 @@ struct Model {
   Vector<S> w;             // nq, ud
   Vector<S> y_min, y_max;  // ny, or empty: what a sensor can say at all
   Vector<S> nu_limit;  // ny, of the outputs whose C this is: an innovation that is not below it is left out; or empty
-  std::vector<int> x_bound;     // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
-  Vector<S> x0;                 // nx
-  std::vector<S> P0;            // plain: lower triangle, row by row
-  std::vector<S> U0, D0;        // ud: strict upper triangle, column by column; diagonal
-  int delayed = 0;              // the last of the nx states are this many inputs on their way, the oldest first
-  Matrix<S> K;                  // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
-  Vector<S> u_min, u_max;       // nu, or empty: no limits
-  bool has_finite_law = false;  // what the law asks for is known to be finite: nobody has to look
-  Vector<S> law_begun;          // nu, or empty: the sums of the law so far as x̂, where K has no x̂ any more
-  Vector<S> prediction_begun;   // nx, or empty: likewise A x̂, where A is 0
+  std::vector<int> x_bound;  // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
+  Matrix<S> to_estimate, of_estimate;  // T, T⁻¹, nx × nx: the filter keeps z in the place of x, x̂ = T z; or empty
+  Vector<S> x0;                        // nx
+  std::vector<S> P0;                   // plain: lower triangle, row by row
+  std::vector<S> U0, D0;               // ud: strict upper triangle, column by column; diagonal
+  int delayed = 0;                     // the last of the nx states are this many inputs on their way, the oldest first
+  Matrix<S> K;                         // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
+  Vector<S> u_min, u_max;              // nu, or empty: no limits
+  bool has_finite_law = false;         // what the law asks for is known to be finite: nobody has to look
+  Vector<S> law_begun;                 // nu, or empty: the sums of the law so far as x̂, where K has no x̂ any more
+  Vector<S> prediction_begun;          // nx, or empty: likewise A x̂, where A is 0
   // A law with a memory.
   int nr = 0;                 // references
   Matrix<S> Nbar;             // nu × nr, or no columns

@@ -69,13 +69,16 @@ void add_sensors(const Controller& controller, const std::string& functions, std
     out.push_back({"to watch the sensors",
                    "{name}_innovation(&loop, y, innovation" + std::string(controller.has.variance ? ", S)" : ")"),
                    "before update"});
-  if (has("_covariance")) out.push_back({"to watch P", "{name}_covariance(&loop, P)", "P of U and d"});
+  if (has("_covariance"))
+    out.push_back({"to watch P", "{name}_covariance(&loop, P)", controller.modal ? "P of x̂" : "P of U and d"});
 }
 
 void add_transfers(const Controller& controller, std::vector<Entry>& out) {
   const bool has_filter = controller.has.filter;
   if (controller.linear)
     out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "between control and advance"});
+  if (controller.modal)
+    out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "x̂ of the z that the filter keeps"});
   if (has_filter && controller.has.regulator && !controller.linear)
     out.push_back({"in manual mode", "{name}_predict(&loop, u)", "after update, with the manual u; no control"});
   if (has_filter) out.push_back({"the state is known", "{name}_set_state(&loop, x)", "between predict and update"});

@@ -17,6 +17,7 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
   std::string begin = controller.linear        ? "z of x̂ = x0"
                       : !controller.has.filter ? ""
                       : is_steady(controller)  ? "x̂ = x0"
+                      : controller.modal       ? "z and P of x̂ = x0, its covariance P0"
                                                : "x̂ = x0, its covariance P = P0";
   const auto add = [&](bool is_kept, const char* what) {
     if (is_kept) begin += (begin.empty() ? "" : ", ") + std::string(what);
@@ -201,17 +202,27 @@ std::string step_function(const Controller& controller, const FunctionBodies& bo
 }
 
 std::string covariance_function(const Controller& controller) {
-  if (controller.filter != step::Filter::ud) return "";
+  if (controller.filter != step::Filter::ud && !controller.modal) return "";
   Words words = {{"triangle", std::to_string(controller.size.nx * (controller.size.nx + 1) / 2)}};
   if (controller.style == design::Style::compact && controller.size.nx > 1)
     return write_function(templates::covariance_in_loops, controller, words);
+  words["law"] = controller.modal ? "P of x̂ = T z, T P Tᵀ" : "P = U diag(d) Uᵀ";
   words["body"] = body(controller, trace_covariance(controller), {});
   return write_function(templates::covariance, controller, words);
+}
+
+// Only a filter that keeps z has something to compute for it.
+std::string estimate_function(const Controller& controller) {
+  if (!controller.modal) return "";
+  return write_function(templates::estimate, controller,
+                        {{"body", body(controller, trace_estimate_of_modes(controller), {"self"})}});
 }
 
 std::string set_state_function(const Controller& controller) {
   return write_function(templates::set_state, controller,
                         {{"covariance", is_steady(controller) ? "" : "; its covariance does not change"},
+                         {"what", controller.modal ? "z = T⁻¹ x" : "x"},
+                         {"KEPT", upper(controller::kept_name(controller))},
                          {"body", body(controller, trace_set_state(controller), {"self", "x"})}},
                         {{"can_set_input", can_set_input(controller)}});
 }
@@ -242,7 +253,8 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
     out += weigh_function(controller, bodies) + bodies.helpers + update_function(controller, bodies);
   if (controller.has.regulator) out += control_function(controller, bodies);
   if (controller.has.filter)
-    out += predict_function(controller, bodies) + step_function(controller, bodies) + covariance_function(controller) +
+    out += predict_function(controller, bodies) + step_function(controller, bodies) + estimate_function(controller) +
+           covariance_function(controller) +
            update_alone_functions(controller, bodies) + innovation_function(controller) +
            partial_update_function(controller) + set_state_function(controller);
   return out + set_input_function(controller);

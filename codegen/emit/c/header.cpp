@@ -60,11 +60,14 @@ run lqgen with arithmetic = \"plain\", or define LQG_SLOW_FUSED.")
 
 // A macro, because it is a list that any array may begin with.
 std::string bounds(const Controller& controller) {
+  Words words = common_words(controller);
+  words["of"] = controller.modal ? "z" : "x̂";
+  words["KEPT"] = upper(controller::kept_name(controller));
   std::string out = fill(
-      "/* Limit of |x̂_i|: the state is reset when it is reached. */\n"
-      "#define {NAME}_X_BOUNDS { \\\n",
-      common_words(controller));
-  const std::vector<design::Signal> states = state_signals(controller);
+      "/* Limit of |{of}_i|: the state is reset when it is reached. */\n"
+      "#define {NAME}_{KEPT}_BOUNDS { \\\n",
+      words);
+  const std::vector<design::Signal> states = kept_signals(controller);
   const std::vector<double> values = controller::powers_of_two(controller.bounds.x);
   for (std::size_t i = 0; i < values.size(); ++i)
     out += "    " + trace::literal(values[i], controller.target.is_double) + (i + 1 < values.size() ? "," : "") +

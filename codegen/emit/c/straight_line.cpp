@@ -60,7 +60,8 @@ std::string equation_of_bounds(const Controller& controller, const std::string& 
     terms += (terms.empty() ? "" : " + ") + term;
     if (!bound.empty()) bounds += (bounds.empty() ? "" : ", ") + bound;
   };
-  if (has_x) add("(x_i/b_i)²", "b = " + NAME + "_X_BOUNDS");
+  const std::string kept = controller::kept_name(controller);
+  if (has_x) add("(" + kept + "_i/b_i)²", "b = " + NAME + "_" + upper(kept) + "_BOUNDS");
   if (has_variances) add("P_ii/b_i²", "");
   if (has_xi) add("(ξ_i/c_i)²", "c: limits of ξ");
   return "Σ " + terms + " < 1 in units of a power of two, " + bounds + (has_variances ? "; no P_ii < 0" : "") +
@@ -92,7 +93,7 @@ std::string unless_sound(const Controller& controller, const Printed& printed, c
            stored(printed, function.stores_if_sound) + "    } else {\n" + answered;
   }
   const std::string test = printed.printer.test(function.finite, function.stores);
-  const bool has_x = printed.writes("self->x["), has_xi = printed.writes("self->xi[");
+  const bool has_x = printed.writes(std::string("self->") + controller::kept_name(controller) + "["), has_xi = printed.writes("self->xi[");
   return "    /* " + equation_of_bounds(controller, test, has_x, has_xi) + " */\n" +
          if_unsound(controller, test, function.faults) + answered;
 }

@@ -11,7 +11,7 @@ namespace lqg::emit {
 namespace templates {
 
 extern const char init[], reset[], recover[], weigh[], update[], update_alone[], partial_update[], innovation[],
-    control[], law[], predict[], step[], covariance[], covariance_in_loops[], set_state[], set_input[];
+    control[], law[], predict[], step[], covariance[], covariance_in_loops[], estimate[], set_state[], set_input[];
 extern const char linear_filter_form[], linear_predictor_form[], linear_state[], batch[];
 
 // Bodies, and parts of them.

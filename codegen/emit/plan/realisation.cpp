@@ -4,6 +4,7 @@
 #include "controller/numbers.hpp"
 #include "emit/plan/code_cost.hpp"
 #include "emit/vectors/linear_vectors.hpp"
+#include "emit/vectors/vectors.hpp"
 #include "simulate/agreement.hpp"
 
 namespace lqg::emit {
@@ -48,9 +49,50 @@ Realisation cheapest(const FormChoice& among) {
   return best;
 }
 
+// A filter that carries P has other coordinates of its states, not another form: it stays the filter that it is.
+std::string obstacle_of_modes(const Controller& controller) {
+  if (controller.problem.code.style == design::Style::compact)
+    return "the library's loops, style = \"compact\", are of x̂";
+  return design::no_modal_plant(controller.problem);
+}
+
+// Straight-line code, too, that is larger than it may be is none that lqgen could choose.
+bool fits_flash(const Controller& controller) {
+  return cost_of_unrolled(controller).flash <= controller.problem.code.flash;
+}
+
 std::optional<Controller> refuse(const char* instead, const std::string& why, design::Findings& findings) {
   findings.push_back({design::Severity::error, "code.realisation", std::string("expected ") + instead + ": " + why});
   return std::nullopt;
+}
+
+std::optional<Controller> stays_physical(Controller controller, const std::string& why, design::Findings& findings) {
+  if (controller.problem.code.realisation != Realisation::cheapest) return refuse("\"physical\"", why, findings);
+  findings.push_back({design::Severity::note, "code.realisation", "physical: " + why});
+  return controller;
+}
+
+std::optional<Controller> in_chosen_coordinates(Controller controller, design::Findings& findings) {
+  const Realisation wanted = controller.problem.code.realisation;
+  if (wanted == Realisation::folded)
+    return refuse("\"physical\"", design::no_linear_form(controller.problem, controller.solution), findings);
+  const std::string why = obstacle_of_modes(controller);
+  if (!why.empty()) return stays_physical(std::move(controller), why, findings);
+  const design::ModalPlantResult found = design::modal_plant(controller.problem, controller.solution);
+  if (!found.modal) return stays_physical(std::move(controller), found.obstacle, findings);
+  design::Findings of_start;
+  std::optional<Controller> modal = controller::with_modes(controller, *found.modal, of_start);
+  if (!modal) return stays_physical(std::move(controller), of_start.front().message, findings);
+
+  FormChoice forms;
+  forms.physical = {cost_of_unrolled(controller).multiply_adds, rounding_error_of_filter(controller), 0};
+  forms.modal = {cost_of_unrolled(*modal).multiply_adds, rounding_error_of_filter(*modal), found.modal->agreement};
+  forms.chosen = wanted != Realisation::cheapest ? wanted : fits_flash(*modal) ? cheapest(forms) : Realisation::physical;
+  controller.forms = modal->forms = forms;
+  if (forms.chosen == Realisation::physical) return controller;
+  design::check_rounded_modes(modal->problem, *found.modal, modal->solution, findings);
+  if (design::has_error(findings)) return std::nullopt;
+  return modal;
 }
 
 }  // namespace
@@ -58,12 +100,9 @@ std::optional<Controller> refuse(const char* instead, const std::string& why, de
 std::optional<Controller> in_chosen_form(Controller controller, design::Findings& findings) {
   const Realisation wanted = controller.problem.code.realisation;
   if (wanted == Realisation::physical) return controller;
+  if (carries_covariance(controller)) return in_chosen_coordinates(std::move(controller), findings);
   const std::string why = obstacle(controller);
-  if (!why.empty() && wanted != Realisation::cheapest) return refuse("\"physical\"", why, findings);
-  if (!why.empty()) {
-    findings.push_back({design::Severity::note, "code.realisation", "physical: " + why});
-    return controller;
-  }
+  if (!why.empty()) return stays_physical(std::move(controller), why, findings);
   design::LinearFormResult folded = design::folded_form(controller.problem, controller.solution);
   design::LinearFormResult modal = design::modal_form(controller.problem, controller.solution);
   FormChoice forms;

@@ -13,7 +13,7 @@ design::Signal signal_at(const Controller& controller, const step::Place& place)
   const design::Plant& plant = controller.problem.plant;
   const auto i = static_cast<std::size_t>(place.i);
   switch (place.kind) {
-    case Kind::state: return state_signals(controller)[i];
+    case Kind::state: return kept_signals(controller)[i];
     case Kind::input: return plant.inputs[i];
     case Kind::output: return plant.outputs[i];
     case Kind::reference: return reference_signals(controller)[i];

@@ -38,7 +38,7 @@ class Sample {
     if (!acts) u = load(controller_, "u", "u", model.nu, at_input);
     function_.finite = step::predict(model, state, u, listener_).node;
     function_.checks_covariance = !pattern_.empty();
-    store_state(function_, state, pattern_);
+    store_state(controller_, function_, state, pattern_);
     return std::move(function_);
   }
 
@@ -58,7 +58,7 @@ class Sample {
     before.faults = std::move(function_.faults);
     function_.stores.clear(), function_.statuses.clear(), function_.faults.clear();
     if (!pattern_.empty()) {
-      store_state(function_, state, {});
+      store_state(controller_, function_, state, {});
       before.recovers = std::move(function_.stores);
       function_.stores.clear();
     }

@@ -31,7 +31,7 @@ void store_all(TracedFunction& function, const char* array, const Symbols& value
 // What the state has besides P.
 void store_rest(const Controller& controller, TracedFunction& function, SymbolicState state) {
   state.P.clear();
-  store_state(function, state, covariance_pattern(controller));
+  store_state(controller, function, state, covariance_pattern(controller));
 }
 
 Symbols load_covariance(const Controller& controller, int nx) { return load(controller, "cov", "cov", nx, at_state); }
@@ -95,7 +95,7 @@ TracedFunction trace_correction(const Controller& controller) {
       step::correct_covariance_row(state, step::plain_gain(f, reciprocal, j, listener), f, j, listener);
     SymbolicState P;
     P.P = state.P;
-    store_state(traced, P, covariance_pattern(controller));
+    store_state(controller, traced, P, covariance_pattern(controller));
   });
   function.is_void = true;
   return function;

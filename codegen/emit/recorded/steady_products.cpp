@@ -110,7 +110,7 @@ TracedFunction trace_innovate(const Controller& controller, const SteadyProducts
         step::observe(model, state, y, used, listener);
         if (model.M.cols()) state.innovation = innovation;
         for (int i = 0; i < model.ny; ++i) store(function, element("innovation", i), innovation(i));
-        store_state(function, state, {});
+        store_state(controller, function, state, {});
       });
 }
 
@@ -120,7 +120,7 @@ TracedFunction trace_end_of_steady_update(const Controller& controller, const St
       [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener, TracedFunction& function) {
         const Symbols innovation = load(controller, "innovation", "innovation", model.ny, at_output);
         function.finite = step::correct_steady(model, state, innovation, 0, listener).node;
-        store_state(function, state, {});
+        store_state(controller, function, state, {});
       });
 }
 
@@ -131,7 +131,7 @@ TracedFunction trace_law(const Controller& controller, const SteadyProducts& pro
         if (is_in_loop(products.K)) model.law_begun = load(controller, "sums", "begun", model.nu, at_input);
         const Symbols u = step::control(model, state, listener);
         for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
-        store_state(function, state, {});
+        store_state(controller, function, state, {});
       });
 }
 
@@ -142,7 +142,7 @@ TracedFunction trace_steady_predict(const Controller& controller, const SteadyPr
         if (is_in_loop(products.A)) model.prediction_begun = load(controller, "sums", "begun", model.nx, at_state);
         const Symbols u = load(controller, "u", "u", model.nu, at_input);
         function.finite = step::predict(model, state, u, listener).node;
-        store_state(function, state, {});
+        store_state(controller, function, state, {});
       });
 }
 

@@ -131,7 +131,8 @@ void load_memory(const Controller& controller, const SymbolicModel& model, Symbo
 SymbolicState load_state(const Controller& controller, const SymbolicModel& model, const std::vector<bool>& pattern) {
   trace::Graph& graph = trace::graph();
   SymbolicState state;
-  state.x = load(controller, model.filter == step::Filter::none ? "x" : "self->x", "x", model.nx, at_state);
+  const std::string kept = controller::kept_name(controller);
+  state.x = load(controller, (model.filter == step::Filter::none ? "" : "self->") + kept, kept, model.nx, at_state);
   if (!pattern.empty()) {
     state.P = load_pattern(graph, "self->P", "P", model.nx, model.P0, pattern, 0, place_in_triangle);
     state.U = load_pattern(graph, "self->U", "U", model.nx, model.U0, pattern, 0, place_in_strict_triangle);
@@ -158,7 +159,8 @@ SymbolicState resume_state(const Controller& controller, const SymbolicState& st
       if (pattern[from + k]) resume(values[k], array, static_cast<int>(k), name + suffix);
     }
   };
-  resume_vector(resumed.x, "self->x", "x", at_state);
+  const std::string kept = controller::kept_name(controller);
+  resume_vector(resumed.x, ("self->" + kept).c_str(), kept.c_str(), at_state);
   resume_covariance(resumed.P, "self->P", "P", 0, place_in_triangle);
   resume_covariance(resumed.U, "self->U", "U", 0, place_in_strict_triangle);
   resume_covariance(resumed.D, "self->d", "d", state.U.size(), [](int k) { return std::pair(k, -1); });
@@ -171,7 +173,7 @@ SymbolicState resume_state(const Controller& controller, const SymbolicState& st
   return resumed;
 }
 
-void store_state(TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern) {
+void store_state(const Controller& controller, TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern) {
   const auto store_vector = [&](const char* array, const Symbols& values) {
     for (int i = 0; i < values.size(); ++i) store(function, element(std::string("self->") + array, i), values(i));
   };
@@ -179,7 +181,7 @@ void store_state(TracedFunction& function, const SymbolicState& state, const std
     for (std::size_t k = 0; k < values.size(); ++k)
       if (pattern[from + k]) store(function, element(array, static_cast<int>(k)), values[k]);
   };
-  store_vector("x", state.x);
+  store_vector(controller::kept_name(controller), state.x);
   if (!pattern.empty()) {
     store_covariance("self->P", state.P, 0);
     store_covariance("self->U", state.U, 0);

@@ -27,9 +27,23 @@ std::string rejection(int output) {
   return "(LQG_OUTPUT_REJECTED | LQG_OUTPUT_REJECTED_BIT(" + (output < 0 ? "i" : std::to_string(output)) + "))";
 }
 
-void TraceListener::section(const std::string& equation, int output, const char* supplement) {
+namespace {
+
+// A filter that keeps z: the equations are those of x̂.
+std::string of_what_is_kept(const Controller& controller, std::string equation) {
+  static const std::string x = "x̂";
+  for (std::size_t at = equation.find(x); controller.modal && at != std::string::npos; at = equation.find(x, at))
+    equation.replace(at, x.size(), "z");
+  return equation;
+}
+
+}  // namespace
+
+void TraceListener::section(const std::string& of_estimate, int output, const char* supplement) {
+  const bool is_of_both = of_estimate.find("T z") != std::string::npos;
+  const std::string equation = is_of_both ? of_estimate : of_what_is_kept(controller_, of_estimate);
   is_of_output_ = output >= 0;
-  if (output < 0) return function_.graph->section(equation + supplement, "");
+  if (output < 0) return function_.graph->section(equation + of_what_is_kept(controller_, supplement), "");
   const design::Signal& signal = controller_.problem.plant.outputs[static_cast<std::size_t>(output)];
   const std::string unit = signal.unit.empty() ? "" : " [" + signal.unit + "]";
   function_.graph->section(

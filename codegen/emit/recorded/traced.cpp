@@ -2,6 +2,7 @@
 #include "emit/recorded/traced.hpp"
 
 #include "emit/recorded/symbols.hpp"
+#include "emit/text/wording.hpp"
 #include "step/by_hand.hpp"
 #include "step/covariance.hpp"
 #include "step/innovation.hpp"
@@ -26,7 +27,7 @@ TracedFunction trace_step(const Controller& controller, const std::vector<bool>&
   TraceListener listener(controller, function);
   function.finite = step(model, state, listener).node;
   function.checks_covariance = !pattern.empty();
-  store_state(function, state, pattern);
+  store_state(controller, function, state, pattern);
   return function;
 }
 
@@ -34,6 +35,15 @@ TracedFunction trace_update(const Controller& controller, const std::vector<bool
   return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
     return step::update(model, state, load(controller, "y", "y", model.ny, at_output), listener);
   });
+}
+
+// x[], of which a function is told.
+Symbols load_state_by_hand(const Controller& controller) {
+  const std::vector<design::Signal> states = state_signals(controller);
+  Symbols x(controller.size.nx);
+  for (int i = 0; i < controller.size.nx; ++i)
+    x(i) = Expr::of(trace::graph().input(element("x", i), "x_" + states[static_cast<std::size_t>(i)].name));
+  return x;
 }
 
 // y_OUTPUT
@@ -71,7 +81,7 @@ TracedFunction trace_regulator(const Controller& controller) {
     function.finite = step::act(model, state, u, listener).node;
   for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
   state.x.resize(0);  // it is only read
-  if (!controller.has.foresight) store_state(function, state, {});
+  if (!controller.has.foresight) store_state(controller, function, state, {});
   return function;
 }
 
@@ -155,8 +165,8 @@ TracedFunction trace_set_state(const Controller& controller) {
   State state;  // without an x̂: it is not read
   load_memory(controller, model, state);
   TraceListener listener(controller, function);
-  function.finite = step::set_state(model, state, load(controller, "x", "x", model.nx, at_state), listener).node;
-  store_state(function, state, {});
+  function.finite = step::set_state(model, state, load_state_by_hand(controller), listener).node;
+  store_state(controller, function, state, {});
   return function;
 }
 
@@ -167,6 +177,17 @@ TracedFunction trace_set_input(const Controller& controller) {
     if (!controller.has.filter) state.x.resize(0);  // it is only read
     return within;
   });
+}
+
+TracedFunction trace_estimate_of_modes(const Controller& controller) {
+  TracedFunction function = new_function(controller);
+  function.is_void = true;
+  const trace::Recording recording(*function.graph);
+  const Model model = symbolic_model(controller);
+  TraceListener listener(controller, function);
+  const Symbols x = step::estimate(model, load_state(controller, model, {}), listener);
+  for (int i = 0; i < model.nx; ++i) store(function, element("x", i), x(i));
+  return function;
 }
 
 TracedFunction trace_covariance(const Controller& controller) {
@@ -196,7 +217,7 @@ TracedFunction trace_observation(const Controller& controller, int output) {
   TraceListener listener(controller, function);
   step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "heard")), trace::is_less(Expr(0), Expr(1)),
                       output, listener);
-  store_state(function, state, {});
+  store_state(controller, function, state, {});
   return function;
 }
 

@@ -76,7 +76,10 @@ TracedFunction trace_innovation(const Controller& controller);
 TracedFunction trace_set_state(const Controller& controller);
 TracedFunction trace_set_input(const Controller& controller);
 
-// P[] of U and d.
+// x[] of self->z.
+TracedFunction trace_estimate_of_modes(const Controller& controller);
+
+// P[] of x̂: of U and d, or of what the filter keeps of z.
 TracedFunction trace_covariance(const Controller& controller);
 
 // P as at the start; not finite where x̂ has to begin anew, too.

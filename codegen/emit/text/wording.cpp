@@ -27,6 +27,13 @@ std::vector<design::Signal> state_signals(const Controller& controller) {
   return signals;
 }
 
+std::vector<design::Signal> kept_signals(const Controller& controller) {
+  std::vector<design::Signal> signals = state_signals(controller);
+  for (int i = 0; controller.modal && i < controller.size.nx - controller.size.delayed; ++i)
+    signals[static_cast<std::size_t>(i)] = {"mode_" + std::to_string(i), ""};
+  return signals;
+}
+
 std::vector<design::Signal> reference_signals(const Controller& controller) {
   std::vector<design::Signal> signals;
   for (const int output : controller.references)

@@ -15,6 +15,8 @@ Words common_words(const Controller& controller);
 
 // The states with their names: the plant's own, then the inputs on their way, "force_delayed_2", "force_delayed_1".
 std::vector<design::Signal> state_signals(const Controller& controller);
+// Of what the filter keeps: of one that keeps z "mode_0" and so on, without units, before the inputs on their way.
+std::vector<design::Signal> kept_signals(const Controller& controller);
 
 // "2.5 %" of 0.025.
 std::string in_percent(double share);

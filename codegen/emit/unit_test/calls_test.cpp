@@ -130,7 +130,8 @@ std::string body_of(const Controller& controller, Call call) {
     case Call::covariance:
       return "            {name}_covariance(&self, found);\n" + found(std::to_string(triangle(controller)));
     case Call::write_r: return hand_over("self.r", "r_in[row]", "{NAME}_NR");
-    case Call::write_x: return hand_over("self.x", "x_out[row]", "{NAME}_NX");
+    case Call::write_x:
+      return hand_over(std::string("self.") + controller::kept_name(controller), "x_out[row]", "{NAME}_NX");
     case Call::write_covariance: return write_covariance_case(controller);
     case Call::write_xi: return hand_over("self.xi", "self.xi", std::to_string(controller.size.nxi));
     case Call::write_z: return hand_over("self.z", "self.z", "{NAME}_NZ");

@@ -77,7 +77,8 @@ std::string data(const Controller& controller, const Vectors& vectors) {
 
 std::string hash_of_state(const Controller& controller) {
   if (controller.linear) return "        hash = hash_of(hash, self.z, {NAME}_NZ);\n";
-  std::string out = controller.has.filter ? "        hash = hash_of(hash, self.x, {NAME}_NX);\n" : "";
+  const std::string kept = controller::kept_name(controller);
+  std::string out = controller.has.filter ? "        hash = hash_of(hash, self." + kept + ", {NAME}_NX);\n" : "";
   if (controller.filter == step::Filter::plain)
     out += "        hash = hash_of(hash, self.P, (int)(sizeof self.P / sizeof self.P[0]));\n";
   if (controller.filter == step::Filter::ud) {
@@ -94,7 +95,7 @@ std::string covariance_check(const Controller& controller) {
   const bool is_ud = controller.filter == step::Filter::ud;
   if (!is_ud && controller.filter != step::Filter::plain) return "";
   return std::string("        if (k % ") + std::to_string(samples_per_covariance) + " == 0) {\n" +
-         (is_ud ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
+         (is_ud || controller.modal ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
                   "            {name}_covariance(&self, P);\n"
                   "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
                 : "            assert_near(P_tolerance, P_out[k / {every}], self.P, "
@@ -144,7 +145,8 @@ std::string begin(const Controller& controller) {
 
 std::string reference_test(const Controller& controller) {
   const std::string update =
-      controller.linear ? linear_estimate_check()
+      controller.linear  ? linear_estimate_check()
+      : controller.modal ? linear_estimate_check() + covariance_check(controller)
       : controller.has.filter
           ? "        assert_near(x_tolerance, x_out[k], self.x, {NAME}_NX);\n" + covariance_check(controller)
           : "";
@@ -185,7 +187,7 @@ std::string hostile_sample(const Controller& controller) {
   return (controller.is_predictor ? act + recorded + update : update + act) +
          "                (void){name}_predict(&self" + (controller.size.nu ? ", u_out[k]" : "") + R"();
                 for (int i = 0; i < {NAME}_NX; i++)
-                    TEST_ASSERT_TRUE(self.x[i] > -bound[i] && self.x[i] < bound[i]);
+                    TEST_ASSERT_TRUE(self.{kept}[i] > -bound[i] && self.{kept}[i] < bound[i]);
 )";
 }
 
@@ -194,7 +196,7 @@ std::string fault_test(const Controller& controller) {
   if (!controller.has.filter) return "";
   const bool has_bounds = !controller.linear;
   const Words words = {{"stays", has_bounds ? "within_its_bounds" : "finite"},
-                       {"bound", has_bounds ? "    static const {real} bound[{NAME}_NX] = {NAME}_X_BOUNDS;\n" : ""},
+                       {"bound", has_bounds ? "    static const {real} bound[{NAME}_NX] = {NAME}_{KEPT}_BOUNDS;\n" : ""},
                        {"u", controller.has.regulator ? "            {real} u[{NAME}_NU];\n" : ""},
                        {"sample", hostile_sample(controller)},
                        {"end", has_bounds ? "            TEST_ASSERT_EQUAL_UINT(0, self.resets);\n" : ""}};
@@ -292,6 +294,8 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   Words words = common_words(controller);
   words["hash"] = hexadecimal(vectors.hash);
   words["REAL"] = upper(words["real"]);
+  words["kept"] = controller::kept_name(controller);
+  words["KEPT"] = upper(words["kept"]);
   words["bits_type"] = controller.target.is_double ? "uint64_t" : "uint32_t";
   words["magnitude"] = controller.target.is_double ? "0x7fffffffffffffffu" : "0x7fffffffu";
   words["infinity"] = controller.target.is_double ? "0x7ff0000000000000u" : "0x7f800000u";

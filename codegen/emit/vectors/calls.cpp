@@ -180,6 +180,7 @@ class PhysicalScript {
       add(Call::write_r);
       add(Call::innovation);
       add(Call::step);
+      add(Call::estimate);
       add(Call::covariance);
       if (!controller_.has.filter) add(Call::control);
     }
@@ -384,8 +385,8 @@ bool has_call(const Controller& controller, Call call) {
     case Call::step: return filter;
     case Call::control: return controller.has.regulator;
     case Call::set_state: return filter;
+    case Call::estimate: return linear || controller.modal;
     case Call::advance:
-    case Call::estimate:
     case Call::write_z: return linear;
     case Call::update:
     case Call::predict:
@@ -395,7 +396,7 @@ bool has_call(const Controller& controller, Call call) {
     case Call::partial_alone:
       return filter && !linear && controller.size.ny > 1 && controller.size.ny < bits_of_long && !controller.has.stages;
     case Call::innovation: return filter && !linear && !controller.has.stages;
-    case Call::covariance: return controller.filter == step::Filter::ud;
+    case Call::covariance: return controller.filter == step::Filter::ud || controller.modal;
     case Call::write_covariance:
       return controller.filter == step::Filter::ud || controller.filter == step::Filter::plain;
     case Call::set_input: return !linear && can_set_input(controller);

@@ -82,6 +82,7 @@ class PhysicalPlayer : public Player {
     step::State<S>& state = emitted_.state();
     switch (turn.call) {
       case Call::innovation: return innovate(turn, answer);
+      case Call::estimate: answer.results = list_of(emitted_.estimate()); return;
       case Call::covariance:
         for (const S& entry : step::covariance(emitted_.model(), state))
           answer.results.push_back(simulate::as_double(entry));

@@ -90,8 +90,10 @@ void keep_in_range(const Controller& controller, std::vector<double>& y) {
 }
 
 bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (!(std::abs(x(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound)))
+  if (controller.physical && !is_near(*controller.physical, x)) return false;
+  const Eigen::VectorXd kept = controller.modal ? Eigen::VectorXd(design::to_doubles(controller.modal->inverse) * x) : x;
+  for (Eigen::Index i = 0; i < kept.size(); ++i)
+    if (!(std::abs(kept(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound)))
       return false;
   return true;
 }
@@ -132,7 +134,7 @@ void record_reference(EmittedController<S> emitted, std::vector<Sample>& samples
   std::size_t k = 0;
   replay(emitted, std::vector<Sample>(samples),
          [&](const EmittedController<S>& now, const Vector<S>& control, unsigned) {
-           samples[k].x = list_of(now.state().x);
+           samples[k].x = list_of(now.estimate());
            samples[k].P = covariance(now);
            if (now.model().filter == step::Filter::none) samples[k].u = list_of(control);
            u.push_back(list_of(control));
@@ -160,7 +162,7 @@ void compare(const Controller& controller, Vectors& vectors, const std::vector<s
   std::size_t k = 0;
   replay(emitted, vectors.samples, [&](const EmittedController<S>& now, const Vector<S>& control, unsigned events) {
     const Sample& reference = vectors.samples[k];
-    of_x.add(list_of(now.state().x), reference.x);
+    of_x.add(list_of(now.estimate()), reference.x);
     of_u.add(list_of(control), u[k]);
     of_P.add(covariance(now), reference.P);
     add_sample(controller.has.filter, now.state(), control, hash);
@@ -185,27 +187,78 @@ std::vector<Sample> random_states(const Controller& controller) {
   return samples;
 }
 
-template <class Reference>
-Vectors vectors_of(const Controller& controller, const EmittedController<Reference>& reference) {
-  Vectors vectors;
-  vectors.samples = controller.has.filter ? closed_loop(controller, reference) : random_states(controller);
+// What the reference records: samples, and u of each.
+struct Recorded {
+  std::vector<Sample> samples;
   std::vector<std::vector<double>> u;
-  record_reference(reference, vectors.samples, u);
-  simulate::with_scalar_of(controller.target, [&](auto zero) { compare<decltype(zero)>(controller, vectors, u); });
-  return vectors;
+};
+
+template <class Reference>
+Recorded recorded_by(const Controller& controller, const EmittedController<Reference>& reference) {
+  Recorded recorded;
+  recorded.samples = controller.has.filter ? closed_loop(controller, reference) : random_states(controller);
+  record_reference(reference, recorded.samples, recorded.u);
+  return recorded;
+}
+
+// By the controller that keeps x̂, whatever this one keeps.
+Recorded recorded(const Controller& controller) {
+  const Controller& of = controller.physical ? *controller.physical : controller;
+  if (!controller.target.is_double)
+    return recorded_by(controller,
+                       EmittedController<double>(of, [](const Real& value) { return design::to_double(value); }));
+  const design::Digits digits(reference_digits);
+  return recorded_by(controller,
+                     EmittedController<Real>(of, [](const Real& value) { return Real(value, reference_digits); }));
 }
 
 Vectors samples_of(const Controller& controller) {
   if (controller.linear) return linear_vectors(controller);
-  if (!controller.target.is_double)
-    return vectors_of(
-        controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); }));
-  const design::Digits digits(reference_digits);
-  return vectors_of(
-      controller, EmittedController<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }));
+  Recorded all = recorded(controller);
+  Vectors vectors;
+  vectors.samples = std::move(all.samples);
+  simulate::with_scalar_of(controller.target, [&](auto zero) { compare<decltype(zero)>(controller, vectors, all.u); });
+  return vectors;
 }
 
+// Of each entry √(Σ error² / Σ reference²), the worst.
+class RelativeErrors {
+ public:
+  void add(const std::vector<double>& found, const std::vector<double>& reference) {
+    errors_.resize(found.size(), 0), sizes_.resize(found.size(), 0);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      errors_[i] += (found[i] - reference[i]) * (found[i] - reference[i]);
+      sizes_[i] += reference[i] * reference[i];
+    }
+  }
+  double worst() const {
+    double most = 0;
+    for (std::size_t i = 0; i < errors_.size(); ++i)
+      if (sizes_[i] > 0) most = std::max(most, std::sqrt(errors_[i] / sizes_[i]));
+    return most;
+  }
+
+ private:
+  std::vector<double> errors_, sizes_;
+};
+
 }  // namespace
+
+double rounding_error_of_filter(const Controller& controller) {
+  const Recorded all = recorded(controller);
+  return simulate::with_scalar_of(controller.target, [&](auto zero) {
+    using S = decltype(zero);
+    EmittedController<S> emitted(controller, simulate::constants_of<S>(controller.target));
+    RelativeErrors of_x, of_u;
+    std::size_t k = 0;
+    replay(emitted, all.samples, [&](const EmittedController<S>& now, const Vector<S>& control, unsigned) {
+      of_x.add(list_of(now.estimate()), all.samples[k].x);
+      of_u.add(list_of(control), all.u[k]);
+      ++k;
+    });
+    return std::max(of_x.worst(), of_u.worst());
+  });
+}
 
 Vectors make_vectors(const Controller& controller) {
   Vectors vectors = samples_of(controller);

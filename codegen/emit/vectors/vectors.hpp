@@ -37,4 +37,7 @@ struct Vectors {
 
 Vectors make_vectors(const Controller& controller);
 
+// Of a filter that carries P: rms(error) / rms of the worst estimate or input in that run, in the target's numbers.
+double rounding_error_of_filter(const Controller& controller);
+
 }  // namespace lqg::emit
