@@ -91,6 +91,8 @@ struct FormCost {
   long multiply_adds = 0;     // in one sample, of straight-line code
   double rounding_error = 0;  // for the same y: rms of the error in the target's numbers / rms, of the worst input u;
                               // where the filter carries P of the worst input or estimate
+  std::optional<double> share_of_deviation = {};  // where the filter carries P: rms of the error of the worst estimate
+                                                  // in parts of its standard deviation
   double agreement = 0;       // digits in which another form answers outputs as the physical form does
 };
 struct FormChoice {

@@ -16,6 +16,9 @@ namespace lqg::design {
 
 namespace {
 
+// Poles of a file's doubles are never so near each other: these are one, as far as the digits tell.
+constexpr double condition_of_repeated = 1e20;
+
 RealMatrix now(const RealMatrix& a) { return design::in_present_digits(a); }
 
 // [a 0; 0 1]
@@ -87,6 +90,7 @@ std::optional<ModalPlant> plant_in_modes(const Problem& problem, const Solution&
   modal.T = with_rest(basis->T, all);
   modal.inverse = with_rest(basis->inverse, all);
   modal.condition = condition_of(basis->T, basis->inverse);
+  if (modal.condition > condition_of_repeated) return std::nullopt;
   modal.plant.A = now(plant.A);
   modal.plant.A.topLeftCorner(own, own) = basis->blocks;
   modal.plant.A.topRightCorner(own, all - own) =

@@ -237,7 +237,8 @@ std::vector<KeyRule> keys_of_the_code() {
        "`auto`: the fastest that fits `flash`."},
       {"code.realisation", Type::word, no, no, optional, {"physical", "folded", "modal", "cheapest"},
        "`physical`: the controller keeps x̂. `folded`, `modal`: it keeps other numbers, which takes fewer operations. "
-       "`cheapest`: the one with the fewest multiply-adds.",
+       "`cheapest`: the one with the fewest multiply-adds. With `kalman.gain = \"online\"` `modal` keeps the state and "
+       "the covariance in the coordinates of the plant's modes, for limits, gates and references as well.",
        "", "README.md#other-numbers-than-x̂"},
       {"code.updates", Type::word, no, no, optional, {"all", "each"},
        "`each`: also a function `NAME_update_OUTPUT` for each output, for sensors with their own rates. Without it "

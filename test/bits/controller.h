@@ -82,6 +82,7 @@ hashes_t FUNCTION_OF(NAME)(void)
 #undef UPDATES
 #undef CONTROLS
 #undef ADVANCES
+#undef ESTIMATES
 #undef REFERS
 #undef HAS_INPUT
 #undef PREDICTS

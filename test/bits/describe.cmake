@@ -27,6 +27,7 @@ endforeach()
 
 set(does)
 foreach(pair IN ITEMS "UPDATES: ${NAME}_update\\(" "CONTROLS: ${NAME}_control\\(" "ADVANCES: ${NAME}_advance\\("
+                      "ESTIMATES: ${NAME}_estimate\\("
                       "REFERS:#define ${upper_name}_NR " "HAS_INPUT:#define ${upper_name}_NU "
                       "PREDICTS:, predictor form " "COUNTS_RESETS: resets;")
   string(REGEX MATCH "^([A-Z_]*):(.*)$" found "${pair}")

@@ -2,10 +2,15 @@
 /* A controller, called in any order, for ever, with anything: "calls.h" is made of its header by calls.awk. */
 #include "anything.h"
 
-#ifdef PROOF_KEEPS_x
+#if defined PROOF_KEEPS_x || defined PROOF_BOUNDS
 enum { NX = SIZE(NX) };
 #endif
-#ifdef PROOF_BOUNDS
+/* The estimate, or z of it that a filter keeps in its place, within bounds as well. */
+#if defined PROOF_BOUNDS && defined PROOF_KEEPS_z
+#define KEPT z
+static const lqg_real bound[NX] = SIZE(Z_BOUNDS);
+#elif defined PROOF_BOUNDS
+#define KEPT x
 static const lqg_real bound[NX] = SIZE(X_BOUNDS);
 #endif
 
@@ -18,7 +23,7 @@ static void begin_anywhere(LOOP)
         const lqg_real anywhere = any_real;
         if (!BELOW(anywhere, bound[i]))
             stop();
-        loop->x[i] = anywhere;
+        loop->KEPT[i] = anywhere;
     }
 #endif
 #ifdef PROOF_KEEPS_resets
@@ -34,14 +39,14 @@ static void look_at_state(LOOP)
 {
 #if defined PROOF_BOUNDS
     for (int i = 0; i < NX; i++) {
-        /*@ check state_bounded: -bound[i] < loop->x[i] < bound[i]; */
+        /*@ check state_bounded: -bound[i] < loop->KEPT[i] < bound[i]; */
     }
 #elif defined PROOF_KEEPS_x
     for (int i = 0; i < NX; i++) {
         /*@ check state_finite: \is_finite(loop->x[i]); */
     }
 #endif
-#ifdef PROOF_KEEPS_z
+#if defined PROOF_KEEPS_z && !defined PROOF_BOUNDS
     for (int i = 0; i < SIZE(NZ); i++) {
         /*@ check state_finite: \is_finite(loop->z[i]); */
     }

@@ -8,6 +8,13 @@
 #define OF(part) JOIN(NAME, part)
 #define SIZE(part) JOIN(UPPER_NAME, part)
 
+/* What firmware reads: x̂, which a filter that keeps z makes of it. */
+#ifdef ESTIMATES
+#define READ_ESTIMATE(self, x) OF(estimate)(self, x)
+#else
+#define READ_ESTIMATE(self, x) memcpy(x, self->x, sizeof x)
+#endif
+
 static int OF(replay_sample)(OF(t) * self, FILE *file)
 {
     lqg_status_t status = LQG_OK;
@@ -42,17 +49,17 @@ static int OF(replay_sample)(OF(t) * self, FILE *file)
     OF(estimate)(self, x);
     status |= OF(advance)(self);
 #elif defined UPDATES && defined CONTROLS && defined PREDICTS
-    memcpy(x, self->x, sizeof x);
+    READ_ESTIMATE(self, x);
     status |= OF(control)(self, u);
     status |= OF(update)(self, y);
     status |= OF(predict)(self, u);
 #elif defined UPDATES
 #ifdef PREDICTS
-    memcpy(x, self->x, sizeof x);
+    READ_ESTIMATE(self, x);
 #endif
     status |= OF(update)(self, y);
 #ifndef PREDICTS
-    memcpy(x, self->x, sizeof x);
+    READ_ESTIMATE(self, x);
 #endif
 #ifdef CONTROLS
     status |= OF(control)(self, u);
@@ -116,6 +123,8 @@ int FUNCTION_OF(NAME)(FILE *file)
 #undef UPDATES
 #undef CONTROLS
 #undef ADVANCES
+#undef ESTIMATES
+#undef READ_ESTIMATE
 #undef REFERS
 #undef HAS_INPUT
 #undef PREDICTS

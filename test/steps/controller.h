@@ -116,6 +116,7 @@ result_t FUNCTION_OF(NAME)(void)
 #undef UPDATES
 #undef CONTROLS
 #undef ADVANCES
+#undef ESTIMATES
 #undef REFERS
 #undef HAS_INPUT
 #undef PREDICTS

@@ -287,7 +287,6 @@ class Batch {
 std::optional<std::string> why_no_batch(const Controller& controller) {
   if (!controller.has.filter)
     return "a batch needs a filter: a regulator alone has no " + controller.problem.name + "_step";
-  if (controller.modal) return "a batch is of a filter that keeps x̂: expected code.realisation = \"physical\"";
   const bool has_loops =
       controller.style == design::Style::compact || controller.sharing != controller::Sharing::nothing;
   if (!controller.linear && has_loops)

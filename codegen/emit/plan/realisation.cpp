@@ -20,7 +20,7 @@ std::string obstacle(const Controller& controller) {
 }
 
 FormCost cost_of_physical(const Controller& controller) {
-  return {cost_of_unrolled(controller).multiply_adds, rounding_error(controller), 0};
+  return {cost_of_unrolled(controller).multiply_adds, rounding_error(controller)};
 }
 
 // None, with its obstacle in `found`, where there is no such form.
@@ -32,7 +32,12 @@ std::optional<FormCost> cost_of(const Controller& physical, design::LinearFormRe
     return std::nullopt;
   }
   const Controller controller = controller::with_form(physical, *found.form);
-  return FormCost{cost_of_linear_form(controller).multiply_adds, rounding_error(controller), agreement};
+  return FormCost{cost_of_linear_form(controller).multiply_adds, rounding_error(controller), std::nullopt, agreement};
+}
+
+bool loses_much(const FormCost& cost, const FormCost& physical) {
+  if (cost.share_of_deviation && *cost.share_of_deviation < negligible_share) return false;
+  return cost.rounding_error > most_loss * physical.rounding_error;
 }
 
 // What comes first wins where two cost the same.
@@ -42,7 +47,7 @@ Realisation cheapest(const FormChoice& among) {
   for (const auto& [kind, cost] :
        {std::pair(Realisation::folded, &among.folded), std::pair(Realisation::modal, &among.modal)}) {
     if (!*cost || (*cost)->multiply_adds >= least) continue;
-    if ((*cost)->rounding_error > most_loss * among.physical.rounding_error) continue;
+    if (loses_much(**cost, among.physical)) continue;
     best = kind;
     least = (*cost)->multiply_adds;
   }
@@ -56,9 +61,15 @@ std::string obstacle_of_modes(const Controller& controller) {
   return design::no_modal_plant(controller.problem);
 }
 
-// Straight-line code, too, that is larger than it may be is none that lqgen could choose.
+FormCost cost_of_filter(const Controller& controller, double agreement) {
+  const RoundingOfFilter rounding = rounding_of_filter(controller);
+  return {cost_of_unrolled(controller).multiply_adds, rounding.error, rounding.share_of_deviation, agreement};
+}
+
+// Where lqgen may choose the style straight-line code that is too large is no choice: that of x̂ may be in loops.
 bool fits_flash(const Controller& controller) {
-  return cost_of_unrolled(controller).flash <= controller.problem.code.flash;
+  return controller.problem.code.style != design::Style::automatic ||
+         cost_of_unrolled(controller).flash <= controller.problem.code.flash;
 }
 
 std::optional<Controller> refuse(const char* instead, const std::string& why, design::Findings& findings) {
@@ -85,8 +96,8 @@ std::optional<Controller> in_chosen_coordinates(Controller controller, design::F
   if (!modal) return stays_physical(std::move(controller), of_start.front().message, findings);
 
   FormChoice forms;
-  forms.physical = {cost_of_unrolled(controller).multiply_adds, rounding_error_of_filter(controller), 0};
-  forms.modal = {cost_of_unrolled(*modal).multiply_adds, rounding_error_of_filter(*modal), found.modal->agreement};
+  forms.physical = cost_of_filter(controller, 0);
+  forms.modal = cost_of_filter(*modal, found.modal->agreement);
   forms.chosen = wanted != Realisation::cheapest ? wanted : fits_flash(*modal) ? cheapest(forms) : Realisation::physical;
   controller.forms = modal->forms = forms;
   if (forms.chosen == Realisation::physical) return controller;

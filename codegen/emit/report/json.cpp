@@ -229,8 +229,10 @@ Json realisation(const Controller& controller) {
   Json out = {{"kind", controller::name_of(forms.chosen)},
               {"multiply_adds", of_each_form(forms, [](const FormCost& of) { return of.multiply_adds; })},
               {"rounding_error", of_each_form(forms, [](const FormCost& of) { return of.rounding_error; })}};
-  if (controller.linear) {
-    out["condition"] = controller.linear->condition;
+  if (forms.physical.share_of_deviation)
+    out["share_of_deviation"] = of_each_form(forms, [](const FormCost& of) { return *of.share_of_deviation; });
+  if (controller.linear || controller.modal) {
+    out["condition"] = controller.linear ? controller.linear->condition : controller.modal->condition;
     out["agreement_digits"] = std::floor(chosen_form(*controller.forms).agreement);
   }
   return out;
@@ -251,8 +253,24 @@ Json compensator(const design::LinearForm& form) {
   return out;
 }
 
-Json bounds(const controller::Bounds& bounds) {
-  Json out = {{"x", controller::powers_of_two(bounds.x)}, {"innovation", numbers(bounds.innovation)}};
+Json modes(const design::ModalPlant& modal) {
+  Json out = {{"T", rows(modal.T)},
+              {"inverse", rows(modal.inverse)},
+              {"A", rows(modal.plant.A)},
+              {"B", rows(modal.plant.B)},
+              {"C", rows(modal.plant.C)},
+              {"D", rows(modal.plant.D)},
+              {"G", rows(modal.plant.G)},
+              {"z0", rows(modal.z0)},
+              {"P0", rows(modal.online.P0)}};
+  add(out, "K", modal.K);
+  return out;
+}
+
+Json bounds(const Controller& controller) {
+  const controller::Bounds& bounds = controller.bounds;
+  Json out = {{controller::kept_name(controller), controller::powers_of_two(bounds.x)},
+              {"innovation", numbers(bounds.innovation)}};
   if (!bounds.xi.empty()) out["xi"] = controller::powers_of_two(bounds.xi), out["error"] = numbers(bounds.error);
   return out;
 }
@@ -303,9 +321,10 @@ std::string json(const Controller& controller) {
   if (controller.has.filter) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
   if (controller.linear) out["compensator"] = compensator(*controller.linear);
+  if (controller.modal) out["modes"] = modes(*controller.modal);
   out["loop"] = loop(solution.loop, controller.problem.plant.sample_time);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
-  if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller.bounds);
+  if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller);
   if (controller.has.filter) out["recovery"] = recovery(controller.recovery);
   out["code"] = code(controller);
   return out.dump(2) + "\n";

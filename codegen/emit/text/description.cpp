@@ -180,7 +180,9 @@ std::string bounds_line(const std::string& what, const Values& values) {
 
 std::string bounds(const Controller& controller) {
   if (controller.bounds.x.empty()) return "";
-  return bounds_line("limit of |x̂_i| (reset when exceeded): ", controller::powers_of_two(controller.bounds.x)) +
+  return bounds_line(
+             std::string("limit of |") + (controller.modal ? "z_i" : "x̂_i") + "| (reset when exceeded): ",
+             controller::powers_of_two(controller.bounds.x)) +
          bounds_line("innovation limit: ", controller.bounds.innovation) +
          (controller.bounds.xi.empty()
               ? ""
@@ -271,7 +273,8 @@ namespace {
 
 std::string form_cost(const char* name, const FormCost& cost) {
   return std::string("  ") + name + std::to_string(cost.multiply_adds) + " multiply-adds, " +
-         decimal(cost.rounding_error) + "\n";
+         decimal(cost.rounding_error) +
+         (cost.share_of_deviation ? ", " + decimal(*cost.share_of_deviation) : "") + "\n";
 }
 
 }  // namespace
@@ -279,9 +282,12 @@ std::string form_cost(const char* name, const FormCost& cost) {
 std::string describe_forms(const Controller& controller) {
   if (!controller.forms) return "";
   const FormChoice& forms = *controller.forms;
-  std::string out =
-      "\nForms of the controller: multiply-adds of a sample, and the rounding error of u (rms, relative to u):\n\n" +
-      form_cost("physical  ", forms.physical);
+  const std::string errors =
+      forms.physical.share_of_deviation
+          ? "the rounding error of x̂ and u\n(rms, relative to them), and of x̂ in parts of its standard deviation:\n\n"
+          : "the rounding error of u (rms, relative to u):\n\n";
+  std::string out = "\nForms of the controller: multiply-adds of a sample, and " + errors +
+                    form_cost("physical  ", forms.physical);
   if (forms.folded) out += form_cost("folded    ", *forms.folded);
   if (forms.modal) out += form_cost("modal     ", *forms.modal);
   return out + "  chosen: " + controller::name_of(forms.chosen) + "\n";
@@ -299,6 +305,17 @@ std::string describe_linear_form(const Controller& controller) {
          matrix_lines("C", form.C, is_double);
   if (!predicts) out += matrix_lines("D", form.D, is_double);
   return out + matrix_lines("X", form.estimate, is_double);
+}
+
+std::string describe_modes(const Controller& controller) {
+  if (!controller.modal) return "";
+  const design::ModalPlant& modal = *controller.modal;
+  const bool is_double = controller.target.is_double;
+  std::string out = "\nThe filter keeps z, x̂ = T z, and the covariance of its error. In these coordinates:\n\n";
+  out += matrix_lines("T", modal.T, is_double) + matrix_lines("A", modal.plant.A, is_double);
+  if (controller.size.nu) out += matrix_lines("B", modal.plant.B, is_double);
+  out += matrix_lines("C", modal.plant.C, is_double);
+  return controller.has.regulator ? out + matrix_lines("K", modal.K, is_double) : out;
 }
 
 std::string describe_cost(const Controller& controller) {

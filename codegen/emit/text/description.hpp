@@ -14,6 +14,7 @@ std::string describe_regulator(const Controller& controller);
 std::string describe_estimator(const Controller& controller);  // describe_gains among it
 std::string describe_gains(const Controller& controller);      // of the filter, and its poles
 std::string describe_linear_form(const Controller& controller);
+std::string describe_modes(const Controller& controller);  // of a filter that keeps z
 std::string describe_loop(const Controller& controller);
 std::string describe_rms(const Controller& controller);
 std::string describe_poles(const Controller& controller);  // of the loop, in z and s

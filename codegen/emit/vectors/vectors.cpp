@@ -237,6 +237,16 @@ class RelativeErrors {
       if (sizes_[i] > 0) most = std::max(most, std::sqrt(errors_[i] / sizes_[i]));
     return most;
   }
+  // Of the root mean squares over so many samples, in parts of √P_ii.
+  double worst_beside(const std::vector<double>& P, std::size_t samples) const {
+    double most = 0;
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      const double variance = P[static_cast<std::size_t>(step::triangle(static_cast<int>(i), static_cast<int>(i)))];
+      const double square = errors_[i] / static_cast<double>(samples);
+      if (square > 0) most = std::max(most, std::sqrt(square / std::max(variance, 0.0)));
+    }
+    return most;
+  }
 
  private:
   std::vector<double> errors_, sizes_;
@@ -244,7 +254,7 @@ class RelativeErrors {
 
 }  // namespace
 
-double rounding_error_of_filter(const Controller& controller) {
+RoundingOfFilter rounding_of_filter(const Controller& controller) {
   const Recorded all = recorded(controller);
   return simulate::with_scalar_of(controller.target, [&](auto zero) {
     using S = decltype(zero);
@@ -256,7 +266,8 @@ double rounding_error_of_filter(const Controller& controller) {
       of_u.add(list_of(control), all.u[k]);
       ++k;
     });
-    return std::max(of_x.worst(), of_u.worst());
+    return RoundingOfFilter{std::max(of_x.worst(), of_u.worst()),
+                            of_x.worst_beside(all.samples.back().P, all.samples.size())};
   });
 }
 

@@ -37,7 +37,11 @@ struct Vectors {
 
 Vectors make_vectors(const Controller& controller);
 
-// Of a filter that carries P: rms(error) / rms of the worst estimate or input in that run, in the target's numbers.
-double rounding_error_of_filter(const Controller& controller);
+// Of a filter that carries P, in that run in the target's numbers.
+struct RoundingOfFilter {
+  double error = 0;               // rms(error) / rms of the worst estimate or input
+  double share_of_deviation = 0;  // rms(error of x̂_i) / √P_ii of the last sample, the worst i; infinite where P_ii is 0
+};
+RoundingOfFilter rounding_of_filter(const Controller& controller);
 
 }  // namespace lqg::emit

@@ -40,8 +40,9 @@ std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
   using lqg::controller::Sharing;
   using lqg::design::Style;
   std::vector<Way> ways = {{Style::unrolled, Sharing::nothing, "_unrolled"}};
-  if (!controller.linear) ways.push_back({Style::compact, Sharing::nothing, "_compact"});  // those loops are of x̂
-  if (!controller.linear && lqg::emit::can_share_covariance(controller)) {
+  const bool has_loops = !controller.linear && !controller.modal;
+  if (has_loops) ways.push_back({Style::compact, Sharing::nothing, "_compact"});  // those loops are of x̂
+  if (has_loops && lqg::emit::can_share_covariance(controller)) {
     ways.push_back({Style::unrolled, Sharing::outputs, "_outputs"});
     if (controller.size.nx > 1) ways.push_back({Style::unrolled, Sharing::columns, "_columns"});
   }

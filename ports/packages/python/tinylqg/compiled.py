@@ -120,7 +120,9 @@ def source_of(name, header, result):
     """The functions above around the header's own."""
     kind = Kind(result)
     has_state = f"void {name}_init(" in header
-    calls = calls_of(name, kind, f" {name}_advance(" in header, has_state)
+    is_linear = f" {name}_advance(" in header
+    keeps_x = is_linear or f" {name}_estimate(" not in header
+    calls = calls_of(name, kind, is_linear, keeps_x, has_state)
     takes_r = kind.references > 0 and not kind.is_estimator
     words = {
         "name": name,
@@ -135,7 +137,7 @@ def source_of(name, header, result):
     return SOURCE.format(calls="\n    ".join(calls).format(**words), **words)
 
 
-def calls_of(name, kind, is_linear, has_state):
+def calls_of(name, kind, is_linear, keeps_x, has_state):
     """A sample in the order of its form, as firmware takes it."""
     if not kind.has_filter:
         first = "self, " if has_state else ""
@@ -147,7 +149,8 @@ def calls_of(name, kind, is_linear, has_state):
             f"{name}_estimate(self, x);",
             f"status |= {name}_advance(self{late});",
         ]
-    hear, act = f"status |= {name}_update(self, y);", copy_of("self->x")
+    read = copy_of("self->x") if keeps_x else f"{name}_estimate(self, x);"
+    hear, act = f"status |= {name}_update(self, y);", read
     if not kind.is_estimator:
         act += f" status |= {name}_control(self, u);"
     predict = f"status |= {name}_predict(self{', u' if kind.inputs else ''});"
