@@ -93,7 +93,7 @@ struct FormCost {
                               // where the filter carries P of the worst input or estimate
   std::optional<double> share_of_deviation = {};  // where the filter carries P: rms of the error of the worst estimate
                                                   // in parts of its standard deviation
-  double agreement = 0;       // digits in which another form answers outputs as the physical form does
+  double agreement = 0;  // digits in which another form answers outputs as the physical form does
 };
 struct FormChoice {
   design::Realisation chosen = design::Realisation::physical;

@@ -47,9 +47,9 @@ double condition_of(const RealMatrix& T, const RealMatrix& inverse) {
 double agreement_of(const RealMatrix& A, const ModalBasis& basis) {
   const Index n = A.rows();
   const RealMatrix image = multiply(A, basis.T);
-  const Real worst = std::max<Real>(
-      largest_entry(image - multiply(basis.T, basis.blocks)) / (norm(A) * largest_entry(basis.T)),
-      largest_entry(multiply(basis.inverse, basis.T) - identity(n)));
+  const Real worst =
+      std::max<Real>(largest_entry(image - multiply(basis.T, basis.blocks)) / (norm(A) * largest_entry(basis.T)),
+                     largest_entry(multiply(basis.inverse, basis.T) - identity(n)));
   return to_double(-log10(std::max<Real>(worst, negligible(1))));
 }
 
@@ -93,8 +93,7 @@ std::optional<ModalPlant> plant_in_modes(const Problem& problem, const Solution&
   if (modal.condition > condition_of_repeated) return std::nullopt;
   modal.plant.A = now(plant.A);
   modal.plant.A.topLeftCorner(own, own) = basis->blocks;
-  modal.plant.A.topRightCorner(own, all - own) =
-      multiply(basis->inverse, modal.plant.A.topRightCorner(own, all - own));
+  modal.plant.A.topRightCorner(own, all - own) = multiply(basis->inverse, modal.plant.A.topRightCorner(own, all - own));
   modal.plant.B = multiply(modal.inverse, now(plant.B));
   modal.plant.C = multiply(now(plant.C), modal.T);
   modal.plant.D = now(plant.D);
@@ -113,8 +112,7 @@ struct VisitModes {
   void operator()(const ModalPlant& coarse, ModalPlant& fine, Visit visit) const {
     for (const auto matrix : {&ModalPlant::T, &ModalPlant::inverse, &ModalPlant::K, &ModalPlant::z0})
       visit(coarse.*matrix, fine.*matrix);
-    for (const auto matrix :
-         {&SampledPlant::A, &SampledPlant::B, &SampledPlant::C, &SampledPlant::D, &SampledPlant::G})
+    for (const auto matrix : {&SampledPlant::A, &SampledPlant::B, &SampledPlant::C, &SampledPlant::D, &SampledPlant::G})
       visit(coarse.plant.*matrix, fine.plant.*matrix);
     for (const auto matrix :
          {&OnlineSolution::E, &OnlineSolution::C, &OnlineSolution::D, &OnlineSolution::M, &OnlineSolution::A_free,
@@ -176,9 +174,7 @@ ModalPlantResult modal_plant(const Problem& problem, const Solution& solution) {
 void check_rounded_modes(const Problem& problem, const ModalPlant& modal, Solution& solution, Findings& findings) {
   const Digits enough(std::max(50u, solution.numerics.digits / 2));
   if (!solution.loop.rounded) return;
-  const auto controller_in = [&](Scalar real) {
-    return compensator(problem, held_in_modes(modal, solution, real));
-  };
+  const auto controller_in = [&](Scalar real) { return compensator(problem, held_in_modes(modal, solution, real)); };
   check_rounded_controller(problem, sample_stages(problem).back(), controller_in, solution, findings);
 }
 

@@ -254,9 +254,8 @@ std::string functions(const Controller& controller, const FunctionBodies& bodies
   if (controller.has.regulator) out += control_function(controller, bodies);
   if (controller.has.filter)
     out += predict_function(controller, bodies) + step_function(controller, bodies) + estimate_function(controller) +
-           covariance_function(controller) +
-           update_alone_functions(controller, bodies) + innovation_function(controller) +
-           partial_update_function(controller) + set_state_function(controller);
+           covariance_function(controller) + update_alone_functions(controller, bodies) +
+           innovation_function(controller) + partial_update_function(controller) + set_state_function(controller);
   return out + set_input_function(controller);
 }
 

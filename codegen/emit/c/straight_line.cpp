@@ -93,7 +93,8 @@ std::string unless_sound(const Controller& controller, const Printed& printed, c
            stored(printed, function.stores_if_sound) + "    } else {\n" + answered;
   }
   const std::string test = printed.printer.test(function.finite, function.stores);
-  const bool has_x = printed.writes(std::string("self->") + controller::kept_name(controller) + "["), has_xi = printed.writes("self->xi[");
+  const bool has_x = printed.writes(std::string("self->") + controller::kept_name(controller) + "["),
+             has_xi = printed.writes("self->xi[");
   return "    /* " + equation_of_bounds(controller, test, has_x, has_xi) + " */\n" +
          if_unsound(controller, test, function.faults) + answered;
 }

@@ -98,7 +98,9 @@ std::optional<Controller> in_chosen_coordinates(Controller controller, design::F
   FormChoice forms;
   forms.physical = cost_of_filter(controller, 0);
   forms.modal = cost_of_filter(*modal, found.modal->agreement);
-  forms.chosen = wanted != Realisation::cheapest ? wanted : fits_flash(*modal) ? cheapest(forms) : Realisation::physical;
+  forms.chosen = wanted != Realisation::cheapest ? wanted
+                 : fits_flash(*modal)            ? cheapest(forms)
+                                                 : Realisation::physical;
   controller.forms = modal->forms = forms;
   if (forms.chosen == Realisation::physical) return controller;
   design::check_rounded_modes(modal->problem, *found.modal, modal->solution, findings);

@@ -173,7 +173,8 @@ SymbolicState resume_state(const Controller& controller, const SymbolicState& st
   return resumed;
 }
 
-void store_state(const Controller& controller, TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern) {
+void store_state(const Controller& controller, TracedFunction& function, const SymbolicState& state,
+                 const std::vector<bool>& pattern) {
   const auto store_vector = [&](const char* array, const Symbols& values) {
     for (int i = 0; i < values.size(); ++i) store(function, element(std::string("self->") + array, i), values(i));
   };

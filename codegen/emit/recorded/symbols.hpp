@@ -25,6 +25,7 @@ void load_memory(const Controller& controller, const SymbolicModel& model, Symbo
 SymbolicState resume_state(const Controller& controller, const SymbolicState& state, const std::vector<bool>& pattern);
 
 // `pattern` is empty: without the covariance.
-void store_state(const Controller& controller, TracedFunction& function, const SymbolicState& state, const std::vector<bool>& pattern);
+void store_state(const Controller& controller, TracedFunction& function, const SymbolicState& state,
+                 const std::vector<bool>& pattern);
 
 }  // namespace lqg::emit

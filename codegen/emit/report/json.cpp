@@ -254,15 +254,9 @@ Json compensator(const design::LinearForm& form) {
 }
 
 Json modes(const design::ModalPlant& modal) {
-  Json out = {{"T", rows(modal.T)},
-              {"inverse", rows(modal.inverse)},
-              {"A", rows(modal.plant.A)},
-              {"B", rows(modal.plant.B)},
-              {"C", rows(modal.plant.C)},
-              {"D", rows(modal.plant.D)},
-              {"G", rows(modal.plant.G)},
-              {"z0", rows(modal.z0)},
-              {"P0", rows(modal.online.P0)}};
+  Json out = {{"T", rows(modal.T)},       {"inverse", rows(modal.inverse)}, {"A", rows(modal.plant.A)},
+              {"B", rows(modal.plant.B)}, {"C", rows(modal.plant.C)},       {"D", rows(modal.plant.D)},
+              {"G", rows(modal.plant.G)}, {"z0", rows(modal.z0)},           {"P0", rows(modal.online.P0)}};
   add(out, "K", modal.K);
   return out;
 }

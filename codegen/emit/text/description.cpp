@@ -180,9 +180,8 @@ std::string bounds_line(const std::string& what, const Values& values) {
 
 std::string bounds(const Controller& controller) {
   if (controller.bounds.x.empty()) return "";
-  return bounds_line(
-             std::string("limit of |") + (controller.modal ? "z_i" : "x̂_i") + "| (reset when exceeded): ",
-             controller::powers_of_two(controller.bounds.x)) +
+  return bounds_line(std::string("limit of |") + (controller.modal ? "z_i" : "x̂_i") + "| (reset when exceeded): ",
+                     controller::powers_of_two(controller.bounds.x)) +
          bounds_line("innovation limit: ", controller.bounds.innovation) +
          (controller.bounds.xi.empty()
               ? ""
@@ -273,8 +272,8 @@ namespace {
 
 std::string form_cost(const char* name, const FormCost& cost) {
   return std::string("  ") + name + std::to_string(cost.multiply_adds) + " multiply-adds, " +
-         decimal(cost.rounding_error) +
-         (cost.share_of_deviation ? ", " + decimal(*cost.share_of_deviation) : "") + "\n";
+         decimal(cost.rounding_error) + (cost.share_of_deviation ? ", " + decimal(*cost.share_of_deviation) : "") +
+         "\n";
 }
 
 }  // namespace
@@ -286,8 +285,8 @@ std::string describe_forms(const Controller& controller) {
       forms.physical.share_of_deviation
           ? "the rounding error of x̂ and u\n(rms, relative to them), and of x̂ in parts of its standard deviation:\n\n"
           : "the rounding error of u (rms, relative to u):\n\n";
-  std::string out = "\nForms of the controller: multiply-adds of a sample, and " + errors +
-                    form_cost("physical  ", forms.physical);
+  std::string out =
+      "\nForms of the controller: multiply-adds of a sample, and " + errors + form_cost("physical  ", forms.physical);
   if (forms.folded) out += form_cost("folded    ", *forms.folded);
   if (forms.modal) out += form_cost("modal     ", *forms.modal);
   return out + "  chosen: " + controller::name_of(forms.chosen) + "\n";

@@ -95,11 +95,12 @@ std::string covariance_check(const Controller& controller) {
   const bool is_ud = controller.filter == step::Filter::ud;
   if (!is_ud && controller.filter != step::Filter::plain) return "";
   return std::string("        if (k % ") + std::to_string(samples_per_covariance) + " == 0) {\n" +
-         (is_ud || controller.modal ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
-                  "            {name}_covariance(&self, P);\n"
-                  "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
-                : "            assert_near(P_tolerance, P_out[k / {every}], self.P, "
-                  "(int)(sizeof self.P / sizeof self.P[0]));\n") +
+         (is_ud || controller.modal
+              ? "            {real} P[sizeof P_tolerance / sizeof P_tolerance[0]];\n\n"
+                "            {name}_covariance(&self, P);\n"
+                "            assert_near(P_tolerance, P_out[k / {every}], P, (int)(sizeof P / sizeof P[0]));\n"
+              : "            assert_near(P_tolerance, P_out[k / {every}], self.P, "
+                "(int)(sizeof self.P / sizeof self.P[0]));\n") +
          "        }\n";
 }
 
@@ -195,11 +196,12 @@ std::string hostile_sample(const Controller& controller) {
 std::string fault_test(const Controller& controller) {
   if (!controller.has.filter) return "";
   const bool has_bounds = !controller.linear;
-  const Words words = {{"stays", has_bounds ? "within_its_bounds" : "finite"},
-                       {"bound", has_bounds ? "    static const {real} bound[{NAME}_NX] = {NAME}_{KEPT}_BOUNDS;\n" : ""},
-                       {"u", controller.has.regulator ? "            {real} u[{NAME}_NU];\n" : ""},
-                       {"sample", hostile_sample(controller)},
-                       {"end", has_bounds ? "            TEST_ASSERT_EQUAL_UINT(0, self.resets);\n" : ""}};
+  const Words words = {
+      {"stays", has_bounds ? "within_its_bounds" : "finite"},
+      {"bound", has_bounds ? "    static const {real} bound[{NAME}_NX] = {NAME}_{KEPT}_BOUNDS;\n" : ""},
+      {"u", controller.has.regulator ? "            {real} u[{NAME}_NU];\n" : ""},
+      {"sample", hostile_sample(controller)},
+      {"end", has_bounds ? "            TEST_ASSERT_EQUAL_UINT(0, self.resets);\n" : ""}};
   return fill(R"(
 static void test_{name}_stays_{stays}_whatever_a_sensor_says(void)
 {

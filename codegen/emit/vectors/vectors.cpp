@@ -91,7 +91,8 @@ void keep_in_range(const Controller& controller, std::vector<double>& y) {
 
 bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
   if (controller.physical && !is_near(*controller.physical, x)) return false;
-  const Eigen::VectorXd kept = controller.modal ? Eigen::VectorXd(design::to_doubles(controller.modal->inverse) * x) : x;
+  const Eigen::VectorXd kept =
+      controller.modal ? Eigen::VectorXd(design::to_doubles(controller.modal->inverse) * x) : x;
   for (Eigen::Index i = 0; i < kept.size(); ++i)
     if (!(std::abs(kept(i)) < std::ldexp(1.0, controller.bounds.x[static_cast<std::size_t>(i)] - bits_to_bound)))
       return false;

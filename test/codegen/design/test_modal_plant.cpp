@@ -73,8 +73,8 @@ void test_same_innovations_estimates_covariances_and_laws() {
     problem.estimator->x0 = random.matrix(problem.plant.A.rows(), 1);
     problem.estimator->covariance = seed % 2 ? Covariance::ud : Covariance::plain;
     if (seed % 5 == 0 && problem.plant.domain == Domain::discrete) problem.plant.delay = 2 * problem.plant.sample_time;
-    if (seed % 7 == 0) problem.regulator->input_rate = Eigen::MatrixXd::Identity(problem.plant.B.cols(),
-                                                                                 problem.plant.B.cols());
+    if (seed % 7 == 0)
+      problem.regulator->input_rate = Eigen::MatrixXd::Identity(problem.plant.B.cols(), problem.plant.B.cols());
     const Solution solution = solved(problem);
     const ModalPlantResult result = modal_plant(problem, solution);
     TEST_ASSERT_TRUE_MESSAGE(result.modal || result.obstacle.find("near each other") != std::string::npos ||
