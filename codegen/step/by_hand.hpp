@@ -30,6 +30,7 @@ auto set_state(const Model<S>& model, State<S>& state, const Vector<S>& x, Liste
   const bool is_kept = model.to_estimate.size() == 0;
   listener.section(is_kept ? "x̂ ← x" : "z ← T⁻¹ x", -1, and_check(model.x_bound));
   const Vector<S> kept = is_kept ? x : image(model.of_estimate, x);
+  for (int i = 0; !is_kept && i < model.nx; ++i) listener.name(kept(i), "set", of_state(i));
   BoundsCheck<S> bounds;
   for (int i = 0; i < model.nx; ++i) bounds.add(S(kept(i)), model.x_bound, of_state(i, "x"), listener);
   state.x = kept;
@@ -42,7 +43,9 @@ template <class S, class Listener>
 Vector<S> estimate(const Model<S>& model, const State<S>& state, Listener& listener) {
   if (model.to_estimate.size() == 0) return state.x;
   listener.section("x̂ = T z");
-  return image(model.to_estimate, state.x);
+  const Vector<S> x = image(model.to_estimate, state.x);
+  for (int i = 0; i < model.nx; ++i) listener.name(x(i), "estimate", of_entry(i));
+  return x;
 }
 
 }  // namespace lqg::step

@@ -42,9 +42,13 @@ std::vector<S> covariance(const Model<S>& model, const State<S>& state, Listener
       Vector<S> column(model.nx);
       for (int j = 0; j < model.nx; ++j) column(j) = kept[static_cast<std::size_t>(triangle(j, k))];
       row(k) = image(Matrix<S>(model.to_estimate.row(i)), column)(0);
+      listener.name(row(k), "TP", of_entry(i, k));
     }
     const Vector<S> all = image(Matrix<S>(model.to_estimate.topRows(i + 1)), row);
-    for (int j = 0; j <= i; ++j) P.push_back(all(j));
+    for (int j = 0; j <= i; ++j) {
+      listener.name(all(j), "P_of_estimate", of_entry(i, j));
+      P.push_back(all(j));
+    }
   }
   return P;
 }

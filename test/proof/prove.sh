@@ -149,8 +149,9 @@ grep -Eq "Assertions +$checks valid +0 unknown +0 invalid +$checks total" "$log"
   stop 1 "$name, $style, $real: not proved; of $checks checks, those that were reached:$reached"
 }
 said=''
-! is BOUNDS || said+=', x within its bounds'
-! is KEEPS_z || said+=', z finite'
+kept=x
+! is KEEPS_z || kept=z
+if is BOUNDS; then said+=", $kept within its bounds"; elif is KEEPS_z; then said+=', z finite'; fi
 ! is KEEPS_P && ! is KEEPS_d || said+=', its covariance after every prediction'
 ! is GIVES_INPUT || said+=', u finite'
 [ -z "$(word U_MIN)" ] || said+=' and within its limits'

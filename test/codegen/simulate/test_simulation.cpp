@@ -372,7 +372,29 @@ void test_forms_that_keep_z_show_the_same_loop() {
   }
 }
 
-// The filter carries its covariance: there is no z.
+void test_modes_of_a_filter_that_carries_P_show_the_same_loop() {
+  Problem problem = in_double(two_mass());
+  problem.plant.A(0, 0) = problem.plant.A(1, 1) = -0.01;  // a free mass has a pole twice
+  problem.estimator->gain = Gain::online;
+  const Solution found = solved(problem);
+  const Trajectory physical = simulate(problem, found, options_of(200, 1));
+  problem.code.realisation = Realisation::modal;
+  const Trajectory run = simulate(problem, found, options_of(200, 1));
+  expect_within(1e-9 * physical.x.norm(), 0, (run.x - physical.x).norm(), "x");
+  expect_within(1e-9 * physical.estimate.norm(), 0, (run.estimate - physical.estimate).norm(), "estimate");
+  problem = in_double(double_integrator(0.1));
+  problem.estimator->gain = Gain::online;
+  problem.code.realisation = Realisation::modal;
+  std::string reason;
+  try {
+    simulate(problem, solved(problem), options_of(1, 1));
+  } catch (const std::invalid_argument& error) {
+    reason = error.what();
+  }
+  TEST_ASSERT_TRUE_MESSAGE(reason.find("repeated") != std::string::npos, reason.c_str());
+}
+
+// The filter carries its covariance: there is no such z.
 void test_form_that_the_design_cannot_have_is_refused_with_its_reason() {
   Problem problem = in_double(two_mass());
   problem.estimator->gain = Gain::online;
@@ -411,6 +433,7 @@ int main() {
   RUN_TEST(test_estimate_beyond_its_bounds_begins_anew_and_is_counted);
   RUN_TEST(test_numbers_are_those_of_the_target);
   RUN_TEST(test_forms_that_keep_z_show_the_same_loop);
+  RUN_TEST(test_modes_of_a_filter_that_carries_P_show_the_same_loop);
   RUN_TEST(test_form_that_the_design_cannot_have_is_refused_with_its_reason);
   return UNITY_END();
 }
