@@ -91,9 +91,8 @@ std::optional<ModalPlant> plant_in_modes(const Problem& problem, const Solution&
   modal.inverse = with_rest(basis->inverse, all);
   modal.condition = condition_of(basis->T, basis->inverse);
   if (modal.condition > condition_of_repeated) return std::nullopt;
-  modal.plant.A = now(plant.A);
+  modal.plant.A = multiply(modal.inverse, multiply(now(plant.A), modal.T));
   modal.plant.A.topLeftCorner(own, own) = basis->blocks;
-  modal.plant.A.topRightCorner(own, all - own) = multiply(basis->inverse, modal.plant.A.topRightCorner(own, all - own));
   modal.plant.B = multiply(modal.inverse, now(plant.B));
   modal.plant.C = multiply(now(plant.C), modal.T);
   modal.plant.D = now(plant.D);

@@ -149,7 +149,7 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"kalman.spike", Type::threshold, no, no, optional, {},
        "Wide gate in standard deviations against absurd values, which are also kept out of the integrals. `inf`: every "
        "finite value up to the bounds is used. Not available with `[observer]`, with gain tables of several stages and "
-       "with realisations that do not keep x̂.",
+       "with realisations of a constant gain that do not keep x̂.",
        "300"},
       {"kalman.output_min", Type::bounds, ny, no, optional, {},
        "Smallest value that each sensor can deliver, in its unit. A smaller one counts as missing.", "−inf"},

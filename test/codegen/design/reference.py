@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Makes the numbers of test_solve.cpp and test_augmentation.cpp: python3 reference.py, with mpmath (https://mpmath.org).
+# Makes the numbers of test_solve.cpp, test_augmentation.cpp and test_modal_plant.cpp: python3 reference.py, with mpmath (https://mpmath.org).
 # Nothing here is shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the
 # stable eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits; for the plant with a delay
 # quadrature of the trajectory's cost, and the Riccati recursion until it stands still.
@@ -135,5 +135,34 @@ def two_mass_with_delay():
     show("K with delay", K)
 
 
+# Three masses between walls in the coordinates of their modes: eigenvectors v, divided by the larger of their two
+# outputs, give T = [re v, im v, ...].
+def masses_between_walls():
+    mp.dps = 60
+    stiffness = [[-2.5, 1, 0], [1, -2, 1], [0, 1, -3]]
+    A, B, C = zeros(6, 6), zeros(6, 1), zeros(2, 6)
+    for i in range(3):
+        A[i, 3 + i] = 1
+        for j in range(3):
+            A[3 + i, j], A[3 + i, 3 + j] = stiffness[i][j], mpf(0.01 * stiffness[i][j])
+    B[3] = C[0, 0] = C[1, 2] = 1
+    whole = expm(block([[block([[A, B]])], [zeros(1, 7)]]) * mpf(0.2), method="taylor")
+    A, B = part(whole, 0, 6, 0, 6), part(whole, 0, 6, 6, 7)
+    values, vectors = mp.eig(A)
+    T = zeros(6, 6)
+    upper = sorted((k for k in range(6) if values[k].imag > 0), key=lambda k: -abs(values[k]))
+    for at, k in enumerate(upper):
+        outputs = C * vectors[:, k]
+        mode = vectors[:, k] / max(outputs, key=abs)
+        for i in range(6):
+            T[i, 2 * at], T[i, 2 * at + 1] = mode[i].real, mode[i].imag
+    inverse = T**-1
+    show("A of modes", inverse * A * T)
+    show("B of modes", inverse * B)
+    show("C of modes", C * T)
+    show("variances of modes", matrix([(inverse * inverse.T)[i, i] for i in range(6)]))
+
+
 two_mass()
 two_mass_with_delay()
+masses_between_walls()

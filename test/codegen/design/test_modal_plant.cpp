@@ -126,6 +126,26 @@ void test_A_has_blocks_and_C_ones() {
   expect_blocks_and_ones(*result.modal, 6);
 }
 
+// Numbers of reference.py (mpmath): each is the double nearest to it.
+void test_numbers_round_to_those_of_mpmath() {
+  const Problem problem = online(masses_between_walls());
+  const ModalPlant modal = *modal_plant(problem, solved(problem)).modal;
+  const double sigma[] = {0.9811862302586859, 0.94337222971869272, 0.91996642981129806},
+               omega[] = {0.18835251596584099, 0.32343281076270647, 0.38202765227815705},
+               B[] = {0.0048101048329413625, 0.050579771203953593,  0.011316218637703752,
+                      0.067930623410842814,  0.0057787364534384617, 0.029003136565334469},
+               C[] = {1, 0.76198819854093303, 1, -0.83453954414114417, 0.63590928385128187, 1},
+               variances[] = {0.24137201854042845, 0.26842214342353288, 0.57201998001329357,
+                              0.20978017784542469, 0.46146623618525284, 0.11919704416639959};
+  for (Index i = 0; i < 6; ++i) {
+    TEST_ASSERT_TRUE(to_double(modal.plant.A(i, i)) == sigma[i / 2]);
+    TEST_ASSERT_TRUE(to_double(modal.plant.A(i, i ^ 1)) == (i % 2 ? -omega[i / 2] : omega[i / 2]));
+    TEST_ASSERT_TRUE(to_double(modal.plant.B(i, 0)) == B[i]);
+    TEST_ASSERT_TRUE(to_double(modal.plant.C(i % 2, i / 2 * 2)) == C[i]);
+    TEST_ASSERT_TRUE(to_double(modal.online.P0(i, i)) == variances[i]);
+  }
+}
+
 // They are shifted, not mixed: what the library knows of them stays true.
 void test_inputs_on_their_way_keep_their_coordinates() {
   Problem problem = online(masses_between_walls());
@@ -251,6 +271,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(test_same_innovations_estimates_covariances_and_laws);
   RUN_TEST(test_A_has_blocks_and_C_ones);
+  RUN_TEST(test_numbers_round_to_those_of_mpmath);
   RUN_TEST(test_inputs_on_their_way_keep_their_coordinates);
   RUN_TEST(test_ones_are_those_of_the_outputs_that_the_filter_takes);
   RUN_TEST(test_repeated_pole_is_refused);
