@@ -162,6 +162,8 @@ def plant_text(design, limits: dict, header: str) -> str:
     text += array("mode_size", [[size for _, size in modes]])
     if "compensator" in design:
         text += "#define KEEPS_Z\n"
+    if "modes" in design:
+        text += "#define KEEPS_MODES\n"
     if f"{name}_control(" in header:
         text += "#define HAS_REGULATOR\n"
     if nu:

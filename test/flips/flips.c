@@ -134,16 +134,32 @@ static int is_same(const struct loop *a, const struct loop *b)
     return memcmp(a->x, b->x, sizeof a->x) == 0 && memcmp(a->u, b->u, sizeof a->u) == 0;
 }
 
+#ifndef KEEPS_Z
+static void read_estimate(const struct loop *loop, real x[NX])
+{
+#ifdef KEEPS_MODES
+    OF(estimate)(&loop->controller, x);
+#else
+    memcpy(x, loop->controller.x, sizeof loop->controller.x);
+#endif
+}
+#endif
+
 /* The plant's states and those of the estimate, in standard deviations: the largest difference. */
 static double distance(const struct loop *a, const struct loop *b)
 {
     double most = 0;
+#ifndef KEEPS_Z
+    real x_of_a[NX], x_of_b[NX];
+    read_estimate(a, x_of_a);
+    read_estimate(b, x_of_b);
+#endif
     for (int i = 0; i < NX; i++) {
         if (is_lasting[i] != 0)
             continue;
         double apart = fabs(a->x[i] - b->x[i]);
 #ifndef KEEPS_Z
-        const double estimates = fabs((double)a->controller.x[i] - (double)b->controller.x[i]);
+        const double estimates = fabs((double)x_of_a[i] - (double)x_of_b[i]);
         if (!(estimates <= apart))
             apart = estimates;
 #endif

@@ -34,12 +34,21 @@ def flips_text(design, limits: dict, header: str) -> str:
     lasting = set(design["recovery"].get("lasting", []))
     text = array("within", [design["recovery"]["within"]])
     text += array("is_lasting", [[i in lasting for i in range(nx)]], "double")
-    bounds = design["numerics"]["bounds"]["x"] if "compensator" not in design else [LARGE] * nx
-    text += array("x_bound", [bounds])
+    text += array("x_bound", [state_bounds(design)])
     has_limits = all(which in limits and all(map(math.isfinite, limits[which])) for which in ("u_min", "u_max"))
     text += f"enum {{ HAS_LIMITS = {int(has_limits)} }};\n"
     text += f"enum {{ RECOVERY_SAMPLES = {design['name'].upper()}_RECOVERY_SAMPLES }};\n"
     return text + table("members", [(name, kind) for name, kind in members(header) if name not in COUNTED | CALLERS])
+
+
+def state_bounds(design) -> list:
+    """How far the states can be before the controller begins anew."""
+    if "compensator" in design:
+        return [LARGE] * len(plant_of(design)["A"])
+    bounds = design["numerics"]["bounds"]
+    if "modes" not in design:
+        return bounds["x"]
+    return [sum(abs(t) * bound for t, bound in zip(row, bounds["z"])) for row in design["modes"]["T"]]
 
 
 def random_design(build: Path, seed: str) -> Path:
