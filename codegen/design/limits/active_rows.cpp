@@ -11,7 +11,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-
 // a b, with plain loops: the same bits on every machine.
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   MatrixXd result = MatrixXd::Zero(a.rows(), b.cols());
@@ -77,8 +76,9 @@ void ActiveRows::set_inverse() {
   }
   for (int i = 0; i < n; ++i) inverse_.col(i) = factor.solution(VectorXd::Unit(n, i));
   MatrixXd defect = product(whole, inverse_) - MatrixXd::Identity(n, n);
-  defect = (defect.cwiseAbs() + (n + 2) * double_unit * (product(whole.cwiseAbs(), inverse_.cwiseAbs()) +
-                                                       MatrixXd::Identity(n, n))).eval();
+  defect = (defect.cwiseAbs() +
+            (n + 2) * double_unit * (product(whole.cwiseAbs(), inverse_.cwiseAbs()) + MatrixXd::Identity(n, n)))
+               .eval();
   double largest = 0;
   for (int i = 0; i < n; ++i) {
     double sum = 0;

@@ -10,8 +10,7 @@ namespace lqg::design {
 // 2 digits); a fused float needs its own.
 double TargetArithmetic::multiply_add(double a, double b, double c) const {
   if (!is_fused) return round(round(a * b) + c);
-  return is_float ? static_cast<double>(
-                        std::fma(static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)))
+  return is_float ? static_cast<double>(std::fma(static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)))
                   : std::fma(a, b, c);
 }
 
