@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "design/limits/certificate.hpp"
 
+#include <algorithm>
 
 #include "design/limits/certificate_search.hpp"
 #include "design/rounding.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How often the set of active limits changes, at most, until the target's solver has the optimum: a proof over a box of
-// states. README.md has the method.
+// states. codegen/design/README.md has the method.
 #pragma once
 
 #include <functional>

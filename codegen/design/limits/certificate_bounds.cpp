@@ -22,15 +22,15 @@ void Search::add_row(int i, const VectorXd& centre, const VectorXd& half_width) 
 
 // u[k−1] + step where it is between both limits; the box is one in which it is on one side of each.
 Affine Search::narrowed(int i, double limit, double other, double step, const VectorXd& centre,
-                             const VectorXd& half_width) const {
+                        const VectorXd& half_width) const {
   const Index at = numbers_.law.cols() + i;
   const double moved = centre(at) + step;
   if (step < 0 ? moved <= limit : moved >= limit) return constant(limit, centre.size());
   if (step < 0 ? moved >= other : moved <= other) return constant(other, centre.size());
   Affine result = constant(moved, centre.size());
   result.slope(at) = half_width(at);
-  result.radius = 2 * ((target_.unit + double_unit) * (std::abs(centre(at)) + half_width(at) + std::abs(step)) +
-                       target_.smallest);
+  result.radius =
+      2 * ((target_.unit + double_unit) * (std::abs(centre(at)) + half_width(at) + std::abs(step)) + target_.smallest);
   return result;
 }
 
@@ -125,8 +125,8 @@ Ratios Search::ratios(const Approach& way, const Multipliers& next) const {
   Ratios result;
   for (int k = 0; k < last; ++k) {
     const double sign = active.sign(k) * active.sign(last), ratio = -sign * inverse(k, last) / own;
-    const double rate_error = (error(k, last) + std::abs(ratio) * error(last, last)) / (own - error(last, last)) +
-                              0x1p-50 * std::abs(ratio);
+    const double rate_error =
+        (error(k, last) + std::abs(ratio) * error(last, last)) / (own - error(last, last)) + 0x1p-50 * std::abs(ratio);
     const double slowest = ratio - rate_error;
     const Affine& m = next.m[static_cast<std::size_t>(k)];
     Affine position{active.sign(k) * m.middle / ratio, active.sign(k) * m.slope / ratio, 0};
@@ -150,7 +150,8 @@ double Search::overshoot(const Approach& way, const Multipliers& next) const {
 // what rounding takes.
 bool Search::rises(const Approach& way, const Multipliers& next) const {
   const int last = way.active.length() - 1;
-  const double far = overshoot(way, next), own = way.active.inverse()(last, last) - way.active.inverse_error()(last, last);
+  const double far = overshoot(way, next),
+               own = way.active.inverse()(last, last) - way.active.inverse_error()(last, last);
   const double lost = way.lost + far * far / own;
   return way.violation > 0 &&
          way.violation * way.violation > 1.01 * numbers_.G(way.active.row(last), way.active.row(last)) * lost;
@@ -180,7 +181,8 @@ std::optional<Approach> Search::without(const Approach& way, int k, const Multip
     deviation(j) = std::max(way.deviation(j), next.m[at].radius + rate * next.m.back().radius) +
                    rounding * (largest(j) + rate * largest(last));
     // Of the inverse of G of the rows before the last.
-    const double product = (std::abs(inverse(j, last)) + error(j, last)) * (std::abs(inverse(last, k)) + error(last, k));
+    const double product =
+        (std::abs(inverse(j, last)) + error(j, last)) * (std::abs(inverse(last, k)) + error(last, k));
     const double exact = inverse(j, k) - inverse(j, last) * inverse(last, k) / inverse(last, last);
     const double missed = error(j, k) + 0x1p-50 * std::abs(inverse(j, k)) +
                           (product - std::abs(inverse(j, last) * inverse(last, k))) / own +
@@ -195,7 +197,9 @@ std::optional<Approach> Search::without(const Approach& way, int k, const Multip
   const double far = overshoot(way, next);
   const double missed_k = deviation(k) + rounding * largest(k);
   after.lost += 1.01 * (missed_k * missed_k / share(k) + schur * far * far);
-  after.violation -= 1.01 * missed_k * (std::abs(ratios.rate[static_cast<std::size_t>(k)]) + ratios.rate_error[static_cast<std::size_t>(k)]) / share(k);
+  after.violation -=
+      1.01 * missed_k *
+      (std::abs(ratios.rate[static_cast<std::size_t>(k)]) + ratios.rate_error[static_cast<std::size_t>(k)]) / share(k);
   after.deviation.resize(last - 1);
   after.largest.resize(last);
   for (int j = 0, to = 0; j <= last; ++j) {

@@ -51,14 +51,13 @@ void Search::require_largest(const Violation& worst, const std::vector<Violation
     const double rounding = 2 * target_.unit * (scale * largest(worst.size) + its * largest(other.size)) +
                             4 * double_unit * (scale * size(worst.size) + its * size(other.size));
     const double left_out = std::max(0.0, its * other.left_out - scale * tolerance);
-    require(its * other.size.slope - scale * worst.size.slope,
-                scale * (worst.size.middle + worst.size.radius) - its * (other.size.middle - other.size.radius) +
-                    left_out + rounding);
+    require(its * other.size.slope - scale * worst.size.slope, scale * (worst.size.middle + worst.size.radius) -
+                                                                   its * (other.size.middle - other.size.radius) +
+                                                                   left_out + rounding);
   }
 }
 
-void Search::at_solution(const ActiveRows& active, const Multipliers& known, VectorXd point, int changes,
-                              int flat) {
+void Search::at_solution(const ActiveRows& active, const Multipliers& known, VectorXd point, int changes, int flat) {
   if (came_before(flat) || is_over()) return;
   path_.push_back(sides_);
   const std::vector<Violation> all = violations(active, known);
@@ -72,8 +71,8 @@ void Search::at_solution(const ActiveRows& active, const Multipliers& known, Vec
   path_.pop_back();
 }
 
-void Search::append(const Violation& worst, const ActiveRows& active, const Multipliers& known,
-                         const VectorXd& point, int changes, int flat) {
+void Search::append(const Violation& worst, const ActiveRows& active, const Multipliers& known, const VectorXd& point,
+                    int changes, int flat) {
   const double violation = numbers_.tolerance(worst.row) - worst.size.radius;
   Approach way{active, VectorXd(active.length()), VectorXd::Zero(active.length() + 1), violation, 0, flat, true};
   way.active.append(worst.row, worst.side);
@@ -91,8 +90,7 @@ void Search::approach(const Approach& way, VectorXd point, int changes) {
   result_.changes = std::max(result_.changes, changes);
   const VectorXd centre = centre_, half = half_;
   shrink(point);
-  const std::optional<Multipliers> next =
-      way.active.is_regular(target_.pivot) ? multipliers(way.active) : std::nullopt;
+  const std::optional<Multipliers> next = way.active.is_regular(target_.pivot) ? multipliers(way.active) : std::nullopt;
   if (next) {
     reach_end(way, *next, point, changes);
     meet_zeros(way, *next, point, changes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tree of decisions behind certificate.hpp. README.md has the method.
+// The tree of decisions behind certificate.hpp. codegen/design/README.md has the method.
 #pragma once
 
 #include <algorithm>
@@ -79,7 +79,7 @@ class Search {
  public:
   // The box's first coordinates are x, the others u[k−1].
   Search(const LimitNumbers& numbers, const CertificateEffort& effort, const VectorXd& centre,
-              const VectorXd& half_width, CertifiedChanges& result)
+         const VectorXd& half_width, CertifiedChanges& result)
       : numbers_(numbers), effort_(effort), result_(result),
         target_(numbers.real == Scalar::float32 ? target_float : target_double),
         rows_(static_cast<int>(numbers.G.rows())), sides_(static_cast<std::size_t>(rows_), LimitSide::none),

@@ -78,9 +78,7 @@ template <class S>
 int most_seen(const LimitNumbers& numbers, double size, int cap) {
   using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  const auto in_target = [](const auto& values) {
-    return Matrix(values.template cast<S>());
-  };
+  const auto in_target = [](const auto& values) { return Matrix(values.template cast<S>()); };
   lqg::step::LimitedLaw<S> law;
   law.nu = static_cast<int>(numbers.law.rows());
   law.iterations = static_cast<unsigned>(cap);
@@ -132,6 +130,17 @@ void test_a_larger_box_needs_more() {
   TEST_ASSERT_TRUE(found.is_proved());
   TEST_ASSERT_EQUAL(12, found.changes);
   expect_never_exceeded(numbers, 4, found.changes);
+}
+
+// Float is nearer to its ties.
+void test_two_masses_in_float_need_a_larger_distance_from_ties() {
+  const Digits scope(50);
+  const LimitNumbers numbers = numbers_of(two_mass_in_blocks(), Scalar::float32);
+  TEST_ASSERT_TRUE(certified(numbers, 1, 1e-9).gap == ProofGap::rounding);
+  const CertifiedChanges found = certified(numbers, 1, 1e-3);
+  TEST_ASSERT_TRUE(found.is_proved());
+  TEST_ASSERT_EQUAL(8, found.changes);
+  expect_never_exceeded(numbers, 1, found.changes);
 }
 
 void test_every_state_of_a_small_problem_is_covered_in_float_and_double() {
@@ -241,6 +250,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(test_two_masses_need_as_many_changes_as_are_proved);
   RUN_TEST(test_a_larger_box_needs_more);
+  RUN_TEST(test_two_masses_in_float_need_a_larger_distance_from_ties);
   RUN_TEST(test_every_state_of_a_small_problem_is_covered_in_float_and_double);
   RUN_TEST(test_limits_that_the_input_before_narrows_are_covered);
   RUN_TEST(test_what_never_touches_a_limit_needs_no_change);
