@@ -72,8 +72,8 @@ CertifiedChanges certified(const LimitNumbers& numbers, double size, double tie_
   return certify_changes(numbers, box_of(numbers, size), effort);
 }
 
-// The most changes that the solver makes: in states of the box, on its faces and in its corners, where each answer is
-// an optimum. With that cap it still is.
+// The most changes that the solver makes: in states of the box, on its faces, in its corners and as near to cuts as
+// numbers lie, where each answer is an optimum with that cap.
 template <class S>
 int most_seen(const LimitNumbers& numbers, double size, int cap) {
   using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
@@ -89,8 +89,16 @@ int most_seen(const LimitNumbers& numbers, double size, int cap) {
   law.high = in_target(numbers.high);
   law.tolerance = in_target(numbers.tolerance);
   law.u_step = in_target(numbers.u_step);
-  Random random(7);
   unsigned most = 0;
+  const auto changes = [&](const VectorXd& x, const VectorXd& applied) {
+    const auto found = lqg::step::limited_input<S>(law, Vector(in_target(applied)), Vector(in_target(x)),
+                                                   Vector(in_target(VectorXd(numbers.law * x))));
+    TEST_ASSERT_TRUE(found.is_optimal);
+    most = std::max(most, found.changes);
+    return found.changes;
+  };
+  Random random(7);
+  VectorXd before = VectorXd::Zero(numbers.law.cols());
   for (int n = 0; n < 100000; ++n) {
     VectorXd x = random.matrix(numbers.law.cols(), 1);
     if (n % 3 == 1) x /= x.cwiseAbs().maxCoeff();
@@ -98,10 +106,13 @@ int most_seen(const LimitNumbers& numbers, double size, int cap) {
     if (n % 6 == 5) x(n / 6 % x.size()) = random.uniform();
     x *= size;
     const VectorXd applied = random.matrix(numbers.law.rows(), 1) * numbers.high(0);
-    const auto found = lqg::step::limited_input<S>(law, Vector(in_target(applied)), Vector(in_target(x)),
-                                                   Vector(in_target(VectorXd(numbers.law * x))));
-    TEST_ASSERT_TRUE(found.is_optimal);
-    most = std::max(most, found.changes);
+    const unsigned needed = changes(x, applied);
+    VectorXd near = before, far = x;  // with another number of changes: a cut is between them
+    for (int halving = 0; n % 10 == 0 && halving < 60; ++halving) {
+      const VectorXd middle = 0.5 * (near + far);
+      (changes(middle, applied) == needed ? far : near) = middle;
+    }
+    before = x;
   }
   return static_cast<int>(most);
 }
