@@ -11,6 +11,8 @@
 #include "controller/stage_in_force.hpp"
 #include "design/finding.hpp"
 #include "design/numeric/linear_algebra.hpp"
+#include "design/rounding.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/reference.hpp"
 
 namespace lqg::controller {
@@ -32,7 +34,7 @@ Dimensions dimensions_of(const design::Problem& problem, const design::Solution&
   size.ny = problem.estimator ? static_cast<int>(problem.plant.C.rows()) : 0;
   size.nr = static_cast<int>(design::reference_outputs(problem).size());
   size.nxi = static_cast<int>(design::integrated_outputs(problem).size());
-  size.delayed = size.nx - static_cast<int>(problem.plant.A.rows());
+  size.delayed = size.nx - static_cast<int>(problem.plant.A.rows() + design::added_states(problem));
   return size;
 }
 
@@ -74,10 +76,7 @@ bool has_feedthrough(const Controller& controller) {
 
 Eigen::VectorXd start_of(const Controller& controller) {
   if (!controller.has.filter) return {};
-  const Eigen::VectorXd& own = controller.problem.estimator->x0;
-  Eigen::VectorXd x0 = Eigen::VectorXd::Zero(controller.size.nx);
-  x0.head(own.size()) = own;
-  return x0;
+  return design::to_doubles(controller.solution.start->x0).col(0);
 }
 
 // Of the innovations of each sample, those of tables of gains included.

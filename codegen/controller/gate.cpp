@@ -95,10 +95,7 @@ Gate gate_of_online(double sigma, Eigen::Index ny) {
 }
 
 MatrixXd initial_covariance(const Controller& controller) {
-  const MatrixXd& own = controller.problem.estimator->P0;
-  MatrixXd P0 = MatrixXd::Zero(controller.size.nx, controller.size.nx);
-  P0.topLeftCorner(own.rows(), own.cols()) = own;
-  return P0;
+  return design::to_doubles(controller.solution.start->P0);
 }
 
 }  // namespace

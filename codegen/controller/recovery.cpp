@@ -11,6 +11,7 @@
 #include "design/loop/compensator.hpp"
 #include "design/numeric/modes.hpp"
 #include "design/rounding.hpp"
+#include "design/sampled/added_states.hpp"
 
 namespace lqg::controller {
 
@@ -144,8 +145,17 @@ Steady steady_of(const Controller& controller, const std::vector<int>& lasting) 
 // Plant and controller, [x; s]⁺ = M [x; s].
 struct Loop {
   MatrixXd M;
-  Index plant = 0;  // states of it, the inputs that it keeps for D among them
+  Index plant = 0;             // states of it, the inputs that it keeps for D among them
+  std::vector<Index> modelled;  // where the first of these are in the filter's model, which has disturbances, too
 };
+
+std::vector<Index> undisturbed_states(const design::Problem& problem, Index nx) {
+  const Index first = problem.plant.A.rows(), count = design::disturbance_count(problem);
+  std::vector<Index> states;
+  for (Index i = 0; i < nx; ++i)
+    if (i < first || i >= first + count) states.push_back(i);
+  return states;
+}
 
 // Beside a filter without a steady state the law alone, as if the states were measured.
 Loop loop_of(const Controller& controller) {
@@ -153,12 +163,13 @@ Loop loop_of(const Controller& controller) {
   design::Problem problem = controller.problem;
   if (!controller.solution.estimator) problem.estimator.reset();
   const design::SampledPlant& plant = design::final_plant(controller.solution);
-  const design::ClosedLoop loop =
-      design::closed_loop(design::measured_plant(problem, plant), design::compensator(problem, controller.solution));
+  const design::ClosedLoop loop = design::closed_loop(design::measured_plant(problem, controller.solution),
+                                                      design::compensator(problem, controller.solution));
   const Index kept = problem.estimator && problem.estimator->form == design::Form::filter && !design::is_zero(plant.D)
                          ? controller.size.nu
                          : 0;
-  return {design::to_doubles(loop.A), controller.size.nx + kept};
+  const std::vector<Index> modelled = undisturbed_states(problem, controller.size.nx);
+  return {design::to_doubles(loop.A), static_cast<Index>(modelled.size()) + kept, modelled};
 }
 
 // From what `far` has of each state on, in plant and estimate, until both are `within`. ξ begins at its bound, and is
@@ -168,13 +179,18 @@ std::optional<long> samples_of_loop(const Controller& controller, const VectorXd
   const Index nx = controller.size.nx, all = loop.M.rows(), estimates = controller.solution.estimator ? nx : 0;
   const double infinite = std::numeric_limits<double>::infinity();
   VectorXd start = VectorXd::Constant(all, far.maxCoeff()), target = VectorXd::Constant(all, infinite);
-  start.head(nx) = far, target.head(nx) = recovery.within;
+  for (std::size_t i = 0; i < loop.modelled.size(); ++i) {
+    start(static_cast<Index>(i)) = far(loop.modelled[i]);
+    target(static_cast<Index>(i)) = recovery.within(loop.modelled[i]);
+  }
   start.segment(loop.plant, estimates) = far.head(estimates);
   target.segment(loop.plant, estimates) = recovery.within.head(estimates);
   for (int i = 0; i < controller.size.nxi; ++i)
     start(loop.plant + estimates + i) = std::ldexp(1.0, controller.bounds.xi[static_cast<std::size_t>(i)]);
   for (const int i : recovery.lasting) {
-    loop.M.row(i).setZero(), loop.M.col(i).setZero();
+    const auto own = std::find(loop.modelled.begin(), loop.modelled.end(), i);
+    const Index at = own - loop.modelled.begin();
+    if (own != loop.modelled.end()) loop.M.row(at).setZero(), loop.M.col(at).setZero();
     if (estimates) loop.M.row(loop.plant + i).setZero(), loop.M.col(loop.plant + i).setZero();
   }
   return samples_until(loop.M, start, target);

@@ -27,6 +27,7 @@ Solution in_present_digits(const Solution& solution) {
   const auto rounded = [](const RealMatrix& a) { return design::in_present_digits(a); };
   const SampledPlant& plant = solution.plant;
   result.plant = {rounded(plant.A), rounded(plant.B), rounded(plant.C), rounded(plant.D), rounded(plant.G)};
+  result.start = FilterStart{rounded(solution.start->x0), RealMatrix()};
   result.regulator.emplace().K = rounded(solution.regulator->K);
   result.estimator.emplace().L = rounded(solution.estimator->L);
   result.estimator->M = rounded(solution.estimator->M);
@@ -49,7 +50,7 @@ LinearForm in_physical_states(const Problem& problem, const Solution& solution) 
   form.heard = answers_at_once ? L : zeros(nx, ny);
   form.of_state = all.leftCols(nx);
   if (kept > 0) form.keep = multiply(all.rightCols(kept), all.bottomRows(kept));
-  form.z0 = padded(real(problem.estimator->x0), ns, 1);
+  form.z0 = padded(solution.start->x0, ns, 1);
   return form;
 }
 

@@ -33,6 +33,7 @@ struct Plant {
   Eigen::MatrixXd G;       // nx × nw
   Eigen::MatrixXd H;       // ny × nw
   double delay = 0;        // s from sampling y to u taking effect; whole periods of a discrete plant
+  Eigen::VectorXd output_delay;  // ny, s by which the filter hears each output late, whole periods; or empty: none
   std::vector<Signal> states, inputs, outputs;
 };
 
@@ -88,6 +89,12 @@ enum class Gain { steady, schedule, online };
 enum class Form { filter, predictor };
 enum class Covariance { ud, plain };
 
+// What acts beside an input and wanders: u + d, where d is a random walk with d(t + 1 s) − d(t) of that size, rms.
+struct InputDisturbance {
+  int input = 0;
+  double size = 0;  // unit of the input per √s, > 0
+};
+
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.
 struct Estimator {
   Eigen::MatrixXd W, V, Swv;
@@ -104,6 +111,7 @@ struct Estimator {
   std::optional<double> spike;       // σ, or infinite for none; not given: that of the default where there can be one
   Eigen::MatrixXd structure;         // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
   std::optional<WantedPoles> poles;  // [observer]: L has these poles; no noise is there then
+  std::vector<InputDisturbance> disturbance;  // estimated, too, and by the regulator cancelled; each input once
 };
 
 // Placed poles need no noise.

@@ -103,6 +103,8 @@ void visit_rows(A& rows, Visit visit) {
 template <typename A, typename Visit>
 void for_each_matrix(A& solution, Visit visit) {
   detail::visit_plant(solution.plant, visit);
+  if (solution.start) visit("kalman.initial_state", Place::report, solution.start->x0);
+  if (solution.start) visit("kalman.initial_covariance", Place::report, solution.start->P0);
   if (solution.noise) detail::visit_noise(*solution.noise, visit);
   if (solution.regulator) detail::visit_regulator(*solution.regulator, visit);
   if (solution.estimator) detail::visit_estimator(*solution.estimator, visit);

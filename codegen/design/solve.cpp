@@ -86,9 +86,10 @@ void describe_loop(const Problem& problem, DesignRun& run, unsigned digits) {
   if (run.cost_per_second) solution.loop.cost_per_second = to_double(*run.cost_per_second);
   if (!run.has_steady_loop) return;
   const Compensator controller = compensator(problem, solution);
-  const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
+  const MeasuredPlant plant = measured_plant(problem, solution);
   solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
-  if (run.stages.back().samples.noise) solution.loop.rms = steady_rms(problem, run.stages.back().samples, controller);
+  const Samples& around = run.stages.back().of_loop();
+  if (around.noise) solution.loop.rms = steady_rms(problem, around, controller);
 }
 
 void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& findings) {
@@ -98,7 +99,7 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
   if (run.has_steady_loop) {
     if (solution.estimator)
       solution.loop.at_output =
-          margins(open_at_outputs(measured_plant(problem, final_plant(solution)), compensator(problem, solution)),
+          margins(open_at_outputs(measured_plant(problem, solution), compensator(problem, solution)),
                   run.loop_poles);
     add_full_margins(problem, run);
   }

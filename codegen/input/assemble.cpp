@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "input/disturbances.hpp"
 #include "input/scenarios.hpp"
 
 namespace lqg::input {
@@ -53,6 +54,7 @@ design::Plant plant(const Values& values) {
   result.G = identity_or(values, "plant.G", nx);
   result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
   result.delay = values.number("plant.delay", 0);
+  result.output_delay = vector_or_empty(values, "plant.output_delay");
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
@@ -120,6 +122,16 @@ design::Regulator placed_regulator(const Values& values, const design::Plant& pl
   return result;
 }
 
+std::vector<design::InputDisturbance> disturbances(const Values& values) {
+  std::vector<design::InputDisturbance> result;
+  const Eigen::MatrixXd* sizes = values.matrix("kalman.disturbance");
+  for (const int input : indices(values, "kalman.disturbance")) {
+    const double given = sizes != nullptr ? (*sizes)(static_cast<Eigen::Index>(result.size()), 0) : 0;
+    result.push_back({input, given > 0 ? given : default_disturbance(values, input).value_or(0)});
+  }
+  return result;
+}
+
 design::Estimator estimator(const Values& values, const design::Plant& plant) {
   const int nx = static_cast<int>(plant.A.rows());
   design::Estimator result;
@@ -153,6 +165,7 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   result.covariance = says("kalman.covariance", "plain") ? design::Covariance::plain : design::Covariance::ud;
   result.x0 = zero_or(values, "kalman.initial_state", nx, 1).col(0);
   result.P0 = identity_or(values, "kalman.initial_covariance", nx);
+  result.disturbance = disturbances(values);
   return result;
 }
 

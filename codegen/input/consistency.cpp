@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "input/definite.hpp"
+#include "input/disturbances.hpp"
 #include "input/matrices.hpp"
 #include "input/scenarios.hpp"
 
@@ -34,7 +35,7 @@ void check_tables(const Values& values, Report& report) {
                         "limits.output_rates"}))
     report.error("limits", "expected u_min, u_max or another limit, found none");
   if (values.tables.count("plant") == 0) return;
-  for (const char* key : {"lqr", "pole_placement"})
+  for (const char* key : {"lqr", "pole_placement", "kalman.disturbance"})
     if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
   for (const char* key : {"kalman", "observer", "lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"})
     if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
@@ -301,6 +302,7 @@ void check_consistency(Values& values, Report& report) {
   check_companions(values, report);
   check_numbers(values, report);
   check_delay(values, report);
+  check_added_states(values, report);
   check_plane_of_poles(values, report);
   check_number_of_poles(values, report);
   check_held_outputs(values, report);

@@ -43,6 +43,10 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Inputs that have not yet taken effect become additional states, after those of the plant, the oldest first. "
        "D multiplies the input that acts.",
        "0", "README.md#what-a-delay-costs"},
+      {"plant.output_delay", Type::vector, ny, no, optional, {},
+       "Time in s by which each output comes late: whole periods of the sample time. What is on its way becomes "
+       "additional states of the filter, after those of the plant, the newest first. Needs [kalman].",
+       "0", "README.md#late-outputs"},
       {"plant.states", Type::signals, nx, no, optional, {}, "Names of the states, with units: `\"angle [rad]\"`.",
        "`x0`, `x1`, …"},
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
@@ -134,6 +138,12 @@ std::vector<KeyRule> keys_of_the_loop() {
        "none"},
       {"kalman.measurement_correlation_time", Type::positives, ny, no, optional, {},
        "Correlation time of each measurement noise, in s; V is scaled in the same way.", "none"},
+      {"kalman.disturbance", Type::walks, nu, no, optional, {},
+       "Inputs beside which an unknown disturbance d acts, as a random walk that the filter estimates, too: "
+       "`[\"voltage\"]`, or with its size in the input's unit per √s, `{ voltage = 0.5 }`. The law cancels it, "
+       "u = −K x̂ − d̂, which leaves no steady error. A size that is not given is 0.1 % of the input's in a sample, "
+       "0.001 u/√T: of `limits`, else of `lqr.bryson.inputs`.",
+       "none", "README.md#disturbances-at-the-inputs"},
       {"kalman.horizon", Type::steps, no, no, optional, {},
        "Length of the table of gains with `gain = \"schedule\"`. 0: until the gain equals the steady one in the "
        "target's precision.",

@@ -32,6 +32,7 @@ enum class Type {
   ranges,     // a table: of names of the signals that `rows` counts each a largest size, or [low, high]
   prices,     // a number > 0, or a table: of names of states, inputs and outputs each such a number
   indices,    // an array of different whole numbers from 0 to below `rows`
+  walks,      // some of the signals that `rows` counts, as indices, or a table of a size > 0 of each
   signal,     // one of the signals that `rows` counts: its name, or its number from 0
   entry,      // the same of a row or column whose signals another key tells
   poles,      // an array of numbers and of [re, im], conjugates in pairs

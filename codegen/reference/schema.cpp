@@ -91,6 +91,7 @@ Json value_schema(const KeyRule& rule) {
     case Type::ranges: return named({{"anyOf", {number_above_0, pair_of(number_or_infinity())}}});
     case Type::prices: return {{"anyOf", {number_above_0, named(number_above_0)}}};
     case Type::indices: return indices();
+    case Type::walks: return {{"anyOf", {indices(), {{"type", "object"}, {"additionalProperties", number_above_0}}}}};
     case Type::signal:
     case Type::entry: return {{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}};
     case Type::poles: return array_of(pole());

@@ -50,6 +50,7 @@ std::string values_of(const KeyRule& rule) {
     case Type::ranges: return "name = largest size, or [low, high]";
     case Type::prices: return "number > 0, or name = number > 0";
     case Type::indices: return "names or numbers of outputs";
+    case Type::walks: return "names or numbers of inputs, or a number > 0 of each";
     case Type::signal:
     case Type::entry: return "name or number of a signal";
     case Type::poles: return "poles";

@@ -8,6 +8,7 @@
 #include "design/numeric/digits.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "design/rounding.hpp"
+#include "design/sampled/added_states.hpp"
 
 namespace lqg::simulate {
 
@@ -34,7 +35,7 @@ MatrixXd square_root(const MatrixXd& S) {
 }
 
 // Of G w and v.
-MatrixXd joint_covariance(const Controller& controller, std::size_t sample, PlantNoise wanted) {
+MatrixXd joint_covariance_of_model(const Controller& controller, std::size_t sample, PlantNoise wanted) {
   const design::SampledPlant& plant = controller::plant_at(controller, sample);
   const design::SampledNoise* noise = controller::noise_at(controller, sample);
   const Index size = plant.A.rows() + plant.C.rows();
@@ -44,6 +45,16 @@ MatrixXd joint_covariance(const Controller& controller, std::size_t sample, Plan
   const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
   return design::to_doubles(
       design::joint(design::congruence(plant.G, noise->W), design::multiply(plant.G, noise->Swv), noise->V));
+}
+
+// The disturbances of the inputs stay 0 in what is designed: scenarios have loads.
+MatrixXd joint_covariance(const Controller& controller, std::size_t sample, PlantNoise wanted) {
+  MatrixXd S = joint_covariance_of_model(controller, sample, wanted);
+  if (wanted != PlantNoise::designed) return S;
+  const Index first = controller.problem.plant.A.rows();
+  for (Index i = first; i < first + design::disturbance_count(controller.problem); ++i)
+    S.row(i).setZero(), S.col(i).setZero();
+  return S;
 }
 
 }  // namespace

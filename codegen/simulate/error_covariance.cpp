@@ -80,9 +80,7 @@ void ErrorCovariance::load_gains(std::size_t gain_row) {
 }
 
 void ErrorCovariance::begin_anew() {
-  const MatrixXd& own = controller_.problem.estimator->P0;
-  P_ = MatrixXd::Zero(A_.rows(), A_.rows());
-  P_.topLeftCorner(own.rows(), own.cols()) = own;
+  P_ = design::to_doubles(controller_.solution.start->P0);
   before_ = P_;
   is_settled_ = false;
 }

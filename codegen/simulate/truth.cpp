@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 // How many samples back anything still needs: late inputs, late sensors, the cost of the design.
 Index samples_kept(const TruthModel& model) {
   double most = std::max(model.late + 1, model.designed_delay);
-  for (const design::Sensor& sensor : model.scenario->sensor) most = std::max(most, std::ceil(sensor.delay / model.T));
+  for (Index i = 0; i < model.ny; ++i) most = std::max(most, std::ceil(model.output_delay(i) / model.T));
   return static_cast<Index>(most) + model.late + 3;
 }
 
@@ -110,12 +110,12 @@ VectorXd Truth::outputs_at(int sample) const {
   return outputs_of(states_.col(place(sample)), sample - std::max(late, is_new ? 0 : 1), sample);
 }
 
-double Truth::late_output(const design::Sensor& sensor) const {
-  const double periods = sensor.delay / model_.T;
+double Truth::late_output(Index output) const {
+  const double delay = model_.output_delay(output), periods = delay / model_.T;
   const int whole = static_cast<int>(std::ceil(periods - 1e-9));
-  if (k_ < whole) return outputs_of(x0_, -1, 0)(sensor.output);
-  const double part = within_period(sensor.delay, model_.T);
-  return (part > 0 ? outputs_in(k_ - whole, model_.T - part) : outputs_at(k_ - whole))(sensor.output);
+  if (k_ < whole) return outputs_of(x0_, -1, 0)(output);
+  const double part = within_period(delay, model_.T);
+  return (part > 0 ? outputs_in(k_ - whole, model_.T - part) : outputs_at(k_ - whole))(output);
 }
 
 VectorXd Truth::measure() {
@@ -125,19 +125,20 @@ VectorXd Truth::measure() {
   drawn_ = ordered_image(stage.noise_factor, white);
   outputs_ = outputs_at(k_);
   VectorXd y = outputs_;
-  for (const design::Sensor& sensor : model_.scenario->sensor)
-    if (sensor.delay > 0) y(sensor.output) = late_output(sensor);
+  for (Index i = 0; i < model_.ny; ++i)
+    if (model_.output_delay(i) > 0) y(i) = late_output(i);
   y += drawn_.tail(model_.ny);
   for (const design::Sensor& sensor : model_.scenario->sensor) y(sensor.output) = sensed(sensor, y(sensor.output));
   return y;
 }
 
 VectorXd Truth::designed_state() const {
-  VectorXd x(model_.nx + model_.designed_delay * model_.nu);
+  const Index inputs = model_.nx + model_.added;  // what the filter adds costs nothing
+  VectorXd x = VectorXd::Zero(inputs + model_.designed_delay * model_.nu);
   x.head(model_.nx) = x_.head(model_.nx);
   for (int i = 0; i < model_.designed_delay; ++i) {
     const int sample = k_ - model_.designed_delay + i;
-    x.segment(model_.nx + i * model_.nu, model_.nu) =
+    x.segment(inputs + i * model_.nu, model_.nu) =
         sample < 0 ? VectorXd(VectorXd::Zero(model_.nu)) : VectorXd(inputs_.col(place(sample)));
   }
   return x;

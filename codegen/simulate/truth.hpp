@@ -37,7 +37,7 @@ class Truth {
   Eigen::VectorXd outputs_in(int period, double time) const;
   Eigen::VectorXd outputs_at(int sample) const;
   Eigen::VectorXd outputs_of(const Eigen::VectorXd& x, int asked, int period) const;
-  double late_output(const design::Sensor& sensor) const;
+  double late_output(Eigen::Index output) const;
   double asked_for(int input, int sample) const;
 
   Eigen::Index place(int sample) const { return sample % commands_.cols(); }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "design/rounding.hpp"
+#include "design/sampled/added_states.hpp"
 #include "simulate/designed.hpp"
 
 namespace lqg::simulate {
@@ -79,8 +80,8 @@ void add_moves(const TruthModel& model, TruthModel::Stage& stage) {
 std::vector<double> times_of(const TruthModel& model) {
   std::vector<double> ends = {model.T}, times;
   ends.insert(ends.end(), model.instants.begin(), model.instants.end());
-  for (const design::Sensor& sensor : model.scenario->sensor)
-    if (const double part = within_period(sensor.delay, model.T); part > 0) ends.push_back(model.T - part);
+  for (const double delay : model.output_delay)
+    if (const double part = within_period(delay, model.T); part > 0) ends.push_back(model.T - part);
   for (const double end : ends) {
     times.push_back(std::min(end, model.part > 0 ? model.part : end));
     if (model.part > 0 && end > model.part) times.push_back(end - model.part);
@@ -155,6 +156,9 @@ TruthModel truth_model(const controller::Controller& controller, const Scenario&
   const double delay = scenario.plant.delay.value_or(plant.delay);
   model.late = static_cast<int>(std::floor(delay / model.T + nearly_whole));
   model.part = within_period(delay, model.T);
+  model.output_delay = plant.output_delay.size() ? plant.output_delay : Eigen::VectorXd(Eigen::VectorXd::Zero(model.ny));
+  for (const design::Sensor& sensor : scenario.sensor) model.output_delay(sensor.output) += sensor.delay;
+  model.added = design::added_states(controller.problem);
   model.designed_delay = static_cast<int>(std::ceil(plant.delay / model.T - nearly_whole));
   for (int i = 1; i < instants && model.is_continuous; ++i) model.instants.push_back(model.T * i / instants);
   for (int input = 0; input < model.nu; ++input)

@@ -42,6 +42,8 @@ struct TruthModel {
   bool has_loads = false;        // of any kind: h has those parts
   int late = 0;                  // whole periods until an input acts,
   double part = 0;               // and s of the next one
+  Eigen::VectorXd output_delay;  // s, of the design and of the scenario together
+  Eigen::Index added = 0;        // states of the filter beside those of the plant and the inputs on their way
   int designed_delay = 0;        // periods, rounded up, as the cost of the design has it
   std::vector<double> instants;  // s after a sample, of what is shown between
   std::vector<double> times;     // s, over which the state is moved

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include "design/checks/well_posed.hpp"
+#include "design/sampled/added_states.hpp"
 
 namespace lqg::design {
 
@@ -66,6 +69,66 @@ void check_correlation_times(const Estimator& kalman, Findings& findings) {
               "needs both correlation times or none: it cannot be half a covariance and half a density");
 }
 
+void check_disturbances_stated(const Problem& problem, Findings& findings) {
+  const std::string key = "kalman.disturbance";
+  std::vector<bool> seen(static_cast<std::size_t>(problem.plant.B.cols()), false);
+  for (const InputDisturbance& disturbance : problem.estimator->disturbance) {
+    const std::size_t input = static_cast<std::size_t>(disturbance.input);
+    if (disturbance.input < 0 || input >= seen.size() || seen[input])
+      return add_error(findings, key, "expected inputs, each one once");
+    if (!(disturbance.size > 0)) add_error(findings, key, "expected sizes > 0");
+    seen[input] = true;
+  }
+}
+
+std::string name_of_output(const Plant& plant, Index i) {
+  const std::size_t at = static_cast<std::size_t>(i);
+  return at < plant.outputs.size() ? plant.outputs[at].name : "y" + std::to_string(i);
+}
+
+// What of a late output the filter cannot be told by states alone.
+void check_late_output(const Problem& problem, Index i, Findings& findings) {
+  const Plant& plant = problem.plant;
+  const Estimator& kalman = *problem.estimator;
+  const std::string key = "plant.output_delay", late = "output " + name_of_output(plant, i) + " is late: ";
+  if (kalman.form == Form::filter && !(plant.delay > 0) && !plant.D.row(i).isZero(0))
+    add_error(findings, key,
+              late + "in filter form it is measured while the last u acts, which plant.D makes part of it: expected "
+                     "kalman.form = \"predictor\"");
+  if (!plant.H.row(i).isZero(0))
+    add_error(findings, key, late + "expected zeros in its row of plant.H, as its noise is that of its arrival");
+  if (!kalman.Swv.col(i).isZero(0))
+    add_error(findings, key,
+              late + "expected zeros in its column of kalman.cross_noise, as its noise is that of its arrival");
+  if (!problem.regulator || !problem.regulator->integral) return;
+  for (const int output : problem.regulator->integral->outputs)
+    if (output == i)
+      add_error(findings, "lqr.integral.outputs",
+                late + "its integral would run behind the law; expected kalman.disturbance, which takes steady errors "
+                       "away by the filter, or another output");
+}
+
+void check_late_outputs(const Problem& problem, Findings& findings) {
+  const Plant& plant = problem.plant;
+  const std::string key = "plant.output_delay";
+  if (plant.output_delay.size() == 0 || plant.output_delay.isZero(0)) return;
+  if (!has_noise(problem.estimator)) return add_error(findings, key, "needs [kalman]: only the filter knows late outputs");
+  for (Index i = 0; i < plant.output_delay.size(); ++i) {
+    const double periods = plant.output_delay(i) / plant.sample_time;
+    if (periods < 0 || std::abs(periods - std::round(periods)) > 1e-9 * periods)
+      add_error(findings, key, "expected whole periods of the sample time for output " + name_of_output(plant, i));
+    if (periods > 0) check_late_output(problem, i, findings);
+  }
+}
+
+void check_added_states(const Problem& problem, Findings& findings) {
+  if (has_noise(problem.estimator)) check_disturbances_stated(problem, findings);
+  check_late_outputs(problem, findings);
+  if (!has_error(findings) && has_added_states(problem) && problem.estimator->structure.size() > 0)
+    add_error(findings, "kalman.structure",
+              "says nothing of disturbances and late outputs, which are states, too: expected neither of them");
+}
+
 }  // namespace
 
 void check_kinds(const Problem& problem, Findings& findings) {
@@ -77,6 +140,7 @@ void check_kinds(const Problem& problem, Findings& findings) {
   if (has_noise(problem.estimator)) check_steps(problem.estimator->horizon, "kalman.horizon", findings);
   if (!problem.stages.empty()) check_steps(problem.stages.back().from, "stage", findings);
   if (has_noise(problem.estimator)) check_correlation_times(*problem.estimator, findings);
+  check_added_states(problem, findings);
 }
 
 }  // namespace lqg::design

@@ -156,6 +156,21 @@ bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findi
                     findings);
 }
 
+bool check_disturbances(const Problem& filtered, Findings& findings) {
+  const Plant& plant = filtered.plant;
+  const Eigen::MatrixXd A = plant.A.transpose(), C = plant.C.transpose();
+  const Unreached unseen = unreached_modes_of(plant, A, C);
+  const bool certain = unseen.dimension == A.rows() - reached_dimension(A, C);
+  for (const Mode& mode : unseen.modes)
+    if (is_too_slow(plant, mode, Decay()))
+      add_once(findings, "kalman.disturbance",
+               name_mode(plant, mode, true) +
+                   (certain ? " is seen in no output" : " is seen too weakly in the outputs") +
+                   ": the outputs do not tell these disturbances; there are at most as many as outputs, and none where "
+                   "the plant has a zero at z = 1 (s = 0) from the input to the outputs");
+  return certain;
+}
+
 bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findings& findings) {
   const Plant& plant = problem.plant;
   const bool certain =
@@ -257,7 +272,9 @@ void check_start(const Problem& problem, const Samples& samples, Findings& findi
     modes += (modes.empty() ? "" : ", ") + name_mode(problem.plant, mode, false);
   }
   if (vectors.cols() == 0) return;
-  const RealMatrix known = transpose_congruence(vectors, real(problem.estimator->P0));
+  const Index own = samples.own_states;
+  const RealMatrix P0 = initial_covariance(*problem.estimator, samples).topLeftCorner(own, own);
+  const RealMatrix known = transpose_congruence(vectors, P0);
   if (eliminated(known).rank < eliminated(transpose_multiply(vectors, vectors)).rank)
     add_error(findings, "kalman.initial_covariance",
               modes +

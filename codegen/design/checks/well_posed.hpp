@@ -23,6 +23,10 @@ void check_definiteness(const Problem& problem, Findings& findings);
 bool check_stabilisable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 bool check_detectable(const Problem& problem, const SampledPlant& sampled, Findings& findings);
 
+// Are the disturbances of the filter's problem told from each other and from the plant's modes? The plant without them
+// is detectable. False as above.
+bool check_disturbances(const Problem& filtered, Findings& findings);
+
 // The same of every mode, stable or not: poles are to be placed. `seen` is what of the state an observer's error
 // shows: C, or CA in filter form.
 bool check_reachable(const Problem& problem, const SampledPlant& sampled, Findings& findings);

@@ -62,11 +62,6 @@ void factor_process_noise(OnlineSolution& online) {
 
 }  // namespace
 
-RealMatrix initial_covariance(const Estimator& estimator, const Samples& samples) {
-  const Index all = samples.plant.A.rows();
-  return padded(real(estimator.P0), all, all);
-}
-
 OnlineSolution online_filter(const Estimator& estimator, const Samples& samples) {
   const SampledPlant& plant = samples.plant;
   const SampledNoise& noise = *samples.noise;

@@ -19,9 +19,6 @@ RiccatiResult solve_continuous_estimator(const Problem& problem, const RealMatri
 // All of the filter that follows from P_prior; the poles stay empty.
 EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior);
 
-// P0 of the file, with nothing to learn of the inputs on their way.
-RealMatrix initial_covariance(const Estimator& estimator, const Samples& samples);
-
 OnlineSolution online_filter(const Estimator& estimator, const Samples& samples);
 
 // Says under the right key why there is no filter.

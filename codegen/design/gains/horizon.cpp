@@ -54,7 +54,7 @@ struct StageSteps {
   RiccatiEquation equation;
   std::optional<RiccatiFlow> flow;  // of a continuous cost
 
-  explicit StageSteps(const SampledStage& stage) : equation(regulator_equation(stage.problem, stage.samples)) {
+  explicit StageSteps(const SampledStage& stage) : equation(regulator_equation(stage.problem, stage.of_regulator())) {
     if (stage.problem.regulator->cost == Cost::continuous)
       flow = riccati_flow(equation, Real(stage.problem.plant.sample_time));
   }
@@ -88,7 +88,7 @@ GainTable gains_backward(const std::vector<SampledStage>& stages, int steps, con
 }
 
 RealMatrix final_weight(const SampledStage& last, const Eigen::MatrixXd& Q_final) {
-  const Index size = regulated_plant(last.problem, last.samples.plant).A.rows();
+  const Index size = regulated_plant(last.problem, last.of_regulator().plant).A.rows();
   return padded(real(Q_final), size, size);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "design/loop/compensator.hpp"
 
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/reference.hpp"
 
 namespace lqg::design {
@@ -92,6 +93,10 @@ MeasuredPlant measured_plant(const Problem& problem, const SampledPlant& plant) 
   if (!has_filter_form(problem) || is_zero(plant.D)) return {plant.A, plant.B, plant.C, plant.D, plant.G};
   return {above(beside(plant.A, zeros(nx, nu)), zeros(nu, nx + nu)), above(plant.B, identity(nu)),
           beside(plant.C, plant.D), zeros(ny, nu), above(plant.G, zeros(nu, plant.G.cols()))};
+}
+
+MeasuredPlant measured_plant(const Problem& problem, const Solution& solution) {
+  return measured_plant(problem, without_disturbances(problem, final_plant(solution)));
 }
 
 ClosedLoop closed_loop(const MeasuredPlant& plant, const Compensator& controller) {

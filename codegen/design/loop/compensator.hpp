@@ -37,6 +37,9 @@ bool is_separated(const Problem& problem, const SampledPlant& plant);
 
 MeasuredPlant measured_plant(const Problem& problem, const SampledPlant& plant);
 
+// The same of the last stage's plant, which is not disturbed.
+MeasuredPlant measured_plant(const Problem& problem, const Solution& solution);
+
 // [x; s]⁺ of plant and controller, A; what [w; v] adds to it, B. The plant's input is u = C [x; s] + D [w; v].
 struct ClosedLoop {
   RealMatrix A, B, C, D;

@@ -83,7 +83,7 @@ std::vector<ComplexReal> checked_poles(const PolesIn& poles_in, const std::strin
 void check_cost(const SampledStage& last, const Compensator& controller, const Solution& solution, RoundedLoop& rounded,
                 Findings& findings) {
   if (!solution.loop.cost_per_sample) return;
-  const std::optional<SteadyCost> cost = steady_cost(last.problem, last.samples, controller);
+  const std::optional<SteadyCost> cost = steady_cost(last.problem, last.of_loop(), controller);
   if (!cost)
     return add_note(findings, "code.real",
                     "the cost of the loop with the numbers rounded to " + name_of(last.problem.code.real) +
@@ -106,7 +106,7 @@ std::vector<ComplexReal> poles_of_filter(const Solution& rounded) {
 
 void check_rounded_controller(const Problem& problem, const SampledStage& last, const ControllerIn& controller_in,
                               Solution& solution, Findings& findings) {
-  const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
+  const MeasuredPlant plant = measured_plant(problem, solution);
   const PolesIn poles_in = [&](Scalar real) { return eigenvalues(closed_loop(plant, controller_in(real)).A); };
   const std::vector<ComplexReal> poles = checked_poles(poles_in, "the loop", problem.code.real, findings);
   if (has_error(findings)) return;

@@ -11,6 +11,7 @@
 #include "design/loop/rounded_loop.hpp"
 #include "design/rounding.hpp"
 #include "design/run/design_run_parts.hpp"
+#include "design/sampled/added_states.hpp"
 
 namespace lqg::design {
 
@@ -22,14 +23,19 @@ StageSolution stage_solution(const SampledStage& stage) {
   solution.plant = stage.samples.plant;
   solution.cost = stage.samples.cost;
   solution.noise = stage.samples.noise;
-  if (has_noise(stage.problem.estimator) && stage.problem.estimator->gain == Gain::online)
-    solution.online = online_filter(*stage.problem.estimator, stage.samples);
+  const std::optional<Estimator>& kalman = stage.of_filter().estimator;
+  if (has_noise(kalman) && kalman->gain == Gain::online) solution.online = online_filter(*kalman, stage.samples);
   return solution;
+}
+
+FilterStart start_of(const SampledStage& first) {
+  const Estimator& estimator = *first.of_filter().estimator;
+  return {initial_state(estimator, first.samples), initial_covariance(estimator, first.samples)};
 }
 
 // Without those of the controller's copy of the last input, which the plant that is measured keeps, too.
 std::vector<ComplexReal> poles_of_closed_loop(const Problem& problem, const Solution& solution) {
-  const MeasuredPlant plant = measured_plant(problem, final_plant(solution));
+  const MeasuredPlant plant = measured_plant(problem, solution);
   std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, compensator(problem, solution)).A);
   const auto farther = [](const ComplexReal& a, const ComplexReal& b) { return hypot(a.re, a.im) > hypot(b.re, b.im); };
   std::sort(poles.begin(), poles.end(), farther);
@@ -40,6 +46,7 @@ std::vector<ComplexReal> poles_of_closed_loop(const Problem& problem, const Solu
 void take_loop_poles(const Problem& problem, DesignRun& run) {
   run.loop_poles = run.regulator_poles;
   run.loop_poles.insert(run.loop_poles.end(), run.estimator_poles.begin(), run.estimator_poles.end());
+  run.loop_poles.insert(run.loop_poles.end(), static_cast<std::size_t>(late_output_count(problem)), {Real(0), Real(0)});
   if (!run.has_steady_loop || !problem.estimator || is_separated(problem, final_plant(run.solution))) return;
   run.loop_poles = poles_of_closed_loop(problem, run.solution);
   if (!is_stable(run.loop_poles))
@@ -55,12 +62,12 @@ bool has_steady_loop(const Problem& problem, const DesignRun& run) {
          is_stable(run.regulator_poles) && is_stable(run.estimator_poles);
 }
 
-// White innovations need the filter that is optimal for ever.
+// White innovations need the filter that is optimal for ever, for the plant that is there.
 std::optional<SteadyCost> cost_of_loop(const SampledStage& last, const Solution& solution) {
   const Estimator& kalman = *last.problem.estimator;
   const Compensator controller = compensator(last.problem, solution);
-  if ((kalman.gain == Gain::schedule && kalman.horizon > 0) || kalman.structure.size() > 0)
-    return steady_cost(last.problem, last.samples, controller);
+  const bool is_optimal = (kalman.gain != Gain::schedule || kalman.horizon == 0) && kalman.structure.size() == 0;
+  if (!is_optimal || has_added_states(last.problem)) return steady_cost(last.problem, last.of_loop(), controller);
   return steady_cost(last.problem, last.samples, controller, solution);
 }
 
@@ -80,6 +87,7 @@ DesignRun run_design(const Problem& problem, const DesignRun* coarser) {
   const std::vector<SampledStage> stages = sample_stages(problem);
   result.stages = stages;
   result.solution.plant = stages.front().samples.plant;
+  if (problem.estimator) result.solution.start = start_of(stages.front());
   for (std::size_t i = 1; i < stages.size(); ++i) result.solution.stages.push_back(stage_solution(stages[i]));
   check_representable(result.solution, problem.code.real, result.findings);
   if (has_error(result.findings)) return result;

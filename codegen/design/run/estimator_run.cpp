@@ -7,6 +7,7 @@
 #include "design/gains/schedule.hpp"
 #include "design/run/design_run_parts.hpp"
 #include "design/run/sparse_gain_run.hpp"
+#include "design/sampled/added_states.hpp"
 
 namespace lqg::design {
 
@@ -20,9 +21,13 @@ std::vector<ComplexReal> poles_of_filter(const Samples& samples, const RealMatri
 }
 
 // Is there a steady filter? One that is updated on the target can do without, where a mode needs no noise.
-bool has_steady_filter(const Problem& problem, const Samples& samples, DesignRun& result) {
-  if (!check_detectable(problem, own_plant(samples), result.findings)) result.may_want_digits = true;
-  if (!has_error(result.findings)) check_sight_is_no_artefact(problem, result.findings);
+bool has_steady_filter(const SampledStage& stage, DesignRun& result) {
+  const Problem& problem = stage.of_filter();
+  const Samples& samples = stage.samples;
+  if (!check_detectable(stage.problem, own_plant(stage.of_regulator()), result.findings)) result.may_want_digits = true;
+  if (!has_error(result.findings)) check_sight_is_no_artefact(stage.problem, result.findings);
+  if (!has_error(result.findings) && disturbance_count(stage.problem) > 0)
+    result.may_want_digits = !check_disturbances(problem, result.findings) || result.may_want_digits;
   Findings on_limit;
   check_noise_on_limit(problem, samples, on_limit);
   if (on_limit.empty()) check_noise_is_no_artefact(problem, on_limit);
@@ -35,7 +40,7 @@ bool has_steady_filter(const Problem& problem, const Samples& samples, DesignRun
   return on_limit.empty() && !has_error(result.findings);
 }
 
-// What other tools call the Kalman gain of a continuous plant. Nothing here is made of it: where it is not found, it is
+// What other tools call the Kalman gain of a continuous plant, with its disturbances and without late outputs. Nothing here is made of it: where it is not found, it is
 // left out.
 void add_continuous_gain(const Problem& problem, const DesignRun* coarser, EstimatorSolution& filter) {
   if (problem.plant.domain == Domain::discrete || problem.estimator->noise == Noise::discrete) return;
@@ -48,7 +53,7 @@ void add_continuous_gain(const Problem& problem, const DesignRun* coarser, Estim
 }
 
 void run_steady_filter(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
-  if (!has_steady_filter(last.problem, last.samples, result)) return;
+  if (!has_steady_filter(last, result)) return;
   const bool has_start = coarser && coarser->solution.estimator;
   const RiccatiResult found =
       solve_estimator(last.samples, has_start ? coarser->solution.estimator->P_prior : RealMatrix());
@@ -58,7 +63,7 @@ void run_steady_filter(const SampledStage& last, const DesignRun* coarser, Desig
   take_condition(found, result.solution);
   result.solution.estimator = filter_of(last.samples, found.X);
   result.estimator_poles = poles_of_filter(last.samples, result.solution.estimator->L_predictor);
-  add_continuous_gain(last.problem, coarser, *result.solution.estimator);
+  add_continuous_gain(last.of_filter(), coarser, *result.solution.estimator);
   if (last.problem.estimator->structure.size() > 0)
     keep_estimator_structure(last.problem, last.samples, coarser, result);
 }
@@ -69,12 +74,12 @@ void take_tables(const GainSchedule& schedule, DesignRun& result) {
 }
 
 void run_schedule_to_steady(const Problem& problem, const std::vector<SampledStage>& stages, DesignRun& result) {
-  if (stages.size() == 1) check_start(problem, stages.front().samples, result.findings);
+  if (stages.size() == 1) check_start(stages.front().of_filter(), stages.front().samples, result.findings);
   if (has_error(result.findings)) return;
   const EstimatorSolution& steady = *result.solution.estimator;
   const int most = most_gains(problem, steady);
   const GainSchedule schedule = gains_until_steady(
-      stages, initial_covariance(*problem.estimator, stages.front().samples), steady, problem.code.real, most);
+      stages, result.solution.start->P0, steady, problem.code.real, most);
   if (!schedule.is_settled)
     return add_error(result.findings, "kalman.gain",
                      "after " + std::to_string(most) +
@@ -87,7 +92,7 @@ void run_schedule_to_steady(const Problem& problem, const std::vector<SampledSta
 void run_finite_schedule(const Problem& problem, const std::vector<SampledStage>& stages, DesignRun& result) {
   const int count = problem.estimator->horizon;
   const GainSchedule schedule =
-      gains_forward(stages, initial_covariance(*problem.estimator, stages.front().samples), count);
+      gains_forward(stages, result.solution.start->P0, count);
   result.solution.estimator = schedule.last;
   take_tables(schedule, result);
   result.estimator_poles = poles_of_filter(stage_at(stages, count - 1).samples, schedule.last.L_predictor);
@@ -104,7 +109,7 @@ void run_optimal_filter(const Problem& problem, const std::vector<SampledStage>&
   run_steady_filter(stages.back(), coarser, result);
   if (has_error(result.findings)) return;
   if (gain == Gain::schedule) run_schedule_to_steady(problem, stages, result);
-  if (gain == Gain::online) result.solution.online = online_filter(*problem.estimator, stages.front().samples);
+  if (gain == Gain::online) result.solution.online = online_filter(*stages.front().of_filter().estimator, stages.front().samples);
 }
 
 void run_placed_filter(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {

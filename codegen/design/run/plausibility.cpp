@@ -9,6 +9,7 @@
 #include "design/numeric/digits.hpp"
 #include "design/numeric/poles.hpp"
 #include "design/rounding.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/augmentation.hpp"
 #include "design/sampled/reference.hpp"
 #include "design/sampled/weights.hpp"
@@ -85,7 +86,7 @@ void note_margins(const Problem& problem, const DesignRun& run, Findings& findin
   const Margins& margins = run.solution.loop.at_input;
   const std::string end = ": look at the weights, the plant's units and plant.delay";
   const OpenLoop loop =
-      open_at_inputs(measured_plant(problem, final_plant(run.solution)), compensator(problem, run.solution));
+      open_at_inputs(measured_plant(problem, run.solution), compensator(problem, run.solution));
   if (!is_stable_when_late(loop))
     add_note(
         findings, key_of_law(problem),
@@ -110,7 +111,7 @@ std::vector<double> sizes(const std::vector<ComplexReal>& poles) {
 void note_idle_regulator(const Problem& problem, const DesignRun& run, Findings& findings) {
   if (!has_cost(problem.regulator) || problem.regulator->horizon > 0 || problem.regulator->integral) return;
   if (problem.regulator->input_rate.size() > 0 || is_zero(run.solution.regulator->K)) return;
-  const std::vector<double> alone = sizes(eigenvalues(final_plant(run.solution).A));
+  const std::vector<double> alone = sizes(eigenvalues(run.stages.back().of_regulator().plant.A));
   const std::vector<double> closed = sizes(run.regulator_poles);
   for (std::size_t i = 0; i < alone.size(); ++i)
     if (!(std::abs(alone[i] - closed[i]) < 1e-6 * std::abs(1 - alone[i]))) return;
@@ -133,7 +134,7 @@ void note_free_inputs(const Problem& problem, const DesignRun& run, Findings& fi
   if (!has_cost(problem.regulator) || lqr.horizon > 0 || lqr.cost == Cost::continuous) return;
   if (lqr.input_rate.size() > 0) return;
   const RealMatrix by_states =
-      transpose_congruence(regulated_plant(problem, final_plant(run.solution)).B, run.solution.regulator->X);
+      transpose_congruence(regulated_plant(problem, run.stages.back().of_regulator().plant).B, run.own_law->X);
   const RealMatrix R = weights_of(problem).R;
   const Real period = lqr.cost == Cost::sampled ? Real(problem.plant.sample_time) : Real(1);
   for (Index i = 0; i < R.rows(); ++i) {
@@ -177,7 +178,7 @@ struct Asked {
 
 Asked asked_by_reference(const Problem& problem, const Solution& solution) {
   const std::vector<int> outputs = reference_outputs(problem);
-  const SampledPlant& plant = final_plant(solution);
+  const SampledPlant plant = without_disturbances(problem, final_plant(solution));
   const Index nx = plant.A.rows(), nu = plant.B.cols(), nr = static_cast<Index>(outputs.size());
   Asked asked = {solution.regulator->Nu, solution.regulator->Nbar};
   if (nr != nu) return asked;

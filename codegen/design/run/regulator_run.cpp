@@ -8,6 +8,7 @@
 #include "design/gains/regulator.hpp"
 #include "design/run/design_run_parts.hpp"
 #include "design/run/sparse_gain_run.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/anti_windup.hpp"
 #include "design/sampled/reference.hpp"
 
@@ -47,10 +48,10 @@ void take_table(const GainTable& table, const char* key, DesignRun& result) {
 
 // The gain that is optimal for ever after the last change.
 void run_steady_law(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
-  check_regulator(last.problem, last.samples, result);
+  check_regulator(last.problem, last.of_regulator(), result);
   if (has_error(result.findings)) return;
   const SteadyRegulator found =
-      solve_regulator(last.problem, last.samples, coarser ? coarser->solution.regulator->X : RealMatrix());
+      solve_regulator(last.problem, last.of_regulator(), coarser ? coarser->own_law->X : RealMatrix());
   explain_regulator(found.riccati.failure, result.findings);
   if (found.riccati.failure != RiccatiFailure::none) {
     result.may_want_digits = true;
@@ -61,7 +62,7 @@ void run_steady_law(const SampledStage& last, const DesignRun* coarser, DesignRu
   result.solution.regulator->X = found.riccati.X;
   result.regulator_poles = found.poles;
   if (last.problem.regulator->structure.size() > 0)
-    keep_regulator_structure(last.problem, last.samples, coarser, result);
+    keep_regulator_structure(last.problem, last.of_regulator(), coarser, result);
   if (last.problem.regulator->cost == Cost::continuous && !is_stable(found.poles))
     add_error(result.findings, "lqr.cost",
               "the continuous gain does not stabilise the sampled plant: sample faster, or use \"sampled\"");
@@ -79,7 +80,7 @@ void run_finite(const std::vector<SampledStage>& stages, const Regulator& lqr, D
   regulator.Q_final = X_end.topLeftCorner(nx, nx);
   regulator.K = table.K.back();
   regulator.X = table.X_last;
-  result.regulator_poles = eigenvalues(regulated_loop(last.problem, last.samples.plant, regulator.K));
+  result.regulator_poles = eigenvalues(regulated_loop(last.problem, last.of_regulator().plant, regulator.K));
   if (!is_stable(result.regulator_poles))
     add_note(
         result.findings, "lqr.horizon",
@@ -89,7 +90,7 @@ void run_finite(const std::vector<SampledStage>& stages, const Regulator& lqr, D
 void run_optimal_law(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                      DesignRun& result) {
   RegulatorSolution& regulator = result.solution.regulator.emplace();
-  regulator.cost = *stages.front().samples.cost;
+  regulator.cost = *stages.front().of_regulator().cost;
   if (problem.regulator->horizon > 0) return run_finite(stages, *problem.regulator, result);
   run_steady_law(stages.back(), coarser, result);
   if (stages.size() > 1 && !has_error(result.findings))
@@ -97,7 +98,7 @@ void run_optimal_law(const Problem& problem, const std::vector<SampledStage>& st
 }
 
 void run_feed_forward(const SampledStage& last, DesignRun& result) {
-  const std::optional<SetPoint> point = set_point(last.problem, last.samples.plant, result.findings);
+  const std::optional<SetPoint> point = set_point(last.problem, last.of_regulator().plant, result.findings);
   if (!point) return;
   check_set_points_are_no_artefact(last.problem, last.problem.regulator->track, "lqr.track", result.findings);
   RegulatorSolution& regulator = *result.solution.regulator;
@@ -108,7 +109,7 @@ void run_feed_forward(const SampledStage& last, DesignRun& result) {
 
 void run_anti_windup(const SampledStage& last, DesignRun& result) {
   RegulatorSolution& regulator = *result.solution.regulator;
-  const auto Gamma = state_share_of_integrals(last.problem, last.samples.plant, regulator.K);
+  const auto Gamma = state_share_of_integrals(last.problem, last.of_regulator().plant, regulator.K);
   if (!Gamma)
     return add_note(
         result.findings, "lqr.integral",
@@ -116,7 +117,7 @@ void run_anti_windup(const SampledStage& last, DesignRun& result) {
         "them: at a limit they follow the input (anti_windup = \"conditioning\")");
   regulator.Gamma = *Gamma;
   if (last.problem.regulator->anti_windup == AntiWindup::model)
-    regulator.H = anti_windup(last.problem, last.samples.plant, regulator.Gamma);
+    regulator.H = anti_windup(last.problem, last.of_regulator().plant, regulator.Gamma);
 }
 
 void run_placed_law(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {
@@ -130,14 +131,23 @@ void run_placed_law(const Problem& problem, const Samples& samples, const Design
   result.solution.regulator->K = placed.gain;
 }
 
+// Of the plant's own states.
+void run_own_law(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
+                 DesignRun& result) {
+  if (!has_cost(problem.regulator)) return run_placed_law(problem, stages.back().of_regulator(), coarser, result);
+  run_optimal_law(problem, stages, coarser, result);
+  if (problem.regulator->integral && !has_error(result.findings)) run_anti_windup(stages.back(), result);
+  if (!problem.regulator->track.empty() && !has_error(result.findings)) run_feed_forward(stages.back(), result);
+}
+
 }  // namespace
 
 void run_regulator(const Problem& problem, const std::vector<SampledStage>& stages, const DesignRun* coarser,
                    DesignRun& result) {
-  if (!has_cost(problem.regulator)) return run_placed_law(problem, stages.back().samples, coarser, result);
-  run_optimal_law(problem, stages, coarser, result);
-  if (problem.regulator->integral && !has_error(result.findings)) run_anti_windup(stages.back(), result);
-  if (!problem.regulator->track.empty() && !has_error(result.findings)) run_feed_forward(stages.back(), result);
+  run_own_law(problem, stages, coarser, result);
+  if (has_error(result.findings)) return;
+  result.own_law = result.solution.regulator;
+  add_states_to(problem, *result.solution.regulator);
 }
 
 }  // namespace lqg::design

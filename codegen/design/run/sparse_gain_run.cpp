@@ -118,7 +118,7 @@ void keep_regulator_structure(const Problem& problem, const Samples& samples, co
   structured.kept.leftCols(problem.regulator->structure.cols()) = problem.regulator->structure;
   structured.W = disturbance(samples, structured.equation, full);
   const StructuredGain found =
-      structured_gain(structured, full, coarser ? coarser->solution.regulator->K : RealMatrix());
+      structured_gain(structured, full, coarser ? coarser->own_law->K : RealMatrix());
   if (found.failure != StructureFailure::none) return explain(structured, found, "lqr.structure", result);
   StructureReport& report = regulator.structure.emplace();
   report.full = full;
@@ -157,7 +157,7 @@ void keep_estimator_structure(const Problem& problem, const Samples& samples, co
 namespace {
 
 Margins margins_of(const Problem& problem, const Solution& solution) {
-  const MeasuredPlant plant = measured_plant(problem, solution.plant);
+  const MeasuredPlant plant = measured_plant(problem, solution);
   const Compensator controller = compensator(problem, solution);
   const OpenLoop loop = open_at_inputs(plant, controller);
   return margins(loop, eigenvalues(loop.A - multiply(loop.B, loop.C)));

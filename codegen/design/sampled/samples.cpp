@@ -172,4 +172,15 @@ SampledPlant own_plant(const Samples& samples) {
   return {plant.A.topLeftCorner(nx, nx), RealMatrix(), plant.C.leftCols(nx), RealMatrix(), plant.G.topRows(nx)};
 }
 
+RealMatrix initial_state(const Estimator& estimator, const Samples& samples) {
+  const RealMatrix own = real(estimator.x0);
+  return padded(samples.start.size() > 0 ? multiply(samples.start, own) : own, samples.plant.A.rows(), 1);
+}
+
+RealMatrix initial_covariance(const Estimator& estimator, const Samples& samples) {
+  const Index all = samples.plant.A.rows();
+  const RealMatrix own = real(estimator.P0);
+  return padded(samples.start.size() > 0 ? congruence(samples.start, own) : own, all, all);
+}
+
 }  // namespace lqg::design

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "design/sampled/stages.hpp"
 
+#include "design/sampled/added_states.hpp"
+
 namespace lqg::design {
 
 namespace {
@@ -42,7 +44,14 @@ std::vector<SampledStage> sample_stages(const Problem& problem) {
   std::vector<SampledStage> stages;
   for (const Problem& of_stage : problems_of_stages(problem)) {
     const int from = stages.empty() ? 0 : problem.stages[stages.size() - 1].from;
-    stages.push_back({from, of_stage, sample(of_stage)});
+    SampledStage stage = {from, of_stage, sample(of_stage), std::nullopt, std::nullopt, std::nullopt};
+    if (has_added_states(of_stage)) {
+      stage.own = std::move(stage.samples);
+      stage.surrounding = with_late_outputs(of_stage, *stage.own);
+      stage.filtered = with_disturbances(of_stage);
+      stage.samples = filter_model(of_stage, *stage.filtered, *stage.own);
+    }
+    stages.push_back(std::move(stage));
   }
   return stages;
 }

@@ -8,11 +8,18 @@
 
 namespace lqg::design {
 
-// From step `from` on.
+// From step `from` on. What the filter knows, the plant that is there and the one that the regulator was made for differ
+// only where states are added.
 struct SampledStage {
   int from = 0;
   Problem problem;  // with what this stage and those before it replace
-  Samples samples;
+  Samples samples;  // of the filter's model
+  std::optional<Problem> filtered;          // the filter's problem, with the disturbances in its plant
+  std::optional<Samples> own, surrounding;  // of the file's plant; of that plant behind its late outputs
+
+  const Problem& of_filter() const { return filtered ? *filtered : problem; }
+  const Samples& of_regulator() const { return own ? *own : samples; }
+  const Samples& of_loop() const { return surrounding ? *surrounding : samples; }
 };
 
 // `problem` as it is before the first stage, and from each stage on: a stage replaces what it has, and keeps from the

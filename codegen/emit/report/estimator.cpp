@@ -46,14 +46,6 @@ bool is_known(const Controller& controller) {
          controller.problem.stages.empty() && estimator->P0.size() > 0;
 }
 
-// P0 over all states; inputs on their way are known.
-MatrixXd first_covariance(const Controller& controller, Eigen::Index nx) {
-  MatrixXd P = MatrixXd::Zero(nx, nx);
-  const MatrixXd& given = controller.problem.estimator->P0;
-  P.topLeftCorner(given.rows(), given.cols()) = given;
-  return P;
-}
-
 const design::RealMatrix& row_of(const std::vector<design::RealMatrix>& table, const design::RealMatrix& last,
                                  std::size_t k) {
   return k < table.size() ? table[k] : last;
@@ -79,7 +71,7 @@ Beginning beginning(const Controller& controller) {
                      in_double(solution.noise->V),
                      in_double(solution.noise->Swv),
                      {}};
-  now.P = first_covariance(controller, now.A.rows());
+  now.P = in_double(controller.solution.start->P0);
   Beginning out;
   const int samples = samples_to_settle(controller);
   out.deviation.resize(now.A.rows(), samples);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "design/loop/compensator.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/numeric/poles.hpp"
 #include "emit/report/sections.hpp"
 #include "emit/text/continuous_pole.hpp"
@@ -185,7 +186,8 @@ std::optional<Chart> about_one(const std::vector<NamedPoles>& shown, double samp
 
 design::Poles poles_of_plant(const Controller& controller) {
   const design::Digits digits(50);
-  return design::sorted_poles(design::eigenvalues(design::final_plant(controller.solution).A));
+  return design::sorted_poles(design::eigenvalues(
+      design::without_disturbances(controller.problem, design::final_plant(controller.solution)).A));
 }
 
 }  // namespace

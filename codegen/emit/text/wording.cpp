@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/sampled/added_states.hpp"
 #include "emit/text/html.hpp"
 #include "lqg/version.h"
 #include "trace/print.hpp"
@@ -17,12 +18,23 @@ std::vector<design::Signal> state_signals(const Controller& controller) {
     return std::any_of(signals.begin(), signals.end(),
                        [&](const design::Signal& signal) { return upper(signal.name) == upper(name); });
   };
-  for (int left = controller.size.delayed, nu = controller.size.nu; left > 0; --left) {
-    const design::Signal& input =
-        controller.problem.plant.inputs[static_cast<std::size_t>((controller.size.delayed - left) % nu)];
-    std::string name = input.name + "_delayed_" + std::to_string((left + nu - 1) / nu);
+  const auto add = [&](std::string name, const std::string& unit) {
     while (is_taken(name)) name += "_samples";
-    signals.push_back({name, input.unit});
+    signals.push_back({name, unit});
+  };
+  const design::Plant& plant = controller.problem.plant;
+  if (controller.problem.estimator)
+    for (const design::InputDisturbance& disturbance : controller.problem.estimator->disturbance) {
+      const design::Signal& input = plant.inputs[static_cast<std::size_t>(disturbance.input)];
+      add(input.name + "_disturbance", input.unit);
+    }
+  const std::vector<design::Index> periods = design::periods_of_outputs(plant);
+  for (std::size_t i = 0; i < periods.size() && controller.problem.estimator; ++i)
+    for (design::Index k = 1; k <= periods[i]; ++k)
+      add(plant.outputs[i].name + "_late_" + std::to_string(k), plant.outputs[i].unit);
+  for (int left = controller.size.delayed, nu = controller.size.nu; left > 0; --left) {
+    const design::Signal& input = plant.inputs[static_cast<std::size_t>((controller.size.delayed - left) % nu)];
+    add(input.name + "_delayed_" + std::to_string((left + nu - 1) / nu), input.unit);
   }
   return signals;
 }

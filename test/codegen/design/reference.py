@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Makes the numbers of test_solve.cpp, test_augmentation.cpp and test_modal_plant.cpp: python3 reference.py, with mpmath (https://mpmath.org).
+# Makes the numbers of test_solve.cpp, test_augmentation.cpp, test_modal_plant.cpp and test_added_states.cpp:
+# python3 reference.py, with mpmath (https://mpmath.org).
 # Nothing here is shared with the design engine: matrix exponentials of whole blocks (C. F. Van Loan, 1978) and the
 # stable eigenvectors of the symplectic matrix (D. R. Vaughan, 1970), in 120 digits; for the plant with a delay
 # quadrature of the trajectory's cost, and the Riccati recursion until it stands still.
@@ -163,6 +164,59 @@ def masses_between_walls():
     show("variances of modes", matrix([(inverse * inverse.T)[i, i] for i in range(6)]))
 
 
+# A motor whose input comes 0.15 s late with a period of 0.1 s, whose load torque wanders beside it by 0.25 a second's
+# root, and whose angle is heard 0.2 s late, its speed at once: [x; d; angle[k-1]; angle[k-2]], then u[k-2], u[k-1].
+# The filter's Riccati recursion until it stands still; for the law x, u[k-2], u[k-1], and at rest both are -d.
+def late_and_disturbed_motor():
+    mp.dps = 60
+    T, late = mpf(0.1), mpf(0.15) - mpf(0.1)
+    A, B = double([[0, 1], [0, -0.5]]), double([[0], [2]])
+    F = block([[block([[A, B]])], [zeros(1, 3)]])
+    noise = mp.diag([mpf(0.001), mpf(0.02), mpf(0.25) ** 2])
+    whole = expm(block([[-F, noise], [zeros(3, 3), F.T]]) * T, method="taylor")
+    phi = part(whole, 3, 6, 3, 6).T
+    W = phi * part(whole, 0, 3, 3, 6)
+    Fk, Wk = zeros(5, 5), zeros(5, 5)
+    for i in range(3):
+        for j in range(3):
+            Fk[i, j], Wk[i, j] = phi[i, j], W[i, j]
+    Fk[3, 0] = Fk[4, 3] = 1
+    C = double([[0, 0, 0, 0, 1], [0, 1, 0, 0, 0]])
+    V = mp.diag([mpf(1e-4), mpf(1e-3)]) / T
+    P = eye(5)
+    for _ in range(20000):
+        last, S = P, C * P * C.T + V
+        L = P * C.T * S**-1
+        P = Fk * (P - L * S * L.T) * Fk.T + Wk
+        P = (P + P.T) / 2
+        if mp.mnorm(P - last) < mpf(10) ** -40 * mp.mnorm(P):
+            break
+    show("L late and disturbed", P * C.T * (C * P * C.T + V) ** -1)
+
+    old, new = zeros(4, 4), zeros(4, 4)
+    for i in range(2):
+        for j in range(2):
+            old[i, j] = new[i, j] = A[i, j]
+    old[1, 2] = new[1, 3] = 2
+    weight_old, weight_new = mp.diag([10, 1, mpf(0.5), 0]), mp.diag([10, 1, 0, mpf(0.5)])
+    moved = expm(old * late, method="taylor")
+    cost = cost_by_quadrature(old, weight_old, late)
+    cost += moved.T * cost_by_quadrature(new, weight_new, T - late) * moved
+    moved = expm(new * (T - late), method="taylor") * moved
+    F, G = moved.copy(), zeros(4, 1)
+    F[2, 2], F[2, 3], F[3, 3] = 0, 1, 0
+    G[3] = 1
+    X = eye(4)
+    for _ in range(20000):
+        K = (G.T * X * F) / (G.T * X * G)[0]
+        last, X = X, cost + F.T * X * (F - G * K)
+        X = (X + X.T) / 2
+        if mp.mnorm(X - last) < mpf(10) ** -40 * mp.mnorm(X):
+            break
+    show("K late and disturbed", block([[part(K, 0, 1, 0, 2), matrix([[1 + K[2] + K[3]]]), part(K, 0, 1, 2, 4)]]))
+
+
 two_mass()
 two_mass_with_delay()
 masses_between_walls()
+late_and_disturbed_motor()
