@@ -94,9 +94,7 @@ Gate gate_of_online(double sigma, Eigen::Index ny) {
           VectorXd::Constant(ny, narrowing_of_online)};
 }
 
-MatrixXd initial_covariance(const Controller& controller) {
-  return design::to_doubles(controller.solution.start->P0);
-}
+MatrixXd initial_covariance(const Controller& controller) { return design::to_doubles(controller.solution.start->P0); }
 
 }  // namespace
 

@@ -145,7 +145,7 @@ Steady steady_of(const Controller& controller, const std::vector<int>& lasting) 
 // Plant and controller, [x; s]⁺ = M [x; s].
 struct Loop {
   MatrixXd M;
-  Index plant = 0;             // states of it, the inputs that it keeps for D among them
+  Index plant = 0;              // states of it, the inputs that it keeps for D among them
   std::vector<Index> modelled;  // where the first of these are in the filter's model, which has disturbances, too
 };
 

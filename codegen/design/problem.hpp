@@ -25,14 +25,14 @@ enum class Domain { continuous, discrete };
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
 struct Plant {
   Domain domain = Domain::continuous;
-  double sample_time = 0;  // s
-  Eigen::MatrixXd A;       // nx × nx
-  Eigen::MatrixXd B;       // nx × nu, nu may be 0: an estimator alone
-  Eigen::MatrixXd C;       // ny × nx, ny may be 0: a regulator alone
-  Eigen::MatrixXd D;       // ny × nu
-  Eigen::MatrixXd G;       // nx × nw
-  Eigen::MatrixXd H;       // ny × nw
-  double delay = 0;        // s from sampling y to u taking effect; whole periods of a discrete plant
+  double sample_time = 0;        // s
+  Eigen::MatrixXd A;             // nx × nx
+  Eigen::MatrixXd B;             // nx × nu, nu may be 0: an estimator alone
+  Eigen::MatrixXd C;             // ny × nx, ny may be 0: a regulator alone
+  Eigen::MatrixXd D;             // ny × nu
+  Eigen::MatrixXd G;             // nx × nw
+  Eigen::MatrixXd H;             // ny × nw
+  double delay = 0;              // s from sampling y to u taking effect; whole periods of a discrete plant
   Eigen::VectorXd output_delay;  // ny, s by which the filter hears each output late, whole periods; or empty: none
   std::vector<Signal> states, inputs, outputs;
 };

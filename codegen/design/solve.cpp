@@ -99,8 +99,7 @@ void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& f
   if (run.has_steady_loop) {
     if (solution.estimator)
       solution.loop.at_output =
-          margins(open_at_outputs(measured_plant(problem, solution), compensator(problem, solution)),
-                  run.loop_poles);
+          margins(open_at_outputs(measured_plant(problem, solution), compensator(problem, solution)), run.loop_poles);
     add_full_margins(problem, run);
   }
   check_representable(solution, problem.code.real, findings);

@@ -19,8 +19,7 @@ double entry_of(const Values& values, const char* key, int i) {
 }
 
 double size_of_input(const Values& values, int input) {
-  const double limit =
-      std::max(entry_of(values, "limits.u_min", input), entry_of(values, "limits.u_max", input));
+  const double limit = std::max(entry_of(values, "limits.u_min", input), entry_of(values, "limits.u_max", input));
   return limit > 0 ? limit : entry_of(values, "lqr.bryson.inputs", input);
 }
 
@@ -44,8 +43,7 @@ void check_late_output(const Values& values, int output, double delay, Report& r
   const double T = values.number("plant.sample_time", 0), periods = delay / T, below = std::floor(periods);
   const std::vector<std::string> names = signal_names(values, Size::ny);
   const std::string of = " for " + names[static_cast<std::size_t>(output)];
-  if (!(delay >= 0) || std::isinf(delay))
-    return report.error(key, "expected numbers ≥ 0, found " + shown(delay) + of);
+  if (!(delay >= 0) || std::isinf(delay)) return report.error(key, "expected numbers ≥ 0, found " + shown(delay) + of);
   if (!(T > 0) || std::abs(periods - std::round(periods)) <= 1e-9 * periods) return;
   report.error(key, "expected whole periods of plant.sample_time, " + shown(below * T, 6) + " or " +
                         shown((below + 1) * T, 6) + ", found " + shown(delay) + of);
@@ -74,8 +72,7 @@ std::optional<double> default_disturbance(const Values& values, int input) {
 void check_added_states(const Values& values, Report& report) {
   check_sizes(values, report);
   const auto disturbances = values.indices.find("kalman.disturbance");
-  const double disturbed =
-      disturbances == values.indices.end() ? 0 : static_cast<double>(disturbances->second.size());
+  const double disturbed = disturbances == values.indices.end() ? 0 : static_cast<double>(disturbances->second.size());
   const double late = late_states(values, report);
   const double nx = values.sizes.at(Size::nx), nu = std::max(0, values.sizes.at(Size::nu));
   const double on_their_way = std::ceil(values.number("plant.delay", 0) / values.number("plant.sample_time", 1)) * nu;

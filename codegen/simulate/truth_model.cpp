@@ -156,7 +156,8 @@ TruthModel truth_model(const controller::Controller& controller, const Scenario&
   const double delay = scenario.plant.delay.value_or(plant.delay);
   model.late = static_cast<int>(std::floor(delay / model.T + nearly_whole));
   model.part = within_period(delay, model.T);
-  model.output_delay = plant.output_delay.size() ? plant.output_delay : Eigen::VectorXd(Eigen::VectorXd::Zero(model.ny));
+  model.output_delay =
+      plant.output_delay.size() ? plant.output_delay : Eigen::VectorXd(Eigen::VectorXd::Zero(model.ny));
   for (const design::Sensor& sensor : scenario.sensor) model.output_delay(sensor.output) += sensor.delay;
   model.added = design::added_states(controller.problem);
   model.designed_delay = static_cast<int>(std::ceil(plant.delay / model.T - nearly_whole));

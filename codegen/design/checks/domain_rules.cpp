@@ -93,8 +93,9 @@ void check_late_output(const Problem& problem, Index i, Findings& findings) {
   const std::string key = "plant.output_delay", late = "output " + name_of_output(plant, i) + " is late: ";
   if (kalman.form == Form::filter && !(plant.delay > 0) && !plant.D.row(i).isZero(0))
     add_error(findings, key,
-              late + "in filter form it is measured while the last u acts, which plant.D makes part of it: expected "
-                     "kalman.form = \"predictor\"");
+              late +
+                  "in filter form it is measured while the last u acts, which plant.D makes part of it: expected "
+                  "kalman.form = \"predictor\"");
   if (!plant.H.row(i).isZero(0))
     add_error(findings, key, late + "expected zeros in its row of plant.H, as its noise is that of its arrival");
   if (!kalman.Swv.col(i).isZero(0))
@@ -104,15 +105,17 @@ void check_late_output(const Problem& problem, Index i, Findings& findings) {
   for (const int output : problem.regulator->integral->outputs)
     if (output == i)
       add_error(findings, "lqr.integral.outputs",
-                late + "its integral would run behind the law; expected kalman.disturbance, which takes steady errors "
-                       "away by the filter, or another output");
+                late +
+                    "its integral would run behind the law; expected kalman.disturbance, which takes steady errors "
+                    "away by the filter, or another output");
 }
 
 void check_late_outputs(const Problem& problem, Findings& findings) {
   const Plant& plant = problem.plant;
   const std::string key = "plant.output_delay";
   if (plant.output_delay.size() == 0 || plant.output_delay.isZero(0)) return;
-  if (!has_noise(problem.estimator)) return add_error(findings, key, "needs [kalman]: only the filter knows late outputs");
+  if (!has_noise(problem.estimator))
+    return add_error(findings, key, "needs [kalman]: only the filter knows late outputs");
   for (Index i = 0; i < plant.output_delay.size(); ++i) {
     const double periods = plant.output_delay(i) / plant.sample_time;
     if (periods < 0 || std::abs(periods - std::round(periods)) > 1e-9 * periods)

@@ -15,7 +15,7 @@ struct DesignRun {
   Solution solution;
   std::vector<SampledStage> stages;  // what it is of
   std::vector<ComplexReal> regulator_poles, estimator_poles, loop_poles;
-  std::optional<RegulatorSolution> own_law;  // over the plant's own states alone
+  std::optional<RegulatorSolution> own_law;                           // over the plant's own states alone
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
   std::optional<EstimatorSolution> full_filter;                       // without the structure that its gain has
   std::optional<Real> cost_per_sample, cost_per_second;

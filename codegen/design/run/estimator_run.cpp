@@ -20,6 +20,31 @@ std::vector<ComplexReal> poles_of_filter(const Samples& samples, const RealMatri
   return poles;
 }
 
+// Do the noises of late outputs and of those that come sooner or later know of each other?
+bool couples_periods(const Plant& plant, const RealMatrix& V) {
+  const std::vector<Index> periods = periods_of_outputs(plant);
+  for (Index i = 0; i < V.rows(); ++i)
+    for (Index j = 0; j < i; ++j)
+      if (periods[static_cast<std::size_t>(i)] != periods[static_cast<std::size_t>(j)] && !V(i, j).is_zero())
+        return true;
+  return false;
+}
+
+// The spectrum of late outputs is that of prompt ones with factors z⁻ᵠ to the left and zᵠ to the right, unless their
+// noises are coupled: the optimal filter's poles are those of the prompt filter, and zeros. Eigenvalues of the long
+// chain, defective ones at 0, would have few digits.
+std::vector<ComplexReal> poles_of_optimal_filter(const SampledStage& stage, const RealMatrix& L_predictor) {
+  const Samples& samples = stage.samples;
+  if (late_output_count(stage.problem) == 0 || couples_periods(stage.problem.plant, samples.noise->V))
+    return poles_of_filter(samples, L_predictor);
+  const Samples prompt = sample(stage.of_filter());
+  const RiccatiResult found = solve_estimator(prompt, RealMatrix());
+  if (found.failure != RiccatiFailure::none) return poles_of_filter(samples, L_predictor);
+  std::vector<ComplexReal> poles = poles_of_filter(prompt, filter_of(prompt, found.X).L_predictor);
+  poles.resize(static_cast<std::size_t>(samples.plant.A.rows()), {Real(0), Real(0)});
+  return poles;
+}
+
 // Is there a steady filter? One that is updated on the target can do without, where a mode needs no noise.
 bool has_steady_filter(const SampledStage& stage, DesignRun& result) {
   const Problem& problem = stage.of_filter();
@@ -62,7 +87,7 @@ void run_steady_filter(const SampledStage& last, const DesignRun* coarser, Desig
   if (found.failure != RiccatiFailure::none) return;
   take_condition(found, result.solution);
   result.solution.estimator = filter_of(last.samples, found.X);
-  result.estimator_poles = poles_of_filter(last.samples, result.solution.estimator->L_predictor);
+  result.estimator_poles = poles_of_optimal_filter(last, result.solution.estimator->L_predictor);
   add_continuous_gain(last.of_filter(), coarser, *result.solution.estimator);
   if (last.problem.estimator->structure.size() > 0)
     keep_estimator_structure(last.problem, last.samples, coarser, result);
@@ -78,8 +103,7 @@ void run_schedule_to_steady(const Problem& problem, const std::vector<SampledSta
   if (has_error(result.findings)) return;
   const EstimatorSolution& steady = *result.solution.estimator;
   const int most = most_gains(problem, steady);
-  const GainSchedule schedule = gains_until_steady(
-      stages, result.solution.start->P0, steady, problem.code.real, most);
+  const GainSchedule schedule = gains_until_steady(stages, result.solution.start->P0, steady, problem.code.real, most);
   if (!schedule.is_settled)
     return add_error(result.findings, "kalman.gain",
                      "after " + std::to_string(most) +
@@ -91,8 +115,7 @@ void run_schedule_to_steady(const Problem& problem, const std::vector<SampledSta
 // The gains of `horizon` samples; the last one is held, whatever that makes of the filter.
 void run_finite_schedule(const Problem& problem, const std::vector<SampledStage>& stages, DesignRun& result) {
   const int count = problem.estimator->horizon;
-  const GainSchedule schedule =
-      gains_forward(stages, result.solution.start->P0, count);
+  const GainSchedule schedule = gains_forward(stages, result.solution.start->P0, count);
   result.solution.estimator = schedule.last;
   take_tables(schedule, result);
   result.estimator_poles = poles_of_filter(stage_at(stages, count - 1).samples, schedule.last.L_predictor);
@@ -109,7 +132,8 @@ void run_optimal_filter(const Problem& problem, const std::vector<SampledStage>&
   run_steady_filter(stages.back(), coarser, result);
   if (has_error(result.findings)) return;
   if (gain == Gain::schedule) run_schedule_to_steady(problem, stages, result);
-  if (gain == Gain::online) result.solution.online = online_filter(*stages.front().of_filter().estimator, stages.front().samples);
+  if (gain == Gain::online)
+    result.solution.online = online_filter(*stages.front().of_filter().estimator, stages.front().samples);
 }
 
 void run_placed_filter(const Problem& problem, const Samples& samples, const DesignRun* coarser, DesignRun& result) {

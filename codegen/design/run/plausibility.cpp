@@ -85,8 +85,7 @@ void note_margins(const Problem& problem, const DesignRun& run, Findings& findin
   if (!run.has_steady_loop) return;
   const Margins& margins = run.solution.loop.at_input;
   const std::string end = ": look at the weights, the plant's units and plant.delay";
-  const OpenLoop loop =
-      open_at_inputs(measured_plant(problem, run.solution), compensator(problem, run.solution));
+  const OpenLoop loop = open_at_inputs(measured_plant(problem, run.solution), compensator(problem, run.solution));
   if (!is_stable_when_late(loop))
     add_note(
         findings, key_of_law(problem),

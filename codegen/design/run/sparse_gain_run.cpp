@@ -117,8 +117,7 @@ void keep_regulator_structure(const Problem& problem, const Samples& samples, co
       regulator_equation(problem, samples), {}, Eigen::MatrixXd::Ones(full.rows(), full.cols())};
   structured.kept.leftCols(problem.regulator->structure.cols()) = problem.regulator->structure;
   structured.W = disturbance(samples, structured.equation, full);
-  const StructuredGain found =
-      structured_gain(structured, full, coarser ? coarser->own_law->K : RealMatrix());
+  const StructuredGain found = structured_gain(structured, full, coarser ? coarser->own_law->K : RealMatrix());
   if (found.failure != StructureFailure::none) return explain(structured, found, "lqr.structure", result);
   StructureReport& report = regulator.structure.emplace();
   report.full = full;

@@ -62,8 +62,8 @@ void add_to_plant(const std::vector<InputDisturbance>& disturbances, Plant& plan
       plant.states.push_back({plant.inputs[input].name + "_disturbance", plant.inputs[input].unit});
   }
   const bool is_discrete = plant.domain == Domain::discrete;
-  plant.A = with_block(plant.A, is_discrete ? MatrixXd(MatrixXd::Identity(count, count))
-                                            : MatrixXd(MatrixXd::Zero(count, count)));
+  plant.A = with_block(
+      plant.A, is_discrete ? MatrixXd(MatrixXd::Identity(count, count)) : MatrixXd(MatrixXd::Zero(count, count)));
   plant.A.topRightCorner(nx, count) = B;
   plant.B = with_block(plant.B, MatrixXd(count, 0));
   plant.C = with_block(plant.C, MatrixXd(0, count));
@@ -190,8 +190,7 @@ RealMatrix gain_of_disturbances(const Problem& problem, const RealMatrix& K) {
 
 RealMatrix extended_gain(const Problem& problem, const RealMatrix& K) {
   const Index nx = problem.plant.A.rows();
-  const RealMatrix added =
-      beside(gain_of_disturbances(problem, K), zeros(K.rows(), late_output_count(problem)));
+  const RealMatrix added = beside(gain_of_disturbances(problem, K), zeros(K.rows(), late_output_count(problem)));
   return beside(beside(K.leftCols(nx), added), K.rightCols(K.cols() - nx));
 }
 

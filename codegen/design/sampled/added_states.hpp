@@ -37,7 +37,6 @@ void add_states_to(const Problem& problem, RegulatorSolution& regulator);
 // The plant without the disturbances: what a loop is closed around.
 SampledPlant without_disturbances(const Problem& problem, const SampledPlant& plant);
 
-
 // The plant of the file and its cost out of those over the filter's model. C of late outputs is 0 then.
 SampledPlant without_added_states(const Problem& problem, const SampledPlant& plant);
 SampledCost without_added_states(const Problem& problem, const SampledCost& cost);

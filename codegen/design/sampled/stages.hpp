@@ -12,8 +12,8 @@ namespace lqg::design {
 // only where states are added.
 struct SampledStage {
   int from = 0;
-  Problem problem;  // with what this stage and those before it replace
-  Samples samples;  // of the filter's model
+  Problem problem;                          // with what this stage and those before it replace
+  Samples samples;                          // of the filter's model
   std::optional<Problem> filtered;          // the filter's problem, with the disturbances in its plant
   std::optional<Samples> own, surrounding;  // of the file's plant; of that plant behind its late outputs
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "design/numeric/digits.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/reference.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/plan/realisation.hpp"
@@ -43,16 +44,21 @@ Json names(const std::vector<design::Signal>& signals) {
 Json plant(const Controller& controller) {
   const design::SampledPlant& sampled = controller.solution.plant;
   const design::Plant& stated = controller.problem.plant;
-  return {{"domain", stated.domain == design::Domain::continuous ? "continuous" : "discrete"},
-          {"sample_time", stated.sample_time},
-          {"A", rows(sampled.A)},
-          {"B", rows(sampled.B)},
-          {"C", rows(sampled.C)},
-          {"D", rows(sampled.D)},
-          {"G", rows(sampled.G)},
-          {"states", names(stated.states)},
-          {"inputs", names(stated.inputs)},
-          {"outputs", names(stated.outputs)}};
+  Json out = {{"domain", stated.domain == design::Domain::continuous ? "continuous" : "discrete"},
+              {"sample_time", stated.sample_time},
+              {"A", rows(sampled.A)},
+              {"B", rows(sampled.B)},
+              {"C", rows(sampled.C)},
+              {"D", rows(sampled.D)},
+              {"G", rows(sampled.G)},
+              {"states", names(stated.states)},
+              {"inputs", names(stated.inputs)},
+              {"outputs", names(stated.outputs)}};
+  if (!design::has_added_states(controller.problem)) return out;
+  const std::vector<design::Signal> all = state_signals(controller);
+  const auto first = all.begin() + stated.A.rows();
+  out["added_states"] = names({first, first + design::added_states(controller.problem)});
+  return out;
 }
 
 Json schedule(const std::vector<design::RealMatrix>& gains) {

@@ -21,9 +21,8 @@ using Answer = std::function<MatrixXcd(double)>;
 // L at an angle.
 Answer answer_of(const Controller& controller) {
   const design::Digits digits(50);
-  const design::OpenLoop loop =
-      design::open_at_inputs(design::measured_plant(controller.problem, controller.solution),
-                             design::compensator(controller.problem, controller.solution));
+  const design::OpenLoop loop = design::open_at_inputs(design::measured_plant(controller.problem, controller.solution),
+                                                       design::compensator(controller.problem, controller.solution));
   auto response = std::make_shared<design::Response>(loop.A, loop.B, loop.C);
   return [response](double angle) { return response->roughly_at(design::Real(angle)); };
 }

@@ -29,10 +29,10 @@ std::optional<Regulated> regulated(const Controller& controller) {
                          !problem.regulator->settling_time && problem.regulator->structure.size() == 0;
   if (!is_steady || problem.regulator->cost == design::Cost::continuous) return std::nullopt;
   const design::Digits digits(50);
-  const design::RegulatedPlant plant = design::regulated_plant(
-      problem, design::without_added_states(problem, controller.solution.plant));
-  const design::SampledCost cost = design::regulated_cost(
-      problem, design::without_added_states(problem, controller.solution.regulator->cost));
+  const design::RegulatedPlant plant =
+      design::regulated_plant(problem, design::without_added_states(problem, controller.solution.plant));
+  const design::SampledCost cost =
+      design::regulated_cost(problem, design::without_added_states(problem, controller.solution.regulator->cost));
   if (plant.A.rows() > most_states) return std::nullopt;
   return Regulated{in_double(plant.A), in_double(plant.B), in_double(cost.Q), in_double(cost.R), in_double(cost.N)};
 }

@@ -48,6 +48,17 @@ std::vector<BadDesign> impossible() {
       {"more limits that are foreseen than a byte counts",
        {{34, "horizon = 300\nstates = { v1 = 1 }\nu_min = [-1]"}},
        {"34:11: limits.horizon: expected at most 255 limits that are looked at, found 599: …"}},
+      {"disturbances that the one output does not tell",
+       {{0,
+         "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\nA = [[0.9, 0.1], [0, 0.8]]\n"
+         "B = [[1, 0], [0, 1]]\nC = [[1, 0]]\n[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\n"
+         "disturbance = { u0 = 1, u1 = 1 }\n"}},
+       {"11:15: kalman.disturbance: …z = 1…is seen in no output…at most as many as outputs…"}},
+      {"late output without a filter",
+       {{0,
+         "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.1\nA = [[0.9]]\nB = [[1]]\n"
+         "C = [[1]]\noutput_delay = [0.1]\n[lqr]\nQ_output = [1]\nR = [1]\n"}},
+       {"8:16: plant.output_delay: needs [kalman]: only the filter knows late outputs"}},
       {"folded form of a law with limits",
        {{40, "realisation = \"folded\""}},
        {"40:15: code.realisation: expected \"physical\": with [limits] x̂ has to hear of the input that was applied"}},

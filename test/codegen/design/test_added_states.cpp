@@ -40,8 +40,7 @@ Problem estimator_alone(Problem problem) {
 void expect_doubles(const MatrixXd& expected, const RealMatrix& found, const char* name) {
   TEST_ASSERT_TRUE_MESSAGE(expected.rows() == found.rows() && expected.cols() == found.cols(), name);
   for (Index i = 0; i < found.rows(); ++i)
-    for (Index j = 0; j < found.cols(); ++j)
-      TEST_ASSERT_TRUE_MESSAGE(expected(i, j) == to_double(found(i, j)), name);
+    for (Index j = 0; j < found.cols(); ++j) TEST_ASSERT_TRUE_MESSAGE(expected(i, j) == to_double(found(i, j)), name);
 }
 
 bool is_refused(const Problem& problem, const std::string& key, const std::string& words) {
@@ -237,6 +236,29 @@ void test_equally_late_outputs_add_poles_at_0_alone() {
   TEST_ASSERT_TRUE(*found.loop.cost_per_sample > *plain.loop.cost_per_sample);
 }
 
+// Forty states that only move on: the gain is that of the prompt estimate, moved on as well.
+void test_long_chain_of_a_late_output_is_designed_for() {
+  Problem late = estimator_alone(motor());
+  late.plant.output_delay = Eigen::Vector2d(4, 0);
+  const Solution found = solved(late);
+  TEST_ASSERT_TRUE(found.estimator->poles.size() == 42);
+  TEST_ASSERT_TRUE(found.estimator->poles[2] == 0.0);
+}
+
+// Noises that know of each other give the filter poles beside those of the prompt one.
+void test_coupled_noises_of_late_and_prompt_outputs_are_designed_for() {
+  Problem late = motor();
+  late.plant.output_delay = Eigen::Vector2d(0.2, 0);
+  late.estimator->V(0, 1) = late.estimator->V(1, 0) = 2e-4;
+  const Solution found = solved(late);
+  const Digits scope(50);
+  const RealMatrix A = found.plant.A - multiply(found.estimator->L_predictor, found.plant.C);
+  Real trace = A.trace();
+  std::complex<double> sum = 0;
+  for (const std::complex<double>& pole : found.estimator->poles) sum += pole;
+  TEST_ASSERT_TRUE(std::abs(sum - to_double(trace)) < 1e-12);
+}
+
 // --- refusals -------------------------------------------------------------------------------------------------------
 
 void test_disturbances_that_the_outputs_do_not_tell_are_refused() {
@@ -303,6 +325,8 @@ int main() {
   RUN_TEST(test_disturbed_plant_costs_and_trembles_as_much_as_the_simulated_one_without_load);
   RUN_TEST(test_structured_gain_cancels_the_disturbance_with_all_of_the_input);
   RUN_TEST(test_equally_late_outputs_add_poles_at_0_alone);
+  RUN_TEST(test_long_chain_of_a_late_output_is_designed_for);
+  RUN_TEST(test_coupled_noises_of_late_and_prompt_outputs_are_designed_for);
   RUN_TEST(test_disturbances_that_the_outputs_do_not_tell_are_refused);
   RUN_TEST(test_what_states_cannot_say_of_late_outputs_is_refused);
   RUN_TEST(test_filter_structure_beside_added_states_is_refused);
