@@ -40,7 +40,8 @@ struct Margins {
 
 // Of the loop at work, with its noises: root mean squares, in the signals' units.
 struct Rms {
-  std::vector<double> x, u, y;  // of the sampled plant's states; of y as it is measured, with its noise
+  std::vector<double> x, u,
+      y;  // of the sampled plant's states, 0 of disturbances; of y as it is measured, with its noise
 };
 
 // What keeping only some entries of a gain costs.

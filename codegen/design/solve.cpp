@@ -17,6 +17,7 @@
 #include "design/run/design_run.hpp"
 #include "design/run/plausibility.hpp"
 #include "design/run/sparse_gain_run.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/stages.hpp"
 #include "design/solution_matrices.hpp"
 
@@ -90,6 +91,9 @@ void describe_loop(const Problem& problem, DesignRun& run, unsigned digits) {
   solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
   const Samples& around = run.stages.back().of_loop();
   if (around.noise) solution.loop.rms = steady_rms(problem, around, controller);
+  if (!solution.loop.rms) return;
+  std::vector<double>& of_states = solution.loop.rms->x;  // no disturbance is part of the noises
+  of_states.insert(of_states.begin() + problem.plant.A.rows(), static_cast<std::size_t>(disturbance_count(problem)), 0);
 }
 
 void finish(const Problem& problem, DesignRun& run, unsigned digits, Findings& findings) {

@@ -6,6 +6,7 @@
 
 #include "emit/report/sections.hpp"
 #include "emit/text/wording.hpp"
+#include "simulate/courses.hpp"
 
 namespace lqg::emit {
 
@@ -62,6 +63,7 @@ class ScenarioCharts {
     for (std::size_t i = 0; i < plant.outputs.size() && controller_.has.filter; ++i) charts.push_back(output(i));
     for (std::size_t i = 0; i < plant.inputs.size() && run_.u.rows() > 0; ++i) charts.push_back(input(i));
     for (std::size_t i = 0; i < plant.states.size(); ++i) charts.push_back(state(i));
+    add_disturbances(charts);
     const auto end = std::remove_if(charts.begin(), charts.end(), nothing_happens);
     if (end != charts.begin()) charts.erase(end, charts.end());
     return charts;
@@ -175,6 +177,21 @@ class ScenarioCharts {
     }
     out.bands.push_back(std::move(band));
     return out;
+  }
+
+  // The loads of these inputs, and what the filter says of them.
+  void add_disturbances(std::vector<Chart>& charts) const {
+    if (!controller_.problem.estimator || controller_.problem.estimator->disturbance.empty()) return;
+    const std::vector<design::Signal> states = state_signals(controller_);
+    const Eigen::MatrixXd loads = simulate::courses_of(controller_, scenario_).load.leftCols(run_.times.size());
+    std::size_t i = controller_.problem.plant.states.size();
+    for (const design::InputDisturbance& disturbance : controller_.problem.estimator->disturbance) {
+      Chart out = chart(states[i], "x", i);
+      out.curves = {{"load", Mark::steps, 0, times_, values_of(loads, disturbance.input)},
+                    {"estimate", Mark::dashes, 1, times_, values_of(run_.estimate, static_cast<Index>(i))}};
+      charts.push_back(std::move(out));
+      ++i;
+    }
   }
 
   const Controller& controller_;

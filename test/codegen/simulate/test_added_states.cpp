@@ -6,6 +6,7 @@
 #include <unity.h>
 
 #include "../emit/design_text.hpp"
+#include "emit/report/scenario_view.hpp"
 #include "simulate/scenario_run.hpp"
 
 using namespace lqg;
@@ -77,6 +78,16 @@ void test_the_load_is_what_the_filter_says_of_the_disturbance() {
   TEST_ASSERT_TRUE(std::abs(found + 0.2) < 1e-4);
 }
 
+void test_the_report_draws_the_load_beside_its_estimate() {
+  const Controller controller = lqg_test::controller_of(motor);
+  const emit::PageView view = emit::scenario_view(controller, emit::runs_to_show(controller).at(0));
+  const auto chart = std::find_if(view.charts.begin(), view.charts.end(),
+                                  [](const emit::Chart& each) { return each.title == "torque_disturbance [N m]"; });
+  TEST_ASSERT_TRUE(chart != view.charts.end() && chart->curves.size() == 2);
+  TEST_ASSERT_TRUE(chart->curves[0].y.back() == -0.2);
+  TEST_ASSERT_TRUE(std::abs(chart->curves[1].y.back() + 0.2) < 1e-4);
+}
+
 // Late inputs, a weight on changes, the predictor's form, a filter on line: the same end.
 void test_other_laws_and_forms_leave_no_error_either() {
   const std::string late = replaced(motor, "sample_time = 0.02", "sample_time = 0.02\ndelay = 0.05");
@@ -146,8 +157,7 @@ void test_filter_of_late_outputs_has_the_plant_that_is_simulated() {
 void test_a_sensor_of_a_scenario_is_late_beyond_the_design() {
   const ScenarioRun designed = run_of(heard);
   const ScenarioRun later = run_of(heard + std::string("sensor = [{ output = 0, delay = 0.1 }]\n"));
-  for (Index k = 1; k < later.y.cols(); ++k)
-    TEST_ASSERT_TRUE(std::abs(later.y(0, k) - designed.y(0, k - 1)) < 1e-12);
+  for (Index k = 1; k < later.y.cols(); ++k) TEST_ASSERT_TRUE(std::abs(later.y(0, k) - designed.y(0, k - 1)) < 1e-12);
 }
 
 }  // namespace
@@ -159,6 +169,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(test_a_load_leaves_no_error_with_the_key_and_one_without);
   RUN_TEST(test_the_load_is_what_the_filter_says_of_the_disturbance);
+  RUN_TEST(test_the_report_draws_the_load_beside_its_estimate);
   RUN_TEST(test_other_laws_and_forms_leave_no_error_either);
   RUN_TEST(test_another_motor_than_the_design_knows_is_held_as_well);
   RUN_TEST(test_an_input_at_its_limit_winds_nothing_up);
