@@ -80,7 +80,7 @@ std::vector<KeyRule> scenario_keys() {
        "`quantum`, within `min` and `max`."},
       {"scenario.sensor.output", Type::signal, ny, no, required, {}, "The output."},
       {"scenario.sensor.delay", Type::not_negative, no, no, optional, {},
-       "In s; with a discrete plant it is a whole number of periods.", "0"},
+       "In s, beyond `plant.output_delay`; with a discrete plant it is a whole number of periods.", "0"},
       {"scenario.sensor.gain", Type::real, no, no, optional, {}, "Factor.", "1"},
       {"scenario.sensor.bias", Type::real, no, no, optional, {}, "Offset.", "0"},
       {"scenario.sensor.quantum", Type::positive, no, no, optional, {}, "Smallest step.", "none"},

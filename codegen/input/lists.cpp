@@ -51,6 +51,13 @@ std::string names_too(const std::vector<std::string>& names) {
   return list;
 }
 
+// ", "force"", of all of them.
+std::string of_names(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? ", " : " or ") + in_quotes(name);
+  return list;
+}
+
 }  // namespace
 
 std::optional<std::vector<int>> read_indices(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
@@ -105,6 +112,39 @@ std::optional<std::vector<int>> read_counts(const std::string& key, const Node& 
     counts.push_back(static_cast<int>(item.number));
   }
   return counts;
+std::optional<Walks> read_walks(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                const std::vector<std::string>& names, Report& report) {
+  Walks walks;
+  if (node.kind != Kind::table) {
+    const std::optional<std::vector<int>> indices = read_indices(rule, node, sizes, names, report);
+    if (!indices) return {};
+    walks.indices = *indices;
+    return walks;
+  }
+  if (node.items.empty()) {
+    report.error(rule.path, "expected names of inputs, found an empty table");
+    return {};
+  }
+  walks.sizes.resize(static_cast<Eigen::Index>(node.items.size()));
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const Node& item = node.items[i];
+    const std::string& name = node.keys[i].name;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      report.error(rule.path, node.keys[i].where,
+                   "expected names of inputs" + of_names(names) + ", found " + in_quotes(name));
+      return {};
+    }
+    report.place(rule.path + "." + name, item.where);
+    if (!is_finite_number(item) || !(item.number > 0)) {
+      report.error(rule.path + "." + name,
+                   "expected a number > 0, found " + (item.kind == Kind::number ? shown(item.number) : describe(item)));
+      return {};
+    }
+    walks.indices.push_back(static_cast<int>(found - names.begin()));
+    walks.sizes(static_cast<Eigen::Index>(i)) = item.number;
+  }
+  return walks;
 }
 
 std::optional<int> read_signal_index(const KeyRule& rule, const Node& node, const std::vector<std::string>& names,

@@ -147,6 +147,12 @@ class ValueReader {
           values_.named[rule.path] = *prices;
         break;
       case Type::walks: read_walks(rule, node); break;
+      case Type::walks:
+        if (auto walks = read_walks(rule, node, values_.sizes, names_of(rule.rows), report_)) {
+          values_.indices[rule.path] = walks->indices;
+          if (walks->sizes.size() > 0) values_.matrices[rule.path] = walks->sizes;
+        }
+        break;
       case Type::signal:
         if (const auto index = read_signal_index(rule, node, names_of(rule.rows), report_))
           values_.numbers[rule.path] = *index;
@@ -252,35 +258,6 @@ class ValueReader {
     if (node.kind != Kind::boolean)
       return expected(rule, "true or false", node.kind == Kind::text ? in_quotes(node.text) : describe(node));
     values_.numbers[rule.path] = node.number;
-  }
-
-  // Indices, and the sizes where they are given.
-  void read_walks(const KeyRule& rule, const Node& node) {
-    const std::vector<std::string> names = names_of(rule.rows);
-    if (node.kind != Kind::table) {
-      if (auto indices = read_indices(rule, node, values_.sizes, names, report_)) values_.indices[rule.path] = *indices;
-      return;
-    }
-    std::vector<int> indices;
-    Eigen::MatrixXd sizes(static_cast<Eigen::Index>(node.items.size()), 1);
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-      const std::string key = joined(rule.path, node.keys[i].name);
-      const auto found = std::find(names.begin(), names.end(), node.keys[i].name);
-      const double size = node.items[i].number;
-      if (found == names.end())
-        return report_.error(key, start_of(node.keys[i], node.items[i]),
-                             "expected one of " + listed(names) + ", found " + in_quotes(node.keys[i].name));
-      if (node.items[i].kind != Kind::number || !(size > 0) || std::isinf(size))
-        return report_.error(key, node.items[i].where,
-                             "expected a number > 0, found " +
-                                 (node.items[i].kind == Kind::number ? shown(size) : describe(node.items[i])));
-      report_.place(key, node.items[i].where);
-      indices.push_back(static_cast<int>(found - names.begin()));
-      sizes(static_cast<Eigen::Index>(i), 0) = size;
-    }
-    if (indices.empty()) return expected(rule, "names of inputs", "an empty table");
-    values_.indices[rule.path] = indices;
-    values_.matrices[rule.path] = sizes;
   }
 
   void read_entry(const KeyRule& rule, const Node& node) {

@@ -86,12 +86,18 @@ std::string name_of_output(const Plant& plant, Index i) {
   return at < plant.outputs.size() ? plant.outputs[at].name : "y" + std::to_string(i);
 }
 
+bool has_feedthrough(const Problem& problem, Index output) {
+  bool any = !problem.plant.D.row(output).isZero(0);
+  for (const Stage& stage : problem.stages) any = any || (stage.D.size() > 0 && !stage.D.row(output).isZero(0));
+  return any;
+}
+
 // What of a late output the filter cannot be told by states alone.
 void check_late_output(const Problem& problem, Index i, Findings& findings) {
   const Plant& plant = problem.plant;
   const Estimator& kalman = *problem.estimator;
   const std::string key = "plant.output_delay", late = "output " + name_of_output(plant, i) + " is late: ";
-  if (kalman.form == Form::filter && !(plant.delay > 0) && !plant.D.row(i).isZero(0))
+  if (kalman.form == Form::filter && !(plant.delay > 0) && has_feedthrough(problem, i))
     add_error(findings, key,
               late +
                   "in filter form it is measured while the last u acts, which plant.D makes part of it: expected "

@@ -124,7 +124,7 @@ std::vector<BadDesign> wrong_together() {
         "\"torque\""}},
       {"sizes of a disturbance of no input",
        {{31, "disturbance = { torque = 0.5 }"}},
-       {"31:17: kalman.disturbance.torque: expected one of \"force\", found \"torque\""}},
+       {"31:17: kalman.disturbance: expected names of inputs, \"force\", found \"torque\""}},
       {"disturbance without a size",
        {{31, "disturbance = { force = 0 }"}},
        {"31:25: kalman.disturbance.force: expected a number > 0, found 0"}},
