@@ -112,6 +112,8 @@ std::optional<std::vector<int>> read_counts(const std::string& key, const Node& 
     counts.push_back(static_cast<int>(item.number));
   }
   return counts;
+}
+
 std::optional<Walks> read_walks(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
                                 const std::vector<std::string>& names, Report& report) {
   Walks walks;

@@ -146,7 +146,6 @@ class ValueReader {
         else if (auto prices = read_prices(rule.path, node, all_names(), report_))
           values_.named[rule.path] = *prices;
         break;
-      case Type::walks: read_walks(rule, node); break;
       case Type::walks:
         if (auto walks = read_walks(rule, node, values_.sizes, names_of(rule.rows), report_)) {
           values_.indices[rule.path] = walks->indices;
