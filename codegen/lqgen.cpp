@@ -111,7 +111,7 @@ std::optional<emit::Controller> controller_of(const Arguments& arguments, const 
 
   design::Problem problem = *file.problem;
   override_code(arguments, problem.code);
-  if (wanted == Requires::nothing) problem.requirements = {};
+  if (wanted == Requires::nothing) problem = design::without_requirements(problem);
   std::optional<design::Solution> solution =
       design::solve(problem, findings, [&](const std::string& work) { watch.show(work); });
   std::optional<emit::Controller> controller;

@@ -95,6 +95,12 @@ struct InputDisturbance {
   double size = 0;  // unit of the input per √s, > 0
 };
 
+// Loop transfer recovery: the filter's gain is that of W and of noise q B Bᵀ at the plant's inputs, which is not there.
+struct TransferRecovery {
+  double q = 0;               // (unit of an input)²/Hz of a continuous plant, (unit of an input)² of a discrete one
+  bool is_automatic = false;  // instead of q: the smallest one with which the loop has what is required of it
+};
+
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.
 struct Estimator {
   Eigen::MatrixXd W, V, Swv;
@@ -112,6 +118,7 @@ struct Estimator {
   Eigen::MatrixXd structure;         // nx × ny of 0 and 1, or empty: the entries of L that may differ from 0
   std::optional<WantedPoles> poles;  // [observer]: L has these poles; no noise is there then
   std::vector<InputDisturbance> disturbance;  // estimated, too, and by the regulator cancelled; each input once
+  std::optional<TransferRecovery> recovery;
 };
 
 // Placed poles need no noise.

@@ -68,6 +68,7 @@ struct RegulatorSolution {
   std::optional<StructureReport> structure;
 };
 
+// With recovery P_prior, P_posterior and S are those of the error under the noise alone; L and M are of a larger P.
 // The steady filter: x̂ ← x̂ + L(y − Cx̂ − Du), L = P_prior Cᵀ S⁻¹, S = C P_prior Cᵀ + V;
 // x̂ ← A x̂ + B u + M(y − Cx̂⁻ − Du), M = G Swv S⁻¹, so that L_predictor = A L + M.
 struct EstimatorSolution {
@@ -79,6 +80,7 @@ struct EstimatorSolution {
   Poles poles;       // of A − L_predictor C
   std::vector<RealMatrix> L_schedule, M_schedule;  // of sample 0, 1, …; L and M from the end on
   std::optional<StructureReport> structure;
+  RealMatrix fictitious;  // with recovery: what the gain takes for noise beside G W Gᵀ, nx × nx; or empty
 };
 
 // The same filter prepared for scalar updates with P carried on line: V = E⁻¹ diag(V) E⁻ᵀ is made diagonal by
@@ -130,6 +132,19 @@ struct RoundedLoop {
   Margins at_input, at_output;
 };
 
+// What recovery with this q makes of the loop.
+struct RecoveryPoint {
+  double q = 0;
+  Margins at_input;                       // to six digits; none: with this q there is no steady loop
+  std::optional<double> cost_per_sample;  // under the noise alone
+};
+
+// Margin against cost: without recovery, with the q of the design, and with some around it.
+struct RecoveryReport {
+  double q = 0;
+  std::vector<RecoveryPoint> points;  // by rising q, the first one is 0
+};
+
 // The closed loop of plant, filter and regulator.
 struct LoopSolution {
   Poles poles;
@@ -139,6 +154,7 @@ struct LoopSolution {
   Margins at_output;       // symmetric, (S − T)/2; likewise over the outputs that the filter uses
   std::optional<Rms> rms;  // with noise
   std::optional<RoundedLoop> rounded;
+  std::optional<RecoveryReport> recovery;
 };
 
 struct Numerics {

@@ -59,6 +59,7 @@ void visit_estimator(A& estimator, Visit visit) {
   visit("kalman.P_prior", Place::report, estimator.P_prior);
   visit("kalman.P_posterior", Place::report, estimator.P_posterior);
   visit("kalman.S", Place::report, estimator.S);
+  visit("kalman.recovery", Place::report, estimator.fictitious);
   visit("kalman.L_continuous", Place::report, estimator.L_continuous);
   visit("kalman.P_continuous", Place::report, estimator.P_continuous);
   if (estimator.structure) visit("kalman.structure", Place::report, estimator.structure->full);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "design/checks/representable.hpp"
 #include "design/checks/requirements.hpp"
@@ -17,6 +18,7 @@
 #include "design/run/design_run.hpp"
 #include "design/run/plausibility.hpp"
 #include "design/run/sparse_gain_run.hpp"
+#include "design/run/transfer_recovery.hpp"
 #include "design/sampled/added_states.hpp"
 #include "design/sampled/stages.hpp"
 #include "design/solution_matrices.hpp"
@@ -120,6 +122,7 @@ void check_matrices(const Problem& problem, Findings& findings) {
 bool is_well_posed(const Problem& problem, Findings& findings) {
   check_kinds(problem, findings);
   check_structure(problem, findings);
+  check_recovery(problem, findings);
   check_matrices(problem, findings);
   const std::vector<Problem> problems = problems_of_stages(problem);
   for (std::size_t i = 1; i < problems.size() && !has_error(findings); ++i) {
@@ -203,14 +206,20 @@ void check_tendencies(const Problem& problem, const DesignRun& coarse, const Des
 
 }  // namespace
 
-std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress) {
-  const ProgressScope reporting(progress);
+namespace {
+
+bool has_recovery(const Problem& problem) { return has_noise(problem.estimator) && problem.estimator->recovery; }
+
+bool has_recovery_to_find(const Problem& problem) {
+  return has_recovery(problem) && problem.estimator->recovery->is_automatic;
+}
+
+std::optional<Solution> solve_well_posed(const Problem& problem, Findings& findings) {
   std::optional<DesignRun> coarse;
   unsigned coarse_digits = 0;
   Tendencies tendencies;
   for (const unsigned digits : runs) {
     const Digits scope(digits);
-    if (!coarse && !is_well_posed(problem, findings)) return std::nullopt;
     const bool has_start = coarse && !has_error(coarse->findings);
     DesignRun fine = run_design(problem, has_start ? &*coarse : nullptr);
     const bool failed = has_error(fine.findings);
@@ -238,13 +247,45 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
   return std::nullopt;
 }
 
+}  // namespace
+
+std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress) {
+  const ProgressScope reporting(progress);
+  {
+    const Digits scope(runs.front());
+    if (!is_well_posed(problem, findings)) return std::nullopt;
+  }
+  const bool searches = has_recovery_to_find(problem);
+  const std::optional<Problem> found = searches ? with_found_recovery(problem, findings) : problem;
+  if (!found) return std::nullopt;
+  std::optional<Solution> solution = solve_well_posed(*found, findings);
+  if (!solution || !has_recovery(*found)) return solution;
+  solution->loop.recovery = recovery_report(*found, solution->loop);
+  note_recovery(*found, solution->loop, searches, findings);
+  return solution;
+}
+
+Problem without_requirements(Problem problem) {
+  const Requirements all = std::exchange(problem.requirements, Requirements());
+  if (!has_recovery_to_find(problem)) return problem;
+  Requirements& kept = problem.requirements;
+  kept.gain_margin_dB = all.gain_margin_dB;
+  kept.phase_margin_deg = all.phase_margin_deg;
+  kept.disk_margin = all.disk_margin;
+  kept.delay_margin = all.delay_margin;
+  kept.max_pole = all.max_pole;
+  return problem;
+}
+
 std::optional<Solution> first_look(const Problem& problem) {
   const Digits scope(runs.front());
   Findings findings;
   if (!is_well_posed(problem, findings)) return std::nullopt;
-  DesignRun run = run_design(problem, nullptr);
+  const std::optional<Problem> found = has_recovery_to_find(problem) ? with_found_recovery(problem, findings) : problem;
+  if (!found) return std::nullopt;
+  DesignRun run = run_design(*found, nullptr);
   if (has_error(run.findings)) return std::nullopt;
-  describe_loop(problem, run, runs.front());
+  describe_loop(*found, run, runs.front());
   check_representable(run.solution, problem.code.real, findings);
   if (has_error(findings)) return std::nullopt;
   return run.solution;

@@ -21,4 +21,8 @@ std::optional<Solution> solve(const Problem& problem, Findings& findings, const 
 // from its end: then it is empty, and solve() tells why. Not for code.
 std::optional<Solution> first_look(const Problem& problem);
 
+// `problem` for who wants to see a design that misses what is required: nothing is required of it, but what an
+// automatic recovery (TransferRecovery) has to find a q for.
+Problem without_requirements(Problem problem);
+
 }  // namespace lqg::design

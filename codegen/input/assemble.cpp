@@ -161,6 +161,8 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   }
   if (values.has("kalman.spike")) result.spike = values.number("kalman.spike", 0);
   result.structure = empty_or(values, "kalman.structure");
+  if (values.has("kalman.recovery"))
+    result.recovery = design::TransferRecovery{values.number("kalman.recovery", 0), says("kalman.recovery", "auto")};
   result.form = says("kalman.form", "predictor") ? design::Form::predictor : design::Form::filter;
   result.covariance = says("kalman.covariance", "plain") ? design::Covariance::plain : design::Covariance::ud;
   result.x0 = zero_or(values, "kalman.initial_state", nx, 1).col(0);

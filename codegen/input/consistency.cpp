@@ -67,6 +67,11 @@ void check_alternatives(const Values& values, Report& report) {
     check_all({"lqr", {"R"}, Need::required});
 }
 
+bool requires_of_loop(const Values& values) {
+  return has_any(values, {"require.gain_margin_dB", "require.phase_margin_deg", "require.disk_margin",
+                          "require.delay_margin", "require.max_pole"});
+}
+
 // A key that means something only beside another one.
 void check_companions(const Values& values, Report& report) {
   const auto needs = [&](const char* key, bool good, const char* what) {
@@ -78,6 +83,15 @@ void check_companions(const Values& values, Report& report) {
   needs("kalman.horizon", schedule || values.number("kalman.horizon", 0) == 0, "kalman.gain = \"schedule\"");
   const std::string gain = values.text("kalman.gain");
   needs("kalman.structure", gain.empty() || gain == "steady", "kalman.gain = \"steady\"");
+  needs("kalman.recovery", has_any(values, {"lqr", "pole_placement"}),
+        "[lqr] or [pole_placement]: without a regulator there is no loop");
+  needs("kalman.recovery", gain != "online",
+        "kalman.gain = \"steady\" or \"schedule\": a covariance that is carried with noise that is not there would not "
+        "be that of the error");
+  needs("kalman.recovery", !values.has("kalman.structure"),
+        "a gain without kalman.structure: that gain is the best one for the noise itself");
+  needs("kalman.recovery", values.text("kalman.recovery") != "auto" || requires_of_loop(values),
+        "a margin or max_pole in [require] for \"auto\": without one there is nothing to meet");
   for (const std::string& stage : values.tables_of("stage")) {
     for (const char* key : {".Q", ".R", ".N"}) needs((stage + key).c_str(), values.has("lqr"), "[lqr]");
     for (const char* key : {".process_noise", ".measurement_noise"})

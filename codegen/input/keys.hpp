@@ -19,6 +19,7 @@ enum class Type {
   real,       // a finite number
   flag,       // true or false
   threshold,  // a number > 0, or inf
+  amount,     // a number ≥ 0, or one of `words`
   whole,      // a whole number ≥ 1
   steps,      // a number of samples that have gains of their own, 0 to most_steps
   step,       // the number of such a sample, ≥ 1

@@ -126,6 +126,7 @@ class ValueReader {
       case Type::real: read_number(rule, node, "a finite number", [](double x) { return !std::isnan(x); }); break;
       case Type::flag: read_flag(rule, node); break;
       case Type::threshold: read_threshold(rule, node); break;
+      case Type::amount: read_amount(rule, node); break;
       case Type::whole: read_whole(rule, node, 1, std::numeric_limits<int>::max()); break;
       case Type::steps: read_whole(rule, node, 0, design::most_steps); break;
       case Type::step: read_whole(rule, node, 1, design::most_steps); break;
@@ -251,6 +252,16 @@ class ValueReader {
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
     if (!(node.number > 0)) return expected(rule, wanted, shown(node.number));
     values_.numbers[rule.path] = node.number;
+  }
+
+  void read_amount(const KeyRule& rule, const Node& node) {
+    if (node.kind == Kind::text && contains(rule.words, node.text)) {
+      values_.texts[rule.path] = node.text;
+      return;
+    }
+    const std::string wanted = "a number ≥ 0 or " + listed(rule.words);
+    if (node.kind == Kind::text) return expected(rule, wanted, in_quotes(node.text));
+    read_number(rule, node, wanted.c_str(), [](double x) { return x >= 0; });
   }
 
   void read_flag(const KeyRule& rule, const Node& node) {

@@ -78,6 +78,7 @@ Json value_schema(const KeyRule& rule) {
     case Type::real: return number;
     case Type::flag: return {{"type", "boolean"}};
     case Type::threshold: return threshold();
+    case Type::amount: return {{"anyOf", {{{"type", "number"}, {"minimum", 0}}, {{"enum", rule.words}}}}};
     case Type::whole: return {{"type", "integer"}, {"minimum", 1}};
     case Type::steps: return whole(0, design::most_steps);
     case Type::step: return whole(1, design::most_steps);

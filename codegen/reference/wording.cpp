@@ -37,6 +37,7 @@ std::string values_of(const KeyRule& rule) {
     case Type::real: return "number";
     case Type::flag: return "`true`, `false`";
     case Type::threshold: return "number > 0, or inf";
+    case Type::amount: return "number ≥ 0, or " + words;
     case Type::whole:
     case Type::step: return "whole number ≥ 1";
     case Type::steps: return "whole number ≥ 0";
@@ -64,7 +65,7 @@ std::string values_of(const KeyRule& rule) {
 std::string otherwise(const KeyRule& rule) {
   if (rule.need == input::Need::required) return "required";
   if (!rule.otherwise.empty()) return rule.otherwise;
-  return rule.words.empty() ? "" : "`\"" + rule.words.front() + "\"`";
+  return rule.words.empty() || rule.type == Type::amount ? "" : "`\"" + rule.words.front() + "\"`";
 }
 
 }  // namespace lqg::reference

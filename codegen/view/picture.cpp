@@ -31,13 +31,6 @@ controller::Source source_of(const std::string& text, const std::string& path) {
   return {std::filesystem::path(path).filename().string(), emit::sha256(text)};
 }
 
-// Without what [require] asks for: who misses it wants to see by how much.
-design::Problem free_problem(const input::DesignFile& file) {
-  design::Problem problem = *file.problem;
-  problem.requirements = {};
-  return problem;
-}
-
 using Scenarios = std::vector<design::Scenario>;
 
 emit::PageData draw(emit::Controller& controller, const input::DesignFile& file, const Scenarios& like,
@@ -49,7 +42,7 @@ emit::PageData draw(emit::Controller& controller, const input::DesignFile& file,
 
 std::optional<emit::PageData> first_page(const input::DesignFile& file, const std::string& path, const Scenarios& like,
                                          Picture& picture) {
-  design::Problem problem = free_problem(file);
+  design::Problem problem = design::without_requirements(*file.problem);
   std::optional<design::Solution> solution = design::first_look(problem);
   if (!solution) return std::nullopt;
   design::Findings ignored;
@@ -61,7 +54,7 @@ std::optional<emit::PageData> first_page(const input::DesignFile& file, const st
 
 std::optional<emit::PageData> whole_page(const input::DesignFile& file, const std::string& path, const Scenarios& like,
                                          Picture& picture) {
-  design::Problem problem = free_problem(file);
+  design::Problem problem = design::without_requirements(*file.problem);
   design::Findings findings;
   std::optional<design::Solution> solution = design::solve(problem, findings);
   std::optional<emit::Controller> controller;

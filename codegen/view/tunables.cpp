@@ -50,6 +50,7 @@ const Rule rules[] = {
     {"kalman.process_correlation_time", "Correlation times of the process noise", Named::noises, Span::time},
     {"kalman.measurement_correlation_time", "Correlation times of the measurement noise", Named::outputs, Span::time},
     {"kalman.horizon", "Horizon of the filter", Named::nothing, Span::steps, "samples"},
+    {"kalman.recovery", "Loop transfer recovery", Named::nothing, Span::weight},
     {"kalman.gate", "Gates", Named::nothing, Span::gate, "σ"},
     {"kalman.spike", "Gates", Named::nothing, Span::spike, "σ"},
     {"limits.u_min", "Smallest inputs", Named::inputs, Span::limit},

@@ -265,6 +265,14 @@ Motion free_of_noise(const Plant& plant, const SampledNoise& noise) {
   return {motion, real(plant.A) - multiply(multiply(real(plant.G), noise.Swv), told)};
 }
 
+// Of recovery: noise at the inputs as more columns of G.
+void add_fictitious_noise(const Problem& problem, Plant& plant, SampledNoise& noise) {
+  const RealMatrix q = Real(problem.estimator->recovery->q) * identity(plant.B.cols());
+  noise.W = joint(noise.W, zeros(noise.W.rows(), q.rows()), q);
+  noise.Swv = above(noise.Swv, zeros(q.rows(), noise.Swv.cols()));
+  plant.G = side(plant.G, plant.B);
+}
+
 }  // namespace
 
 void check_weights_are_no_artefact(const Problem& problem, Findings& findings) {
@@ -282,9 +290,11 @@ void check_weights_are_no_artefact(const Problem& problem, Findings& findings) {
 
 void check_noise_is_no_artefact(const Problem& problem, Findings& findings) {
   const Digits enough(50);
-  const SampledNoise noise = noise_of(problem);
+  SampledNoise noise = noise_of(problem);
   if (!is_zero(noise.Swv) && is_continuous(problem)) return;
-  const Motion motion = free_of_noise(problem.plant, noise);
+  Plant plant = problem.plant;
+  if (problem.estimator->recovery) add_fictitious_noise(problem, plant, noise);
+  const Motion motion = free_of_noise(plant, noise);
   const Region region = {is_continuous(problem), Which::on, limit_of_stability(problem)};
   for (const Artefact& mode : artefacts(motion.pencil, motion.A, region))
     add(findings, problem, "kalman.process_noise", mode,

@@ -253,7 +253,8 @@ LimitPair untold_noise(const Samples& samples) {
   const RealMatrix told = *solve(noise.V, beside(plant.C, noise.Swv.transpose()));
   const Index nx = plant.A.rows(), nw = plant.G.cols();
   const RealMatrix free = plant.A - multiply(plant.G, multiply(noise.Swv, told.leftCols(nx)));
-  const RealMatrix own = congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
+  RealMatrix own = congruence(plant.G, symmetric_part(noise.W - multiply(noise.Swv, told.rightCols(nw))));
+  if (samples.fictitious.size() > 0) own += samples.fictitious.topLeftCorner(nx, nx);
   return {free, own, false};
 }
 

@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "design/gains/estimator.hpp"
 
+#include "design/equations/refined_stein.hpp"
 #include "design/finding.hpp"
 #include "design/numeric/factor.hpp"
 #include "design/sampled/noise.hpp"
 
 namespace lqg::design {
 
+namespace {
+
+// What the gain takes for noise of the plant's own states.
+RealMatrix noise_of_gain(const Samples& samples) {
+  const RealMatrix noise = congruence(own_plant(samples).G, samples.noise->W);
+  const Index nx = samples.own_states;
+  return samples.fictitious.size() > 0 ? RealMatrix(noise + samples.fictitious.topLeftCorner(nx, nx)) : noise;
+}
+
+}  // namespace
+
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
   const SampledPlant plant = own_plant(samples);
   const SampledNoise& noise = *samples.noise;
   const Index nx = samples.own_states, all = samples.plant.A.rows();
   RiccatiResult result = solve_discrete_riccati(
-      {plant.A.transpose(), plant.C.transpose(), congruence(plant.G, noise.W), noise.V, multiply(plant.G, noise.Swv)},
+      {plant.A.transpose(), plant.C.transpose(), noise_of_gain(samples), noise.V, multiply(plant.G, noise.Swv)},
       start.size() > 0 ? RealMatrix(start.topLeftCorner(nx, nx)) : start);
   // The inputs on their way are known: no error.
   if (result.failure == RiccatiFailure::none) result.X = padded(result.X, all, all);
@@ -22,8 +34,11 @@ RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start) {
 RiccatiResult solve_continuous_estimator(const Problem& problem, const RealMatrix& start) {
   const SampledNoise noise = noise_of(problem);
   const RealMatrix G = real(problem.plant.G);
-  return solve_continuous_riccati({real(problem.plant.A).transpose(), real(problem.plant.C).transpose(),
-                                   congruence(G, noise.W), noise.V, multiply(G, noise.Swv)},
+  RealMatrix of_states = congruence(G, noise.W);
+  const RealMatrix B = real(problem.plant.B);
+  if (problem.estimator->recovery) of_states += Real(problem.estimator->recovery->q) * multiply_transpose(B, B);
+  return solve_continuous_riccati({real(problem.plant.A).transpose(), real(problem.plant.C).transpose(), of_states,
+                                   noise.V, multiply(G, noise.Swv)},
                                   start);
 }
 
@@ -32,6 +47,7 @@ EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior) {
   const SampledNoise& noise = *samples.noise;
   EstimatorSolution filter;
   filter.noise = noise;
+  filter.fictitious = samples.fictitious;
   filter.P_prior = P_prior;
   filter.S = noise.V + congruence(plant.C, P_prior);
   const RealMatrix CP = multiply(plant.C, P_prior), Swv_G = multiply(plant.G, noise.Swv).transpose();
@@ -41,6 +57,31 @@ EstimatorSolution filter_of(const Samples& samples, const RealMatrix& P_prior) {
   filter.L_predictor = multiply(plant.A, filter.L) + filter.M;
   filter.P_posterior = P_prior - congruence(filter.L, filter.S);
   return filter;
+}
+
+RealMatrix next_error(const Samples& samples, const RealMatrix& L_predictor, const RealMatrix& P_prior) {
+  const SampledPlant& plant = samples.plant;
+  const SampledNoise& noise = *samples.noise;
+  return congruence(plant.A - multiply(L_predictor, plant.C), P_prior) +
+         congruence(beside(plant.G, -L_predictor), joint(noise.W, noise.Swv, noise.V));
+}
+
+void set_error(const Samples& samples, const RealMatrix& P_prior, EstimatorSolution& filter) {
+  const RealMatrix& C = samples.plant.C;
+  filter.P_prior = P_prior;
+  filter.S = filter.noise.V + congruence(C, P_prior);
+  filter.P_posterior =
+      congruence(identity(P_prior.rows()) - multiply(filter.L, C), P_prior) + congruence(filter.L, filter.noise.V);
+}
+
+std::optional<RealMatrix> steady_error(const Samples& samples, const RealMatrix& L_predictor) {
+  const SampledPlant own = own_plant(samples);
+  const SampledNoise& noise = *samples.noise;
+  const Index nx = samples.own_states, all = samples.plant.A.rows();
+  const RealMatrix gain = L_predictor.topRows(nx);
+  const RealMatrix driven = congruence(beside(own.G, -gain), joint(noise.W, noise.Swv, noise.V));
+  const std::optional<RealMatrix> P = refined_stein((own.A - multiply(gain, own.C)).transpose(), driven);
+  return P ? std::optional(padded(*P, all, all)) : std::nullopt;
 }
 
 namespace {

@@ -10,13 +10,10 @@ namespace lqg::design {
 
 namespace {
 
-// Joseph's form: F P Fᵀ + [G −L_p] [W Swv; Swvᵀ V] [G −L_p]ᵀ with F = A − L_p C stays definite.
+// Of the noise that the gains are made for.
 RealMatrix next_covariance(const Samples& samples, const EstimatorSolution& filter) {
-  const SampledPlant& plant = samples.plant;
-  const SampledNoise& noise = *samples.noise;
-  const RealMatrix F = plant.A - multiply(filter.L_predictor, plant.C);
-  return congruence(F, filter.P_prior) +
-         congruence(beside(plant.G, -filter.L_predictor), joint(noise.W, noise.Swv, noise.V));
+  const RealMatrix P = next_error(samples, filter.L_predictor, filter.P_prior);
+  return samples.fictitious.size() > 0 ? RealMatrix(P + samples.fictitious) : P;
 }
 
 bool round_alike(const Real& a, const Real& b, Scalar real) {
@@ -63,8 +60,16 @@ void advance(const std::vector<SampledStage>& stages, int k, RealMatrix& P, Gain
 
 GainSchedule gains_forward(const std::vector<SampledStage>& stages, const RealMatrix& P0, int count) {
   GainSchedule schedule;
-  RealMatrix P = P0;
-  for (int k = 0; k < count; ++k) advance(stages, k, P, schedule);
+  RealMatrix P = P0, error = P0, next = P0;
+  for (int k = 0; k < count; ++k) {
+    advance(stages, k, P, schedule);
+    const Samples& samples = stage_at(stages, k).samples;
+    if (samples.fictitious.size() == 0) continue;
+    error = next;
+    next = next_error(samples, schedule.last.L_predictor, error);
+  }
+  const Samples& last = stage_at(stages, count - 1).samples;
+  if (last.fictitious.size() > 0) set_error(last, error, schedule.last);
   return schedule;
 }
 

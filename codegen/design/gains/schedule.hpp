@@ -14,6 +14,7 @@ struct GainSchedule {
   bool is_settled = true;  // false: not within the most samples that were allowed
 };
 
+// With recovery the gains are those of W and the fictitious noise, the covariances of `last` those of its error.
 // `count` gains from P0 on: L = P Cᵀ S⁻¹, M = G Swv S⁻¹, P⁺ = A P Aᵀ + G W Gᵀ − (A L + M) S (A L + M)ᵀ.
 GainSchedule gains_forward(const std::vector<SampledStage>& stages, const RealMatrix& P0, int count);
 

@@ -17,6 +17,7 @@ struct DesignRun {
   std::vector<ComplexReal> regulator_poles, estimator_poles, loop_poles;
   std::optional<RegulatorSolution> own_law;                           // over the plant's own states alone
   std::optional<PlacementChoice> regulator_choice, estimator_choice;  // of placed poles
+  RealMatrix filter_riccati;                                          // the solution that the steady gain is made of
   std::optional<EstimatorSolution> full_filter;                       // without the structure that its gain has
   std::optional<Real> cost_per_sample, cost_per_second;
   bool has_steady_loop = false;  // stable, with margins

@@ -3,6 +3,7 @@
 
 #include "design/checks/rounding_artefacts.hpp"
 #include "design/checks/well_posed.hpp"
+#include "design/finding.hpp"
 #include "design/gains/pole_placement.hpp"
 #include "design/gains/schedule.hpp"
 #include "design/run/design_run_parts.hpp"
@@ -73,22 +74,31 @@ void add_continuous_gain(const Problem& problem, const DesignRun* coarser, Estim
       coarser && coarser->solution.estimator ? coarser->solution.estimator->P_continuous : RealMatrix();
   const RiccatiResult found = solve_continuous_estimator(problem, start);
   if (found.failure != RiccatiFailure::none) return;
-  filter.P_continuous = found.X;
+  if (!problem.estimator->recovery) filter.P_continuous = found.X;
   filter.L_continuous = found.K.transpose();
+}
+
+// The filter's own P counts noise that is not there.
+void take_true_error(const Samples& samples, DesignRun& result) {
+  EstimatorSolution& filter = *result.solution.estimator;
+  const std::optional<RealMatrix> P = steady_error(samples, filter.L_predictor);
+  if (P) return set_error(samples, *P, filter);
+  result.may_want_digits = true;
+  add_error(result.findings, "kalman.recovery", "the filter's poles are too near to the stability limit");
 }
 
 void run_steady_filter(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
   if (!has_steady_filter(last, result)) return;
-  const bool has_start = coarser && coarser->solution.estimator;
-  const RiccatiResult found =
-      solve_estimator(last.samples, has_start ? coarser->solution.estimator->P_prior : RealMatrix());
+  const RiccatiResult found = solve_estimator(last.samples, coarser ? coarser->filter_riccati : RealMatrix());
   explain_estimator(found.failure, result.findings);
   if (found.failure != RiccatiFailure::none) result.may_want_digits = true;
   if (found.failure != RiccatiFailure::none) return;
   take_condition(found, result.solution);
+  result.filter_riccati = found.X;
   result.solution.estimator = filter_of(last.samples, found.X);
   result.estimator_poles = poles_of_optimal_filter(last, result.solution.estimator->L_predictor);
   add_continuous_gain(last.of_filter(), coarser, *result.solution.estimator);
+  if (last.problem.estimator->recovery) take_true_error(last.samples, result);
   if (last.problem.estimator->structure.size() > 0)
     keep_estimator_structure(last.problem, last.samples, coarser, result);
 }

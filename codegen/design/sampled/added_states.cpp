@@ -157,6 +157,7 @@ Samples with_late_outputs(const Problem& problem, const Samples& samples) {
     result.plant.D.row(i).setZero();
     state += count;
   }
+  if (samples.fictitious.size() > 0) result.fictitious = with_both(samples.fictitious, nx, late);
   if (samples.cost) result.cost = with_states(*samples.cost, nx, late);
   if (samples.between) result.between->cost = with_states(samples.between->cost, nx, late);
   return result;

@@ -151,6 +151,17 @@ Samples discrete_samples(const Plant& plant, const Delay& delay) {
   return samples;
 }
 
+// q B Bᵀ of recovery over all states, with B of the samples: the noise is held like the inputs, which a loop that is
+// opened there needs; its variance is the density over a period. It is white, so that a delay changes nothing.
+RealMatrix fictitious_noise(const Problem& problem, Index states) {
+  const Plant& plant = problem.plant;
+  const Real q = problem.estimator->recovery->q, T = plant.sample_time;
+  const bool is_discrete = plant.domain == Domain::discrete;
+  const RealMatrix B =
+      is_discrete ? real(plant.B) : sample(HeldPlant{real(plant.A), real(plant.B), RealMatrix(), RealMatrix()}, T).B;
+  return padded((is_discrete ? q : Real(q / T)) * multiply_transpose(B, B), states, states);
+}
+
 }  // namespace
 
 Samples sample(const Problem& problem) { return sample(problem, delay_of(problem.plant)); }
@@ -163,6 +174,8 @@ Samples sample(const Problem& problem, const Delay& delay) {
   add_outputs(plant, delay.samples, samples.plant);
   if (has_cost(problem.regulator) && !samples.cost) samples.cost = weights_of_samples(problem, delay.samples);
   if (has_noise(problem.estimator) && !samples.noise) samples.noise = noise_of(problem);
+  if (has_noise(problem.estimator) && problem.estimator->recovery)
+    samples.fictitious = fictitious_noise(problem, samples.plant.A.rows());
   return samples;
 }
 

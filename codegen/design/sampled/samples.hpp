@@ -25,6 +25,7 @@ struct Samples {
   std::optional<SampledNoise> noise;
   std::optional<BetweenSamples> between;  // of a continuous cost
   RealMatrix start;                       // own_states × of x0, or empty: x0 itself
+  RealMatrix fictitious;                  // with recovery: what the filter's gain takes for noise of the states, too
 };
 
 // A delay and cost = "continuous" do not go together.

@@ -172,6 +172,7 @@ Json kalman(const Controller& controller) {
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   out["L"] = rows(estimator.L);
   out["L_predictor"] = rows(estimator.L_predictor);
+  add(out, "fictitious_noise", estimator.fictitious);
   add(out, "P_prior", estimator.P_prior);
   add(out, "P_posterior", estimator.P_posterior);
   add(out, "S", estimator.S);
@@ -196,11 +197,26 @@ Json poles_margins_and_cost(const Loop& loop, double sample_time) {
   return out;
 }
 
+// Margin against cost.
+Json transfer_recovery(const design::RecoveryReport& report, double sample_time) {
+  Json points = Json::array();
+  const std::optional<double>& without = report.points.front().cost_per_sample;
+  for (const design::RecoveryPoint& point : report.points) {
+    Json one = {{"q", point.q}};
+    add_margins(one, point.at_input, sample_time);
+    add(one, "cost_per_sample", point.cost_per_sample);
+    if (without && *without > 0 && point.cost_per_sample) one["cost_ratio"] = *point.cost_per_sample / *without;
+    points.push_back(one);
+  }
+  return {{"q", report.q}, {"points", points}};
+}
+
 Json loop(const design::LoopSolution& solution, double sample_time) {
   Json out = poles_margins_and_cost(solution, sample_time);
   add(out, "cost_per_second", solution.cost_per_second);
   if (solution.rms) out["rms"] = {{"x", solution.rms->x}, {"u", solution.rms->u}, {"y", solution.rms->y}};
   if (solution.rounded) out["rounded"] = poles_margins_and_cost(*solution.rounded, sample_time);
+  if (solution.recovery) out["transfer_recovery"] = transfer_recovery(*solution.recovery, sample_time);
   return out;
 }
 

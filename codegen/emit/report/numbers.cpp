@@ -80,6 +80,7 @@ class Matrices {
     add("W", "E[w wᵀ]", estimator.noise.W, w, w);
     add("V", "E[v vᵀ]", estimator.noise.V, y_, y_);
     add("Swv", "E[w vᵀ]", estimator.noise.Swv, w, y_);
+    add("fictitious", "q B Bᵀ at the samples, for the gain alone", estimator.fictitious, x_, x_);
     add("L", "gain of the filter", estimator.L, x_, y_);
     add("L_predictor", "A L + M", estimator.L_predictor, x_, y_);
     add("P_prior", "covariance of the error before the outputs", estimator.P_prior, x_, x_);
