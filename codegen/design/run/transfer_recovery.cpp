@@ -33,9 +33,7 @@ class TwoDigits {
   // 1, 2, 5, 10, …: the one after, the one before.
   TwoDigits step_up() const { return TwoDigits(index_ + (digits() == 10 ? 10 : digits() == 20 ? 30 : 50)); }
   TwoDigits step_down() const { return TwoDigits(index_ - (digits() == 10 ? 50 : digits() == 20 ? 10 : 30)); }
-  friend TwoDigits between(TwoDigits a, TwoDigits b) {
-    return TwoDigits(a.index_ + (b.index_ - a.index_) / 2);
-  }
+  friend TwoDigits between(TwoDigits a, TwoDigits b) { return TwoDigits(a.index_ + (b.index_ - a.index_) / 2); }
   friend bool are_neighbours(TwoDigits a, TwoDigits b) { return b.index_ - a.index_ == 1; }
   // The double that the decimal reads back as.
   double value() const {
@@ -85,8 +83,8 @@ class Trials {
     LoopSolution& loop = run.solution.loop;
     loop.poles = sorted_poles(run.loop_poles);
     if (run.cost_per_sample) loop.cost_per_sample = to_double(*run.cost_per_sample);
-    const OpenLoop open = open_at_inputs(measured_plant(problem_, final_plant(run.solution)),
-                                         compensator(problem_, run.solution));
+    const OpenLoop open =
+        open_at_inputs(measured_plant(problem_, final_plant(run.solution)), compensator(problem_, run.solution));
     loop.at_input = rough_ ? rough_margins(open, run.loop_poles) : margins(open, run.loop_poles);
   }
 
@@ -267,11 +265,13 @@ void check_recovery(const Problem& problem, Findings& findings) {
   if (!problem.regulator)
     add_error(findings, recovery_key, "needs [lqr] or [pole_placement]: without a regulator there is no loop");
   if (kalman.gain == Gain::online)
-    add_error(findings, recovery_key,
-              "needs gain = \"steady\" or \"schedule\": a covariance that is carried with noise that is not there would "
-              "not be that of the error");
+    add_error(
+        findings, recovery_key,
+        "needs gain = \"steady\" or \"schedule\": a covariance that is carried with noise that is not there would "
+        "not be that of the error");
   if (kalman.structure.size() > 0)
-    add_error(findings, recovery_key, "expected this or kalman.structure: that gain is the best one for the noise itself");
+    add_error(findings, recovery_key,
+              "expected this or kalman.structure: that gain is the best one for the noise itself");
   if (kalman.recovery->is_automatic && !requires_of_loop(problem.requirements))
     add_error(findings, recovery_key,
               "\"auto\" needs a margin or max_pole in [require]: without one there is nothing to meet");
@@ -307,8 +307,7 @@ void note_recovery(const Problem& problem, const LoopSolution& loop, bool was_fo
   const std::string changes = change(before, loop);
   if (was_found && report.q == 0) return add_note(findings, recovery_key, "[require] is met without it: q = 0");
   if (was_found)
-    add_note(findings, recovery_key,
-             "the smallest q that meets [require] is " + decimal(report.q) + ": " + changes);
+    add_note(findings, recovery_key, "the smallest q that meets [require] is " + decimal(report.q) + ": " + changes);
   const bool is_expensive =
       none.cost_per_sample && loop.cost_per_sample && *loop.cost_per_sample > 2 * *none.cost_per_sample;
   if (is_expensive && !was_found) add_note(findings, recovery_key, "this is expensive: " + changes);

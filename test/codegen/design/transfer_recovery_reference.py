@@ -111,6 +111,8 @@ class Loop:
         angles = [pi * mpf(10) ** (mpf(k) / 600 - 4) for k in range(2401)]
         with mp.workdps(15):
             best = max(range(1, 2400), key=lambda k: size(angles[k]))
+        if size(0) >= size(angles[best]):
+            return 1 / size(0)
         low, high, share = angles[best - 1], angles[best + 1], (sqrt(5) - 1) / 2
         for _ in range(150):
             a, b = high - share * (high - low), low + share * (high - low)
