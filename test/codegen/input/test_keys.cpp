@@ -55,6 +55,9 @@ void test_word_of_another_tool_names_the_key() {
   expect("plant", "Ts", "unknown key, did you mean `sample_time`?");
   expect("", "dt", "unknown key, did you mean `sample_time` in [plant]?");
   expect("kalman", "QN", "unknown key, did you mean `process_noise`?");
+  expect("kalman", "ltrsyn", "unknown key, did you mean `recovery`?");
+  expect("lqr", "LTR", "unknown key, did you mean `recovery` in [kalman]?");
+  expect("kalman", "recovry", "unknown key, did you mean `recovery`?");
   expect("kalman", "R", "unknown key, did you mean `measurement_noise`?");
   expect("lqr", "RN", "unknown key, did you mean `measurement_noise` in [kalman]?");
   expect("require", "phase_margin", "unknown key, did you mean `phase_margin_deg`?");

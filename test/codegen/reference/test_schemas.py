@@ -65,6 +65,7 @@ GOOD = {
     "an output by number": ('R = [16]', 'R = [16]\ntrack = [0]'),
     "a structure by names": ('R = [16]', 'R = [16]\nstructure = [["dy1", "v1", "dy2"]]'),
     "a state that nothing corrects": ('gain = "steady"', 'structure = [["y1"], ["y1", "y2"], ["y2"], []]'),
+    "recovery by a number": ('gain = "steady"', 'recovery = 0.5'),
     "a name without a unit": ('"dy1 [m]"', '"dy1"'),
     "a full weight": ('R = [16]', 'R = [[16]]'),
 }
