@@ -44,6 +44,8 @@ Chart whiteness_chart(const Controller& controller, const simulate::ScenarioRun&
   constexpr std::size_t most_lags = 30;
   Chart chart;
   chart.title = "Correlation of the innovations with earlier ones";
+  const auto& recovery = controller.solution.loop.recovery;
+  if (recovery && recovery->q > 0) chart.title += ", which recovery makes";
   chart.id = "whiteness";
   chart.x.label = "lag [samples]";
   const auto samples = static_cast<std::size_t>(run.innovation.cols());

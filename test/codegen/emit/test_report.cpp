@@ -169,6 +169,18 @@ void test_the_deviations_end_at_those_of_the_steady_filter() {
   TEST_ASSERT_DOUBLE_WITHIN(0.05 * steady, steady, curve.y.back());
 }
 
+// With the titles and every q; what is not there, a cost, has no column.
+void test_margin_against_cost_stands_in_it_with_recovery() {
+  TEST_ASSERT_FALSE(has(report(controller_of(double_integrator())), "Margin against cost"));
+  std::string text = toml(double_integrator());
+  text.replace(text.find("[kalman]"), 8, "[kalman]\nrecovery = 0.25");
+  const Controller controller = controller_of(text);
+  expect_sound(controller);
+  const std::string html = visible(report(controller));
+  for (const char* words : {"Margin against cost", "0.25, this design", "0.0025", "cost, beside q = 0", "+0 %"})
+    TEST_ASSERT_TRUE_MESSAGE(has(html, words), words);
+}
+
 void test_notes_of_the_design_stand_in_it() {
   lqg::design::Findings findings;
   lqg::design::add_note(findings, "lqr.R", "is <small>");
@@ -226,6 +238,7 @@ int main() {
   RUN_TEST(test_the_nyquist_curve_touches_the_circle_of_the_disk_margin);
   RUN_TEST(test_the_root_locus_goes_through_the_poles_of_the_design);
   RUN_TEST(test_the_deviations_end_at_those_of_the_steady_filter);
+  RUN_TEST(test_margin_against_cost_stands_in_it_with_recovery);
   RUN_TEST(test_notes_of_the_design_stand_in_it);
   RUN_TEST(test_ids_of_charts_differ_from_each_other);
   RUN_TEST(test_chi_squared_has_the_values_of_the_table);

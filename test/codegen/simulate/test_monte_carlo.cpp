@@ -91,6 +91,17 @@ void test_a_filter_that_is_right_knows_its_error() {
   }
 }
 
+// Its gain is made for noise that is not there: eight times the variance at the input.
+void test_a_filter_with_recovery_knows_its_error() {
+  for (const char* gain : {"steady\"\nrecovery = 0.32 #", "schedule\"\nrecovery = 0.32 #"}) {
+    const MonteCarlo result = runs_of(lqg_test::controller_of(walker(honest, gain)), 2000, 2);
+    for (const auto& found : {simulate::nees_of(result), simulate::nis_of(result)}) {
+      TEST_ASSERT_TRUE(found);
+      TEST_ASSERT_TRUE_MESSAGE(found->share_inside > 0.8, std::to_string(found->share_inside).c_str());
+    }
+  }
+}
+
 void test_a_filter_with_a_wrong_plant_is_found_out() {
   const Controller controller = lqg_test::controller_of(
       walker("spread = { x0 = [2, 1] }\nplant = { scale = [{ matrix = \"B\", factor = 3 }] }\n", "online"));
@@ -145,6 +156,7 @@ int main() {
   RUN_TEST(test_the_same_seed_gives_the_same_bytes_on_any_number_of_threads);
   RUN_TEST(test_runs_that_are_shared_out_are_those_of_the_whole);
   RUN_TEST(test_a_filter_that_is_right_knows_its_error);
+  RUN_TEST(test_a_filter_with_recovery_knows_its_error);
   RUN_TEST(test_a_filter_with_a_wrong_plant_is_found_out);
   RUN_TEST(test_a_run_that_misses_a_requirement_has_failed);
   RUN_TEST(test_percentiles_are_numbers_of_runs);

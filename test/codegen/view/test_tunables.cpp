@@ -83,7 +83,8 @@ void test_acceptable_values_and_limits_have_the_units_of_their_signals() {
 void test_times_steps_and_gates_have_fitting_scales() {
   const auto all = of(plant +
                       "delay = 0.02\n[lqr]\nQ = [1, 1]\nR = [1]\nhorizon = 30\n"
-                      "[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\ngate = 4\nspike = 300\n");
+                      "[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\ngate = 4\nspike = 300\n"
+                      "recovery = 0.5\n");
   TEST_ASSERT_TRUE(at(all, "plant.sample_time").scale == Scale::logarithmic);
   TEST_ASSERT_EQUAL_STRING("s", at(all, "plant.sample_time").unit.c_str());
   TEST_ASSERT_EQUAL_DOUBLE(0.05, at(all, "plant.delay").high);
@@ -92,6 +93,8 @@ void test_times_steps_and_gates_have_fitting_scales() {
   TEST_ASSERT_EQUAL_DOUBLE(120, at(all, "lqr.horizon").high);
   TEST_ASSERT_EQUAL_DOUBLE(10, at(all, "kalman.gate").high);
   TEST_ASSERT_TRUE(at(all, "kalman.spike").scale == Scale::logarithmic);
+  TEST_ASSERT_EQUAL_STRING("recovery", at(all, "kalman.recovery").name.c_str());
+  TEST_ASSERT_EQUAL_DOUBLE(5e-4, at(all, "kalman.recovery").low);
 }
 
 void test_delay_and_factor_of_R_are_there_although_the_file_leaves_them_out() {
