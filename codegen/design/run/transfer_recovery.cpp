@@ -171,8 +171,8 @@ std::string change(const LoopSolution& before, const LoopSolution& after) {
 void explain_failure(const Problem& problem, const Trial& without, const Trial& best, Findings& findings) {
   std::string message = "no q meets [require]";
   if (!best.is_steady) return add_error(findings, recovery_key, message + ": there is no stable loop with any");
-  message += "; the best is " + decimal(best.q);
-  if (without.is_steady) message += " (" + change(without.solution.loop, best.solution.loop) + ")";
+  message += best.q > 0 ? "; the best is " + decimal(best.q) : ", and none comes nearer than 0";
+  if (best.q > 0 && without.is_steady) message += " (" + change(without.solution.loop, best.solution.loop) + ")";
   Findings missed;
   check_requirements(problem, best.solution, missed);
   for (const Finding& finding : missed) message += "; " + finding.key + " " + finding.message;

@@ -203,9 +203,9 @@ std::string describe_estimator(const Controller& controller) {
   out += matrix_lines("W = E[w wᵀ]", noise.W, is_double);
   out += matrix_lines("V = E[v vᵀ]", noise.V, is_double);
   if (!is_zero(noise.Swv)) out += matrix_lines("E[w vᵀ]", noise.Swv, is_double);
-  if (!controller.solution.estimator->fictitious.isZero(0))
-    out +=
-        matrix_lines("fictitious noise of recovery, for L alone", controller.solution.estimator->fictitious, is_double);
+  if (controller.solution.loop.recovery)
+    out += "  L is that of noise q B Bᵀ at the inputs, too: recovery, q = " +
+           number(controller.solution.loop.recovery->q, true) + "\n";
   return out + describe_gains(controller) + bounds(controller);
 }
 

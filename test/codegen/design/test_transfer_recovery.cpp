@@ -287,11 +287,23 @@ void expect_refused(const Problem& problem, const std::string& words) {
   TEST_ASSERT_TRUE_MESSAGE(found.find(words) != std::string::npos, found.c_str());
 }
 
+// A zero at s = 1/2, right of the bandwidth that is asked for.
+Problem of_no_use() {
+  Problem problem = oscillator();
+  problem.plant.C << -0.5, 1;
+  problem.regulator->R << 1e-3;
+  return problem;
+}
+
 void test_auto_that_no_q_satisfies_tells_the_best_and_its_cost() {
   Problem problem = doyle();
   problem.requirements.phase_margin_deg = 88;
   expect_refused(with_auto(problem), "kalman.recovery: no q meets [require]; the best is ");
   expect_refused(with_auto(problem), " times the cost); require.phase_margin_deg requires at least 88°, the loop has ");
+  problem = of_no_use();
+  problem.requirements.disk_margin = 1;
+  expect_refused(with_auto(problem),
+                 "no q meets [require], and none comes nearer than 0; require.disk_margin requires");
 }
 
 void test_what_has_no_meaning_is_refused_with_its_reason() {
@@ -324,12 +336,8 @@ void test_what_costs_more_than_double_is_told() {
   TEST_ASSERT_TRUE_MESSAGE(note.find("for 10.46 times the cost") != note.npos, note.c_str());
 }
 
-// A zero at s = 1/2, right of the bandwidth that is asked for.
 void test_recovery_of_no_use_is_told() {
-  Problem problem = oscillator();
-  problem.plant.C << -0.5, 1;
-  problem.regulator->R << 1e-3;
-  const std::string note = note_of(with_recovery(problem, 1e3));
+  const std::string note = note_of(with_recovery(of_no_use(), 1e3));
   TEST_ASSERT_TRUE_MESSAGE(note.find("the disk margin is not larger than without it") != note.npos, note.c_str());
 }
 
