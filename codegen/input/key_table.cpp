@@ -153,10 +153,11 @@ std::vector<KeyRule> keys_of_the_loop() {
        "correct it.",
        "all", "README.md#gains-with-a-structure"},
       {"kalman.recovery", Type::amount, no, no, optional, {"auto"},
-       "Loop transfer recovery: L is the gain for noise q B Bᵀ at the inputs, beside `process_noise`. It raises margins "
-       "and costs more effect of the noise. q is a power spectral density, (unit of an input)²/Hz, for each kind of "
-       "`noise`; with a discrete plant it is the variance of a sample. `\"auto\"`: the smallest q of two digits with which the "
-       "margins and `max_pole` of `[require]` are met. Not available with `gain = \"online\"` and `structure`.",
+       "Loop transfer recovery: L is the gain for noise q B Bᵀ at the inputs, beside `process_noise`. It raises "
+       "margins and costs more effect of the noise. q is a power spectral density, (unit of an input)²/Hz, for each "
+       "kind of `noise`; with a discrete plant it is the variance of a sample. `\"auto\"`: the smallest q of two "
+       "digits with which the margins and `max_pole` of `[require]` are met. Not available with `gain = \"online\"` "
+       "and `structure`.",
        "none", "tuning.md#margins-against-cost-kalmanrecovery"},
       {"kalman.gate", Type::not_negative, no, no, optional, {},
        "Gate in standard deviations: an output with a larger innovation is not used in that sample. The gate widens "

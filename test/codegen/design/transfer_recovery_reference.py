@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Makes the numbers of test_transfer_recovery.cpp: python3 transfer_recovery_reference.py, with mpmath
-# (https://mpmath.org). Nothing here is shared with the design engine: block exponentials (C. F. Van Loan, 1978), Riccati
-# and Lyapunov recursions until they stand still, and the disk margin by a golden section on the unit circle, in 40
-# digits.
-from mpmath import diag, eye, expj, expm, inverse, matrix, mp, mpf, pi, sqrt, zeros
+# (https://mpmath.org). Nothing here is shared with the design engine: block exponentials (C. F. Van Loan, 1978),
+# Riccati and Lyapunov recursions until they stand still, and the disk margin by a golden section on the unit circle,
+# in 40 digits.
+from mpmath import diag, expj, expm, eye, inverse, matrix, mp, mpf, pi, sqrt, zeros
 
 mp.dps = 40
 
