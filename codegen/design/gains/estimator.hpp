@@ -9,8 +9,8 @@
 namespace lqg::design {
 
 // The dual Riccati equation: Aᵀ, Cᵀ, GWGᵀ (with recovery and the fictitious noise), V, G Swv in the places of A, B, Q,
-// R, N; its X is P_prior, its K is L_predictorᵀ; `closed` is that of the plant's own states. `start` is P_prior in fewer
-// digits, or empty.
+// R, N; its X is P_prior, its K is L_predictorᵀ; `closed` is that of the plant's own states. `start` is P_prior in
+// fewer digits, or empty.
 RiccatiResult solve_estimator(const Samples& samples, const RealMatrix& start);
 
 // The continuous equation of a continuous plant with continuous noise, A P + P Aᵀ + GWGᵀ = (P Cᵀ + G Swv) V⁻¹ (…)ᵀ: X
