@@ -194,7 +194,9 @@ static unsigned advance(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned l
     for (unsigned k = 0; k < length; k++) {
         if (state->side[state->active[k]] == AT_LOW ? !(next[k] < 0) : !(next[k] > 0))
             continue;
-        const lqg_real possible = m[k] / (is_singular ? -next[k] : m[k] - next[k]);
+        const lqg_real ratio = m[k] / (is_singular ? -next[k] : m[k] - next[k]);
+        /* Rounding may have left m_k with the other sign: back or beyond it would be no step. */
+        const lqg_real possible = !(ratio > 0) ? 0 : ratio > 1 && !is_singular ? 1 : ratio;
         if (blocking == length || possible < share) {
             share = possible;
             blocking = k;

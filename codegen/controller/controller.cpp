@@ -147,10 +147,12 @@ void check_emittable(const Controller& controller, design::Findings& findings) {
              : "expected " + none + ": there is no variance of the innovations to compare with");
 }
 
-// TODO certificate
-unsigned iterations_of(const Controller& controller) {
+// Until more is known: what few designs come near to.
+Iterations iterations_of(const Controller& controller) {
+  constexpr unsigned changes_a_row = 10;
   const int given = controller.problem.limits->iterations;
-  return given > 0 ? static_cast<unsigned>(given) : 4u * static_cast<unsigned>(controller.solution.foreseen->G.rows());
+  if (given > 0) return {Iterations::Origin::file, static_cast<unsigned>(given)};
+  return {Iterations::Origin::cap, changes_a_row * static_cast<unsigned>(controller.solution.foreseen->G.rows())};
 }
 
 constexpr int bits_to_bound = 4;  // from a start

@@ -106,6 +106,14 @@ struct FormChoice {
 // of its products with dense matrices.
 enum class Sharing { nothing, outputs, columns, products };
 
+// How often a sample may change the set of active limits, and where that number is from.
+struct Iterations {
+  enum class Origin { none, file, certified, cap } origin = Origin::none;
+  unsigned most = 0;
+  double reach = 0;         // certified: for states up to so many times as far as those of `worth` went,
+  double tie_distance = 0;  // but for those nearer than this share of it to a tie of two decisions
+};
+
 struct Controller {
   design::Problem problem;
   design::Solution solution;
@@ -126,7 +134,7 @@ struct Controller {
   Bounds bounds;
   Gate gate;                                      // empty without one
   Recovery recovery;                              // of a filter
-  unsigned iterations = 0;                        // with foresight: changes of the set of active limits, at most
+  Iterations iterations;                          // with foresight
   std::optional<Worth> worth;                     // with foresight
   std::optional<design::LinearForm> linear;       // the controller keeps z of this form; else it keeps x̂
   std::optional<design::ModalPlant> modal;        // the filter keeps z, x̂ = T z: laws and bounds are those of z

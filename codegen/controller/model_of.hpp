@@ -94,7 +94,7 @@ step::LimitedLaw<S> limited_law_of(const Controller& controller, Round round) {
   const bool is_double = controller.target.is_double;
   step::LimitedLaw<S> law;
   law.nu = controller.size.nu;
-  law.iterations = controller.iterations;
+  law.iterations = controller.iterations.most;
   law.F = convert<S>(rows.F, round);
   law.G = convert<S>(rows.G, round);
   law.scale = convert<S>(rows.scale, round);

@@ -152,6 +152,7 @@ Solution held_in_modes(const ModalPlant& modal, const Solution& solution, Scalar
 
 std::string no_modal_plant(const Problem& problem) {
   if (!problem.estimator || problem.estimator->gain != Gain::online) return "the filter does not carry P";
+  if (foresees(problem.limits)) return "limits are foreseen of x̂";
   if (!problem.stages.empty()) return "the plant, and its modes with it, changes from stage to stage";
   return "";
 }

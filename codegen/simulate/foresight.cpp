@@ -40,6 +40,7 @@ step::Model<double> law_of(const Controller& controller, bool is_clipped) {
 struct Run {
   double cost = 0, excess = 0;
   bool settles = false;
+  VectorXd reach;  // of the plant's own states
   MatrixXd u, x;
 };
 
@@ -60,6 +61,7 @@ class Comparison {
     for (int n = 0; n < starts; ++n) {
       const VectorXd x = start(noise);
       const Run clipped = run(x, clipped_, false), optimal = run(x, optimal_, false);
+      worth.reach = n == 0 ? optimal.reach : VectorXd(worth.reach.cwiseMax(optimal.reach));
       ++worth.starts;
       worth.clipped_settle += clipped.settles;
       worth.optimal_settle += optimal.settles;
@@ -83,7 +85,7 @@ class Comparison {
   }
 
  private:
-  Eigen::Index own() const { return controller_.size.nx - controller_.size.delayed; }
+  Eigen::Index own() const { return controller_.problem.plant.A.rows(); }
 
   // Until a loop that is slowed down by its limits has settled.
   int samples_to_settle() const {
@@ -145,10 +147,12 @@ class Comparison {
       return own_state.dot(X_.topLeftCorner(own(), own()) * own_state);
     };
     const double first = distance();
+    out.reach = VectorXd::Zero(own());
     for (int k = 0; k < samples_; ++k) {
       step::Listener listener;
       const VectorXd before = state.u, u = step::control(law, state, listener);
       if (is_kept) keep(out, k, state.x, u);
+      out.reach = out.reach.cwiseMax(state.x.head(own()).cwiseAbs());
       const design::Limits& limits = *controller_.problem.limits;
       out.cost += state.x.dot(Q_ * state.x) + u.dot(R_ * u) + 2 * state.x.dot(N_ * u);
       const Eigen::MatrixXd& rate = controller_.problem.regulator->input_rate;

@@ -168,7 +168,8 @@ class Optimum {
     for (int k = 0; k < n; ++k) {
       const S& wanted = at(next, k);
       if (side(row(k)) == Side::low ? !is_less(wanted, S(0)) : !is_less(S(0), wanted)) continue;
-      const S possible = at(m_, k) / (is_singular ? S(S(0) - wanted) : S(at(m_, k) - wanted));
+      const S ratio = at(m_, k) / (is_singular ? S(S(0) - wanted) : S(at(m_, k) - wanted));
+      const S possible = !is_less(S(0), ratio) ? S(0) : is_less(S(1), ratio) && !is_singular ? S(1) : ratio;
       if (blocking != n && !is_less(possible, share)) continue;
       share = possible;
       blocking = k;

@@ -5,6 +5,7 @@
 #include "design/numeric/poles.hpp"
 #include "design/rounding.hpp"
 #include "design/run/design_run_parts.hpp"
+#include "design/sampled/added_states.hpp"
 #include "design/sampled/augmentation.hpp"
 
 namespace lqg::design {
@@ -67,6 +68,11 @@ void check_foreseeable(const Problem& problem, Findings& findings) {
   needs(lqr.structure.size() == 0, "cannot be had with lqr.structure: that gain is optimal for no cost");
   needs(!lqr.integral,
         "cannot be had with lqr.integral: while a limit keeps y from r, an integral that is foreseen winds up");
+  const std::vector<Index> late = periods_of_outputs(problem.plant);
+  for (const SoftLimits* of_outputs : {&problem.limits->outputs, &problem.limits->output_rates})
+    for (Index i = 0; i < of_outputs->range.rows(); ++i)
+      needs(!is_limited(*of_outputs, i) || late[static_cast<std::size_t>(i)] == 0,
+            "foresees no limits of outputs that come late (plant.output_delay): limit the states that they measure");
   const Index rows = most_rows_of(problem);
   needs(rows <= most_rows, ("expected at most " + std::to_string(most_rows) + " limits that are looked at, found " +
                             std::to_string(rows) + ": choose a shorter horizon, or longer blocks")

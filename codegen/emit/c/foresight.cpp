@@ -79,7 +79,7 @@ std::string constants_of_limits(const Controller& controller) {
        {"list", list_of_rows(rows)},
        {"tables", tables.text},
        {"ns", std::to_string(rows.F.cols())},
-       {"iterations", std::to_string(controller.iterations)},
+       {"iterations", std::to_string(controller.iterations.most)},
        {"F", F},
        {"G", G},
        {"scale", scale},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "emit/plan/certified_iterations.hpp"
 #include "emit/plan/code_cost.hpp"
 #include "emit/plan/library_cost.hpp"
 #include "emit/plan/realisation.hpp"
@@ -117,7 +118,10 @@ std::optional<Controller> make_controller(design::Problem problem, design::Solut
   std::optional<Controller> chosen = in_chosen_form(*std::move(physical), findings);
   if (!chosen) return std::nullopt;
   choose_style(*chosen);
-  if (chosen->has.foresight) chosen->worth = simulate::worth_of_foresight(*chosen);
+  if (chosen->has.foresight) {
+    chosen->worth = simulate::worth_of_foresight(*chosen);
+    certify_iterations(*chosen);
+  }
   check_flash(*chosen, findings);
   simulate::check_drop_outs(*chosen, findings);
   simulate::check_scenario_requirements(*chosen, findings);

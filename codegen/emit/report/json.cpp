@@ -148,7 +148,8 @@ Json foreseen_limits(const Controller& controller) {
           {"quantities", quantities},
           {"F", lqg::emit::rows(rows.F)},
           {"G", lqg::emit::rows(rows.G)},
-          {"iterations", controller.iterations},
+          {"iterations", controller.iterations.most},
+          {"are_iterations_proved", controller.iterations.origin == controller::Iterations::Origin::certified},
           {"worth", worth(*controller.worth)}};
 }
 

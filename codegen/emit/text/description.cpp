@@ -92,6 +92,17 @@ std::string soft_limits(const design::SoftLimits& limits, const std::vector<desi
   return out;
 }
 
+std::string origin_of_iterations(const Controller& controller) {
+  const controller::Iterations& iterations = controller.iterations;
+  if (iterations.origin == controller::Iterations::Origin::file) return "limits.iterations";
+  if (iterations.origin == controller::Iterations::Origin::cap) return "a cap, not a bound: none was proved";
+  std::string states;
+  for (Eigen::Index i = 0; i < controller.worth->reach.size(); ++i)
+    states += (states.empty() ? "" : ", ") + decimal(iterations.reach * controller.worth->reach(i));
+  return "proved for |x_i| up to " + states + ", but nearer than " + decimal(iterations.tie_distance) +
+         " of that to a tie of two decisions";
+}
+
 std::string foreseen_limits(const Controller& controller) {
   if (!controller.has.foresight) return "";
   const design::Limits& limits = *controller.problem.limits;
@@ -99,8 +110,8 @@ std::string foreseen_limits(const Controller& controller) {
   return soft_limits(limits.states, plant.states, "") + soft_limits(limits.outputs, plant.outputs, "") +
          soft_limits(limits.output_rates, plant.outputs, " per second") + "  foreseen for " +
          std::to_string(limits.horizon) + " samples: " + std::to_string(controller.solution.foreseen->G.rows()) +
-         " limited quantities, at most " + std::to_string(controller.iterations) +
-         " changes of the active ones in a sample\n";
+         " limited quantities, at most " + std::to_string(controller.iterations.most) +
+         " changes of the active ones in a sample\n  (" + origin_of_iterations(controller) + ")\n";
 }
 
 std::string limits(const Controller& controller) {
