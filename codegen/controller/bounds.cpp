@@ -73,8 +73,8 @@ class Scales {
  private:
   // At the start, and in the steady state: what is not known of x, and what x is taken to be.
   VectorXd start() const {
-    VectorXd scales = deviations(design::to_doubles(controller_.modal ? controller_.modal->online.P0
-                                                                      : controller_.solution.start->P0));
+    VectorXd scales = deviations(
+        design::to_doubles(controller_.modal ? controller_.modal->online.P0 : controller_.solution.start->P0));
     scales = scales.cwiseMax(design::to_doubles(kept_start(controller_)).cwiseAbs());
     if (controller_.solution.estimator && controller_.solution.estimator->P_prior.size())
       scales = scales.cwiseMax(deviations(kept_prior()));

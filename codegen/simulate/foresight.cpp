@@ -55,13 +55,14 @@ class Comparison {
 
   Worth result() {
     Worth worth;
+    worth.reach = VectorXd::Zero(own());
     Noise noise(1);
     std::vector<double> ratios;
     std::vector<std::pair<double, VectorXd>> found;
     for (int n = 0; n < starts; ++n) {
       const VectorXd x = start(noise);
       const Run clipped = run(x, clipped_, false), optimal = run(x, optimal_, false);
-      worth.reach = n == 0 ? optimal.reach : VectorXd(worth.reach.cwiseMax(optimal.reach));
+      if (optimal.settles) worth.reach = worth.reach.cwiseMax(optimal.reach);
       ++worth.starts;
       worth.clipped_settle += clipped.settles;
       worth.optimal_settle += optimal.settles;

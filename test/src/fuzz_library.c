@@ -301,14 +301,65 @@ static void act(machine_t *m)
         spoil(m);
 }
 
+/* The law with limits: any numbers but for the limits, which are finite and low ≤ high. */
+static lqg_real *any_reals(bytes_t *bytes, size_t count)
+{
+    lqg_real *reals = array(count, sizeof *reals);
+    take(bytes, reals, count * sizeof *reals);
+    return reals;
+}
+
+static void limit(bytes_t *bytes)
+{
+    const unsigned nx = 1 + take_below(bytes, 3), nu = 1 + take_below(bytes, 2), rows = nu + take_below(bytes, 5);
+    lqg_real *const K = any_reals(bytes, nu * nx), *const F = any_reals(bytes, (rows - nu) * nx);
+    lqg_real *const G = any_reals(bytes, rows * rows), *const scale = any_reals(bytes, rows);
+    lqg_real *const tolerance = any_reals(bytes, rows), *const low = array(rows, sizeof *low);
+    lqg_real *const high = array(rows, sizeof *high), *const u_step = array(nu, sizeof *u_step);
+    lqg_real *const memory = array(LQG_MPC_MEMORY(rows), sizeof *memory), *const applied = any_reals(bytes, nu);
+    unsigned char *const set = array(LQG_MPC_SET(rows), 1);
+    const lqg_mpc_t mpc = {nx,  nu,   rows,      take_below(bytes, 32),
+                           K,   F,    G,         scale,
+                           low, high, tolerance, take_below(bytes, 2) ? u_step : NULL};
+    lqg_mpc_state_t state = LQG_MPC_STATE_IN(memory, set, applied, rows);
+
+    for (unsigned i = 0; i < rows; i++) {
+        low[i] = (lqg_real)take_below(bytes, 255) - 128;
+        high[i] = low[i] + (lqg_real)take_below(bytes, 255);
+    }
+    for (unsigned i = 0; i < nu; i++)
+        u_step[i] = (lqg_real)take_below(bytes, 255);
+    take(bytes, memory, LQG_MPC_MEMORY(rows) * sizeof *memory);
+    take(bytes, set, LQG_MPC_SET(rows));
+    while (bytes->left) {
+        const int has_law = (int)take_below(bytes, 2);
+        lqg_real *const x = any_reals(bytes, nx), *const u = any_reals(bytes, nu);
+        (void)(has_law ? lqg_mpc_control(&mpc, &state, x, u) : lqg_mpc_limit(&mpc, &state, x, u));
+        for (unsigned i = 0; i < nu; i++)
+            demand(u[i] >= low[i] && u[i] <= high[i]);
+        memcpy(applied, u, nu * sizeof *u);
+        free(x);
+        free(u);
+    }
+    for (size_t i = 0; i < 10; i++)
+        free((void *[]){K, F, G, scale, tolerance, low, high, u_step, memory, applied}[i]);
+    free(set);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t length)
 {
     static machine_t machine;
     bytes_t bytes = {data, length};
+    uint8_t kind;
 
     memset(&machine, 0, sizeof machine);
     machine.bytes = &bytes;
-    machine.kind = take_below(&bytes, ESTIMATORS);
+    kind = (uint8_t)take_below(&bytes, ESTIMATORS + 1);
+    if (kind == ESTIMATORS) {
+        limit(&bytes);
+        return 0;
+    }
+    machine.kind = kind;
     machine.model = models[take_below(&bytes, MODELS)];
     make_arrays(&machine);
     describe(&machine);

@@ -64,6 +64,15 @@ LQG_RLS_STATE(rls_state, 2);
 LQG_SERVO_STATE(servo_state, NU, 1, 1);
 LQG_LOOP_UD_STATE(loop_state, NX, NU, NY, NW);
 
+enum { ROWS = NU + 1 };
+static const lqg_real mpc_F[(ROWS - NU) * NX] = {1}, mpc_G[ROWS * ROWS] = {1, 0, 0, 1}, mpc_ones[ROWS] = {1, 1},
+                                          mpc_low[ROWS] = {-1, -1};
+static lqg_real mpc_applied[NU];
+LQG_MPC_STATE(mpc_state, mpc_applied, ROWS);
+static const lqg_mpc_t mpc_kept = {NX,    NU,       ROWS,    9,        mpc_F,    mpc_F,
+                                   mpc_G, mpc_ones, mpc_low, mpc_ones, mpc_ones, mpc_ones};
+static lqg_mpc_t mpc;
+
 static void f(void *context, lqg_real next[], lqg_real jacobian[], const lqg_real x[], const lqg_real inputs[])
 {
     (void)context;
@@ -93,6 +102,7 @@ void setUp(void)
     rls = rls_kept;
     servo = servo_kept;
     lqr = lqr_kept;
+    mpc = mpc_kept;
     loop.kalman = ud_kept;
     loop.lqr = lqr_kept;
     loop.form = LQG_FILTER_FORM;
@@ -124,6 +134,8 @@ static void test_nothing_is_said_of_callers_that_do_as_they_must(void)
     EXPECT_KEPT(lqg_servo_control(&servo, &servo_state, y, u));
     EXPECT_KEPT(lqg_servo_advance(&servo, &servo_state, u_given));
     EXPECT_KEPT(lqg_servo_set_input(&servo, &servo_state, y, u_given));
+    EXPECT_KEPT(lqg_mpc_control(&mpc, &mpc_state, y, u));
+    EXPECT_KEPT(lqg_mpc_limit(&mpc, &mpc_state, y, u));
     EXPECT_KEPT((lqg_loop_ud_init(&loop, &loop_state), 0));
     EXPECT_KEPT(lqg_loop_ud_step(&loop, &loop_state, y));
 }
@@ -137,6 +149,7 @@ static void test_descriptions_and_states_are_there(void)
     EXPECT_BROKEN("rls && state", lqg_rls_update(&rls, NULL, 1, phi));
     EXPECT_BROKEN("servo && state", lqg_servo_advance(NULL, &servo_state, u_given));
     EXPECT_BROKEN("lqr &&", lqg_lqr_control(NULL, y, u));
+    EXPECT_BROKEN("mpc && state", lqg_mpc_limit(NULL, &mpc_state, y, u));
 }
 
 static void test_outputs_and_inputs_are_there(void)
@@ -149,6 +162,7 @@ static void test_outputs_and_inputs_are_there(void)
     EXPECT_BROKEN("phi", lqg_rls_update(&rls, &rls_state, 1, NULL));
     EXPECT_BROKEN("x && u", lqg_servo_control(&servo, &servo_state, NULL, u));
     EXPECT_BROKEN("x && u", lqg_lqr_control(&lqr, y, NULL));
+    EXPECT_BROKEN("x && u", lqg_mpc_limit(&mpc, &mpc_state, NULL, u));
 }
 
 static void test_an_output_is_one_of_the_plant(void)
@@ -235,6 +249,23 @@ static void test_numbers_are_in_their_ranges(void)
     EXPECT_BROKEN("V > 0", lqg_rls_update(&rls, &rls_state, 1, phi));
 }
 
+static void test_limits_that_are_foreseen_have_their_rows(void)
+{
+    lqg_mpc_state_t without = mpc_state;
+
+    without.u_applied = NULL; /* with a u_step */
+    EXPECT_BROKEN("u_applied", lqg_mpc_limit(&mpc, &without, y, u));
+    mpc.rows = 256; /* more than a byte counts */
+    EXPECT_BROKEN("rows <= 255", lqg_mpc_limit(&mpc, &mpc_state, y, u));
+    mpc = mpc_kept;
+    mpc.F = NULL; /* with rows after the inputs */
+    EXPECT_BROKEN("mpc->F", lqg_mpc_limit(&mpc, &mpc_state, y, u));
+    mpc = mpc_kept;
+    mpc.K = NULL;
+    EXPECT_KEPT(lqg_mpc_limit(&mpc, &mpc_state, y, u));
+    EXPECT_BROKEN("mpc->K", lqg_mpc_control(&mpc, &mpc_state, y, u));
+}
+
 static void test_a_loop_s_regulator_is_one_for_its_plant(void)
 {
     loop.lqr.nx = 1;
@@ -255,6 +286,7 @@ int main(void)
     RUN_TEST(test_matrices_are_there);
     RUN_TEST(test_arrays_of_the_state_are_there_where_the_description_needs_them);
     RUN_TEST(test_numbers_are_in_their_ranges);
+    RUN_TEST(test_limits_that_are_foreseen_have_their_rows);
     RUN_TEST(test_a_loop_s_regulator_is_one_for_its_plant);
     return UNITY_END();
 }

@@ -66,8 +66,8 @@ bool has_steady_loop(const Problem& problem, const DesignRun& run) {
 std::optional<SteadyCost> cost_of_loop(const SampledStage& last, const Solution& solution) {
   const Estimator& kalman = *last.problem.estimator;
   const Compensator controller = compensator(last.problem, solution);
-  const bool is_optimal = (kalman.gain != Gain::schedule || kalman.horizon == 0) && kalman.structure.size() == 0 &&
-                          !kalman.recovery;
+  const bool is_optimal =
+      (kalman.gain != Gain::schedule || kalman.horizon == 0) && kalman.structure.size() == 0 && !kalman.recovery;
   if (!is_optimal || has_added_states(last.problem)) return steady_cost(last.problem, last.of_loop(), controller);
   return steady_cost(last.problem, last.samples, controller, solution);
 }
