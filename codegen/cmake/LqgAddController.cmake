@@ -4,8 +4,8 @@
 #
 # Runs lqgen on the design when <target> is built, and again whenever the design or lqgen has changed; puts
 # the header NAME.h, NAME being the design's `name`, on the include path of <target>; links what the header
-# needs: nothing but lqg/*.h where the code is unrolled, else the variant of the library that has the design's
-# `real` and `arithmetic`.
+# needs: nothing but lqg/*.h where the code is unrolled and no limits are foreseen, else the variant of the
+# library that has the design's `real` and `arithmetic`.
 #
 #   STYLE, REAL   instead of the design's own `style` and `real`
 #   OUTPUT_DIR    where NAME.h goes; default: lqg/<target> in the current binary folder
@@ -121,6 +121,22 @@ function(lqg_find_style variable design style lqgen folder)
   set(${variable} ${style} PARENT_SCOPE)
 endfunction()
 
+# Sets `variable` to whether limits are foreseen: the library has the solver, whatever the style.
+function(lqg_foresees variable design)
+  set(table)
+  set(foresees FALSE)
+  file(STRINGS ${design} lines)
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^[ \t]*\\[+[ \t]*([A-Za-z0-9_.]+)[ \t]*\\]")
+      set(table ${CMAKE_MATCH_1})
+    elseif((table STREQUAL "limits" AND line MATCHES "^[ \t]*horizon[ \t]*=[ \t]*[1-9]") OR
+           line MATCHES "^[ \t]*limits[ \t]*[.=][^#]*horizon[ \t]*=[ \t]*[1-9]")
+      set(foresees TRUE)
+    endif()
+  endforeach()
+  set(${variable} ${foresees} PARENT_SCOPE)
+endfunction()
+
 # Sets `variable` to what a controller of `design` in this style has to be linked with.
 function(lqg_find_library_variant variable design style real)
   lqg_read_design_key(design_real "${design}" real float "float|double")
@@ -129,7 +145,8 @@ function(lqg_find_library_variant variable design style real)
     set(real ${design_real})
   endif()
 
-  if(style STREQUAL "unrolled")
+  lqg_foresees(foresees ${design})
+  if(style STREQUAL "unrolled" AND NOT foresees)
     set(libraries tinylqg::headers)
     if(arithmetic STREQUAL "fused" AND NOT MSVC)
       list(APPEND libraries m)  # fma() where the processor has none

@@ -12,6 +12,7 @@ namespace design_test {
 
 using namespace lqg::design;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 double Random::uniform() {
   state_ ^= state_ >> 12;
@@ -68,6 +69,13 @@ Problem problem_of(Domain domain, double sample_time, const MatrixXd& A, const M
 Problem regulator_alone(Problem problem) {
   problem.estimator.reset();
   return problem;
+}
+
+Limits limits_of_size(const VectorXd& u_min, const VectorXd& u_max) {
+  Limits limits;
+  limits.u_min = u_min;
+  limits.u_max = u_max;
+  return limits;
 }
 
 Problem double_integrator(double sample_time) {

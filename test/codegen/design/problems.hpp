@@ -32,6 +32,9 @@ Problem problem_of(lqg::design::Domain domain, double sample_time, const Eigen::
 
 Problem regulator_alone(Problem problem);
 
+// Of inputs, which are clipped.
+lqg::design::Limits limits_of_size(const Eigen::VectorXd& u_min, const Eigen::VectorXd& u_max);
+
 // ẍ = u, the position is measured.
 Problem double_integrator(double sample_time);
 

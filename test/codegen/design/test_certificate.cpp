@@ -169,7 +169,7 @@ void test_limits_that_the_input_before_narrows_are_covered() {
   const Digits scope(50);
   LimitedProblem problem = mass_in_three_blocks();
   problem.u_step = real(MatrixXd::Constant(1, 1, 0.25));
-  problem.step_price = 100;
+  problem.step_price = RealVector::Constant(1, Real(100));
   problem.blocks = {1, 1};
   const LimitNumbers numbers = numbers_of(problem, Scalar::float64);
   const CertifiedChanges found = certified(numbers, 4, 1e-9);

@@ -232,7 +232,7 @@ void expect_obstacle(const Problem& problem, const char* why) {
 
 void test_what_has_no_linear_form_says_why() {
   Problem problem = two_mass();
-  problem.limits = Limits{Eigen::VectorXd::Constant(1, -1), Eigen::VectorXd::Constant(1, 1), {}};
+  problem.limits = limits_of_size(Eigen::VectorXd::Constant(1, -1), Eigen::VectorXd::Constant(1, 1));
   expect_obstacle(problem, "[limits]");
   problem = two_mass();
   problem.estimator->gate = 3;

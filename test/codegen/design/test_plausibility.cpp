@@ -46,7 +46,7 @@ Problem servo(double sample_time) {
   problem.regulator->R = MatrixXd::Constant(1, 1, 1 / 400.0);
   problem.estimator->W = Eigen::Vector2d(0, 1).asDiagonal();
   problem.estimator->V = MatrixXd::Constant(1, 1, 1e-10);
-  problem.limits = Limits{VectorXd::Constant(1, -20), VectorXd::Constant(1, 20), {}};
+  problem.limits = limits_of_size(VectorXd::Constant(1, -20), VectorXd::Constant(1, 20));
   problem.code.real = Scalar::float64;
   return problem;
 }
@@ -125,7 +125,7 @@ void test_noise_that_takes_the_input_to_its_limits() {
   Findings findings;
   const double K = static_cast<double>(solve(problem, findings)->regulator->K(0, 0));
   const double rms = K / std::sqrt(1 - (0.95 - K) * (0.95 - K));
-  problem.limits = Limits{VectorXd::Constant(1, -2.2 * rms), VectorXd::Constant(1, 1e3), {}};
+  problem.limits = limits_of_size(VectorXd::Constant(1, -2.2 * rms), VectorXd::Constant(1, 1e3));
   expect_no_notes(problem);
   problem.limits->u_min(0) = -1.8 * rms;
   expect_note(problem, "limits.u_min[0]", "the noises alone move");

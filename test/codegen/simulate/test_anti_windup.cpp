@@ -107,7 +107,7 @@ Problem problem_of(const Plant& plant, double q) {
   for (int i = 0; i < plant.C.rows(); ++i) problem.regulator->track.push_back(i);
   problem.regulator->integral =
       Integral{problem.regulator->track, q * MatrixXd::Identity(plant.C.rows(), plant.C.rows())};
-  problem.limits = Limits{plant.lowest, plant.highest, {}};
+  problem.limits = limits_of_size(plant.lowest, plant.highest);
   return problem;
 }
 

@@ -28,8 +28,8 @@ C = [[1, 0, 0, 0], [0, 0, 1, 0]]
 [lqr]
 Q = [1, 0, 1, 0]
 R = [0.1]
-)" + limits + "[code]\nreal = \"" +
-         real + "\"\n";
+)" + limits +
+         "[code]\nreal = \"" + real + "\"\n";
 }
 
 const char* const foreseen = "[limits]\nu_min = [-0.3]\nu_max = [0.3]\nhorizon = 20\n";
