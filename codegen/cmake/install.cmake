@@ -29,7 +29,7 @@ if(LQG_BUILD_CODEGEN)
   list(FILTER door EXCLUDE REGEX "solution_matrices")
   install(FILES ${door} DESTINATION ${include_dir}/design)
   install(FILES codegen/controller/bounds.hpp codegen/controller/controller.hpp codegen/controller/gate.hpp
-                codegen/controller/recovery.hpp
+                codegen/controller/recovery.hpp codegen/controller/worth.hpp
           DESTINATION ${include_dir}/controller)
   install(FILES codegen/simulate/simulation.hpp DESTINATION ${include_dir}/simulate)
   install(FILES codegen/step/model.hpp codegen/step/scalar.hpp DESTINATION ${include_dir}/step)

@@ -110,8 +110,8 @@ enum class Sharing { nothing, outputs, columns, products };
 struct Iterations {
   enum class Origin { none, file, certified, cap } origin = Origin::none;
   unsigned most = 0;
-  double reach = 0;         // certified: for states up to so many times as far as those of `worth` went,
-  double tie_distance = 0;  // but for those nearer than this share of it to a tie of two decisions
+  double tie_distance = 0;  // certified: for states as far as those of `worth` went, but for those nearer than this
+                            // share of it to a tie of two decisions
 };
 
 struct Controller {

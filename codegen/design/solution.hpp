@@ -13,9 +13,9 @@ namespace lqg::design {
 
 using Poles = std::vector<std::complex<double>>;  // by falling |z|, then by falling imaginary part
 
-// The plant at the sample instants as the filter knows it: x⁺ = A x + B u + G w, y = C x + D u + v. After the plant's own
-// states come those of sampled/added_states: disturbances of inputs, and outputs on their way. With a delay of q samples
-// or a part of them, the q inputs on their way are the last states, the oldest first, and D is part of C.
+// The plant at the sample instants as the filter knows it: x⁺ = A x + B u + G w, y = C x + D u + v. After the plant's
+// own states come those of sampled/added_states: disturbances of inputs, and outputs on their way. With a delay of q
+// samples or a part of them, the q inputs on their way are the last states, the oldest first, and D is part of C.
 struct SampledPlant {
   RealMatrix A, B, C, D, G;
 };
@@ -53,8 +53,8 @@ struct StructureReport {
 };
 
 // u = −K z + Nbar r, z = [x; ξ of `integral`; u[k−1] with `input_rate`: then Δu is what the law gives];
-// X: J = z₀ᵀXz₀. Without a cost (placed poles) `cost` and X are empty. Of a plant with disturbances J is the cost beyond
-// that of cancelling them: their rows of X, and those of outputs on their way, are 0.
+// X: J = z₀ᵀXz₀. Without a cost (placed poles) `cost` and X are empty. Of a plant with disturbances J is the cost
+// beyond that of cancelling them: their rows of X, and those of outputs on their way, are 0.
 struct RegulatorSolution {
   SampledCost cost;                    // over x and u; of a delayed plant over all of its states
   RealMatrix Q_final;                  // nx × nx with a horizon, else empty

@@ -40,7 +40,8 @@ struct CountingListener : step::Listener {
   std::vector<bool>& left_out;
 };
 
-// A controller that keeps x̂, or z of it. Each call is the one of that name in the header, limits, gate, faults and resets
+// A controller that keeps x̂, or z of it. Each call is the one of that name in the header, limits, gate, faults and
+// resets
 // included, and returns the events that its status would tell. `constants` turns a number of the design into an S.
 template <class S>
 class EmittedController {

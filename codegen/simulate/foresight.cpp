@@ -95,8 +95,8 @@ class Comparison {
     return static_cast<int>(std::clamp(100 / std::max(1 - slowest, 1e-3), 200.0, 5000.0));
   }
 
-  // Equally dear in all directions of the plant's own states, and so far out that the law goes beyond a limit; a state that is
-  // limited begins within its limits.
+  // Equally dear in all directions of the plant's own states, and so far out that the law goes beyond a limit; a state
+  // that is limited begins within its limits.
   VectorXd start(Noise& noise) const {
     const Eigen::LLT<MatrixXd> factor(X_.topLeftCorner(own(), own()));
     VectorXd direction(own());

@@ -18,9 +18,9 @@ class Region {
   // What holds in the whole box, and what is not a number, is left out. slope·ξ ≤ bound − tightening Σ_j |slope_j|.
   void add(const Eigen::VectorXd& slope, double bound, double tightening);
 
-  // Whether no ξ is in it. A linear program in doubles proposes multipliers y ≥ 0; they count only if Σ y_i (slope_i·ξ −
-  // bound_i) > 0 in the whole box is certain in spite of rounding (Farkas). So `true` is a proof, `false` is none of the
-  // opposite. `witness`: a point to begin with; where there is one in the region, that.
+  // Whether no ξ is in it. A linear program in doubles proposes multipliers y ≥ 0; they count only if Σ y_i (slope_i·ξ
+  // − bound_i) > 0 in the whole box is certain in spite of rounding (Farkas). So `true` is a proof, `false` is none of
+  // the opposite. `witness`: a point to begin with; where there is one in the region, that.
   bool is_empty(Eigen::VectorXd& witness) const;
 
  private:

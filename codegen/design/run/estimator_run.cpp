@@ -66,8 +66,8 @@ bool has_steady_filter(const SampledStage& stage, DesignRun& result) {
   return on_limit.empty() && !has_error(result.findings);
 }
 
-// What other tools call the Kalman gain of a continuous plant, with its disturbances and without late outputs. Nothing here is made of it: where it is not found, it is
-// left out.
+// What other tools call the Kalman gain of a continuous plant, with its disturbances and without late outputs. Nothing
+// here is made of it: where it is not found, it is left out.
 void add_continuous_gain(const Problem& problem, const DesignRun* coarser, EstimatorSolution& filter) {
   if (problem.plant.domain == Domain::discrete || problem.estimator->noise == Noise::discrete) return;
   const RealMatrix start =

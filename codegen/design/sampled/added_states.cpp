@@ -72,7 +72,8 @@ void add_to_plant(const std::vector<InputDisturbance>& disturbances, Plant& plan
   plant.H = with_block(plant.H, MatrixXd(0, count));
 }
 
-// P0 is what a disturbance gathers in 10,000 samples: ten times its size in a sample, squared, with the default size a tenth of the input.
+// P0 is what a disturbance gathers in 10,000 samples: ten times its size in a sample, squared, with the default size a
+// tenth of the input.
 void add_to_estimator(const Problem& problem, Estimator& kalman) {
   constexpr double samples = 1e4, time_of_density = 0.5;  // s: a variance of 1 is a density of 1 then
   const Index count = static_cast<Index>(kalman.disturbance.size());

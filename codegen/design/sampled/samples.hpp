@@ -16,8 +16,8 @@ struct BetweenSamples {
   RealMatrix u_noise;  // nu × nw: the weight uᵀ(u_noise)w on the part of w that v tells; 0 × 0: none
 };
 
-// With a delay the plant's and the cost's state is [x; the inputs on their way, the oldest first]. Where added_states has
-// made more of x, `start` says what of it follows from x0.
+// With a delay the plant's and the cost's state is [x; the inputs on their way, the oldest first]. Where added_states
+// has made more of x, `start` says what of it follows from x0.
 struct Samples {
   SampledPlant plant;
   Eigen::Index own_states = 0;      // of the plant's states those that are not inputs on their way

@@ -8,8 +8,8 @@
 
 namespace lqg::design {
 
-// From step `from` on. What the filter knows, the plant that is there and the one that the regulator was made for differ
-// only where states are added.
+// From step `from` on. What the filter knows, the plant that is there and the one that the regulator was made for
+// differ only where states are added.
 struct SampledStage {
   int from = 0;
   Problem problem;                          // with what this stage and those before it replace

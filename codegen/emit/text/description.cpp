@@ -98,7 +98,7 @@ std::string origin_of_iterations(const Controller& controller) {
   if (iterations.origin == controller::Iterations::Origin::cap) return "a cap, not a bound: none was proved";
   std::string states;
   for (Eigen::Index i = 0; i < controller.worth->reach.size(); ++i)
-    states += (states.empty() ? "" : ", ") + decimal(iterations.reach * controller.worth->reach(i));
+    states += (states.empty() ? "" : ", ") + decimal(controller.worth->reach(i));
   return "proved for |x_i| up to " + states + ", but nearer than " + decimal(iterations.tie_distance) +
          " of that to a tie of two decisions";
 }

@@ -39,8 +39,9 @@ Vectors make_vectors(const Controller& controller);
 
 // Of a filter that carries P, in that run in the target's numbers.
 struct RoundingOfFilter {
-  double error = 0;               // rms(error) / rms of the worst estimate or input
-  double share_of_deviation = 0;  // rms(error of x̂_i) / √P_ii of the last sample, the worst i; infinite where P_ii is 0
+  double error = 0;  // rms(error) / rms of the worst estimate or input
+  // rms(error of x̂_i) / √P_ii of the last sample, the worst i; infinite where P_ii is 0
+  double share_of_deviation = 0;
 };
 RoundingOfFilter rounding_of_filter(const Controller& controller);
 

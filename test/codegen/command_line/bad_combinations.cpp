@@ -140,8 +140,8 @@ std::vector<BadDesign> wrong_together() {
        {"10:16: plant.output_delay: expected numbers ≥ 0, found -0.5 for y2"}},
       {"outputs that are too late",
        {{10, "output_delay = [0, 200]"}},
-       {"10:16: plant.output_delay: expected at most 256 states together with disturbances, outputs and inputs on their "
-        "way, found 404"}},
+       {"10:16: plant.output_delay: expected at most 256 states together with disturbances, outputs and inputs on "
+        "their way, found 404"}},
       {"range of a sensor that is none",
        {{31, "output_min = [0, 1]\noutput_max = [1, 1]"}},
        {"32:14: kalman.output_max: expected output_min < output_max, found 1 and 1 for output 1"}},

@@ -78,7 +78,9 @@ void delay_input(Problem&, Solution& solution) {
   if (!solution.estimator) return;
   solution.estimator->L = matrix({{0.3}, {0.5}, {0}, {0}});
   solution.estimator->M = matrix({{0}, {0}, {0}, {0}});
-  for (RealMatrix* P : {&solution.estimator->P_prior, &solution.estimator->P_posterior}) *P = with_known_states(*P, 2);
+  for (RealMatrix* P : {&solution.estimator->P_prior, &solution.estimator->P_posterior, &solution.start->P0})
+    *P = with_known_states(*P, 2);
+  solution.start->x0 = lqg::design::above(solution.start->x0, lqg::design::zeros(2, 1));
 }
 
 }  // namespace lqg_test

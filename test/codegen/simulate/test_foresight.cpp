@@ -96,7 +96,7 @@ void test_a_lag_at_its_limit_is_worth_nothing() {
 
 void test_a_state_that_begins_within_its_limit_stays_there() {
   const Controller controller = lqg_test::controller_of(
-      "name = \"speed\"\n[plant]\ndomain = \"continuous\"\nsample_time = 0.1\nA = [[0, 1], [0, 0]]\nB = [[0], [1]]\n"
+      "name = \"speeding\"\n[plant]\ndomain = \"continuous\"\nsample_time = 0.1\nA = [[0, 1], [0, 0]]\nB = [[0], [1]]\n"
       "states = [\"position\", \"speed\"]\n[lqr]\nQ = [1, 0.1]\nR = [0.1]\n"
       "[limits]\nu_min = [-1]\nu_max = [1]\nhorizon = 10\nstates = { speed = 0.5 }\n[code]\nreal = \"double\"\n");
   const controller::Worth worth = simulate::worth_of_foresight(controller);
@@ -131,7 +131,7 @@ void test_the_certified_number_of_changes_is_never_exceeded() {
   std::uint64_t seed = 7;
   unsigned most = 0;
   for (int n = 0; n < 100000; ++n) {
-    const VectorXd x = drawn(seed, 1).cwiseProduct(controller.iterations.reach * controller.worth->reach);
+    const VectorXd x = drawn(seed, 1).cwiseProduct(controller.worth->reach);
     const step::Vector<float> s = simulate::numbers_of<float>(x), u = -(model.K * s);
     const auto found = step::limited_input<float>(law, {}, s, u);
     TEST_ASSERT_TRUE(found.is_optimal);

@@ -89,24 +89,29 @@ def library_of(design, command):
         source = Path(folder, "controller.c")
         source.write_text(source_of(design.name, header, result), encoding="utf-8")
         file = Path(folder, "controller.so")
-        compile_library([*command, *FLAGS, *switches(result)], folder, source, file, result.code.style)
+        compile_library([*command, *FLAGS, *switches(result)], folder, source, file, calls_library(result))
         library = ctypes.CDLL(str(file))
     library.controller_size.restype = ctypes.c_size_t
     library.controller_step.restype = ctypes.c_uint
     return library, Kind(result), {"float": ctypes.c_float, "double": ctypes.c_double}[result.code.real]
 
 
+def calls_library(result):
+    """In the compact style, and where limits are foreseen."""
+    return result.code.style == "compact" or "limits" in result
+
+
 def switches(result):
-    """What the library and a header in the compact style have to agree in."""
-    if result.code.style != "compact":
+    """What the library and a header that calls it have to agree in."""
+    if not calls_library(result):
         return []
     return ["-DLQG_REAL_DOUBLE"] * (result.code.real == "double") + ["-DLQG_FUSED"] * (
         result.code.arithmetic == "fused"
     )
 
 
-def compile_library(command, folder, source, library, style):
-    sources = sorted(source_dir().glob("*.c")) if style == "compact" else []
+def compile_library(command, folder, source, library, with_library):
+    sources = sorted(source_dir().glob("*.c")) if with_library else []
     words = [*command, f"-I{include_dir()}", f"-I{folder}", str(source), *map(str, sources), "-o", str(library), "-lm"]
     try:
         run = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
