@@ -20,7 +20,7 @@ struct Worth {
   double median_ratio = 1, high_ratio = 1;        // of J; the second is the 99th percentile
   double clipped_excess = 0, optimal_excess = 0;  // over a soft limit, as a share of its range: the mean of the largest
   Eigen::VectorXd reach;                          // how far each state of the plant went where that settled, foreseen
-  WorthOfRun shown;  // of the start with the median ratio, or that clipping does not survive
+  WorthOfRun shown;  // of a start that clipping does not survive, else of one in ten that cost it most
 };
 
 }  // namespace lqg::controller

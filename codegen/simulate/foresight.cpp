@@ -40,7 +40,8 @@ step::Model<double> law_of(const Controller& controller, bool is_clipped) {
 struct Run {
   double cost = 0, excess = 0;
   bool settles = false;
-  VectorXd reach;  // of the plant's own states
+  int samples = 0;  // until then
+  VectorXd reach;   // of the plant's own states
   MatrixXd u, x;
 };
 
@@ -164,9 +165,11 @@ class Comparison {
       state.u = u;
       const double now = distance();
       if (!(now < lost * lost * first)) return out;
-      if (!is_kept && now < settled * first) break;
+      if (now >= settled * first) continue;
+      if (!out.settles) out.samples = k + 1;
+      out.settles = true;
+      if (!is_kept) break;
     }
-    out.settles = distance() < settled * first;
     return out;
   }
 
@@ -181,9 +184,14 @@ class Comparison {
 
   void show(std::vector<std::pair<double, VectorXd>>& found, Worth& worth) const {
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    const VectorXd& x = found[found.size() / 2].second;
+    const auto is_lost = [](const auto& start) { return std::isinf(start.first); };
+    const auto lost_start = std::find_if(found.begin(), found.end(), is_lost);
+    const VectorXd& x = lost_start != found.end() ? lost_start->second : found[(found.size() - 1) * 9 / 10].second;
     const Run clipped = run(x, clipped_, true), optimal = run(x, optimal_, true);
-    worth.shown = {x, clipped.u, optimal.u, clipped.x, optimal.x};
+    constexpr Eigen::Index after = 20;
+    const Eigen::Index wanted = 2 * optimal.samples + after;
+    const auto begin = [&](const MatrixXd& all) { return MatrixXd(all.leftCols(std::min(all.cols(), wanted))); };
+    worth.shown = {x, begin(clipped.u), begin(optimal.u), begin(clipped.x), begin(optimal.x)};
   }
 
   const Controller& controller_;

@@ -110,7 +110,8 @@ PageSection foresight_section(const Controller& controller) {
               " Measured with the exact state and without noise, from starts where the law " +
               "alone goes beyond a limit, up to 4 times.";
   view.charts = charts_of(controller, worth);
-  view.caption = "One of these starts, with both laws.";
+  view.caption = worth.clipped_settle < worth.optimal_settle ? "A start that the clipped law does not survive."
+                                                             : "One of the tenth of starts that cost it most.";
   view.tables = {table_of(worth)};
   section.views = {view};
   return section;
