@@ -12,6 +12,9 @@
 #define ROUNDING 9.53674316e-07f
 #endif
 
+/* No multiplier goes farther along a direction. */
+#define FARTHEST ((lqg_real)1e37)
+
 /* Of a row: not active, or at which of its limits. */
 enum { NOT_ACTIVE, AT_LOW, AT_HIGH };
 
@@ -185,23 +188,25 @@ static void solve_active(lqg_mpc_state_t *state, unsigned length, int is_singula
 static unsigned advance(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned length)
 {
     LQG_STRICT_BODY
-    lqg_real *m = state->m, *next = state->next, share = 1;
+    lqg_real *m = state->m, *next = state->next;
     const unsigned last = length ? state->active[length - 1] : 0;
     const int is_singular = length && !(state->d[length - 1] > SINGULAR * mpc->G[last * mpc->rows + last]);
+    lqg_real share = is_singular ? FARTHEST : 1;
     unsigned blocking = length;
 
     solve_active(state, length, is_singular);
     for (unsigned k = 0; k < length; k++) {
         if (state->side[state->active[k]] == AT_LOW ? !(next[k] < 0) : !(next[k] > 0))
             continue;
-        const lqg_real ratio = m[k] / (is_singular ? -next[k] : m[k] - next[k]);
-        /* Rounding may have left m_k with the other sign: back or beyond it would be no step. */
-        const lqg_real possible = !(ratio > 0) ? 0 : ratio > 1 && !is_singular ? 1 : ratio;
-        if (blocking == length || possible < share) {
+        const lqg_real possible = m[k] / (is_singular ? -next[k] : m[k] - next[k]);
+        if (possible < share)
             share = possible;
-            blocking = k;
-        }
+        else if (blocking != length)
+            continue;
+        blocking = k;
     }
+    if (!(share > 0)) /* rounding has left a multiplier with the other sign: back would be no step */
+        share = 0;
     if (blocking == length && is_singular)
         return 256;
     for (unsigned k = 0; k < length; k++) {
@@ -223,10 +228,6 @@ static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *
 {
     unsigned n = 0, blocking = 0;
 
-    for (unsigned i = 0; i < mpc->rows; i++) { /* so that a reader need not prove that only the first n are read */
-        state->m[i] = 0;
-        state->active[i] = 0;
-    }
     for (unsigned changes = 0; changes <= mpc->iterations && blocking <= n; changes++) {
         const int is_solved = blocking == n, is_done = is_rounding(state, n, blocking);
         const unsigned row = is_solved && n < mpc->rows ? most_violated(mpc, state, n) : mpc->rows;
@@ -238,7 +239,7 @@ static int find_optimum(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned *
         }
         if (changes == mpc->iterations)
             break;
-        if (row < mpc->rows && n < mpc->rows)
+        if (row < mpc->rows)
             append(mpc, state, n++, row);
         blocking = advance(mpc, state, n);
     }

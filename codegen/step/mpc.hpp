@@ -59,6 +59,7 @@ class Optimum {
  private:
   enum class Side { none, low, high };
   static constexpr int contradiction = -1;
+  static constexpr double farthest = 1e37;  // no multiplier goes farther along a direction
 
   Side side(int row) const { return side_[static_cast<std::size_t>(row)]; }
   int length() const { return static_cast<int>(active_.size()); }
@@ -164,16 +165,18 @@ class Optimum {
     for (int j = n; j-- > 1;)
       for (int i = 0; i < j; ++i) at(next, i) = multiply_subtract(L(j, i), at(next, j), at(next, i));
     int blocking = n;
-    S share(1);
+    S share(is_singular ? farthest : 1);
     for (int k = 0; k < n; ++k) {
       const S& wanted = at(next, k);
       if (side(row(k)) == Side::low ? !is_less(wanted, S(0)) : !is_less(S(0), wanted)) continue;
-      const S ratio = at(m_, k) / (is_singular ? S(S(0) - wanted) : S(at(m_, k) - wanted));
-      const S possible = !is_less(S(0), ratio) ? S(0) : is_less(S(1), ratio) && !is_singular ? S(1) : ratio;
-      if (blocking != n && !is_less(possible, share)) continue;
-      share = possible;
+      const S possible = at(m_, k) / (is_singular ? S(S(0) - wanted) : S(at(m_, k) - wanted));
+      if (is_less(possible, share))
+        share = possible;
+      else if (blocking != n)
+        continue;
       blocking = k;
     }
+    if (!is_less(S(0), share)) share = S(0);
     if (blocking == n && is_singular) return contradiction;
     for (int k = 0; k < n; ++k) {
       const S step = is_singular ? at(next, k) : S(at(next, k) - at(m_, k));

@@ -192,7 +192,7 @@ def build_program(design, text: str, program: str) -> None:
     Path("plant.h").write_text(text)
     code = design["code"]
     options, sources = ["-std=c99", "-O2", "-I", ".", "-I", ROOT / "include"], [ROOT / "src" / "status.c"]
-    if code["style"] == "compact":
+    if code["style"] == "compact" or "limits" in design:
         options += ["-DLQG_REAL_DOUBLE"] * (code["real"] == "double")
         options += ["-DLQG_FUSED"] * (code["arithmetic"] == "fused")
         sources = sorted((ROOT / "src").glob("*.c"))

@@ -87,9 +87,15 @@ if [ ${#library[@]} -gt 0 ]; then
 fi
 
 # Limits that are foreseen: first the library's solver with the tables of this controller and anything else of any
-# bits, then the controller, which takes it at its word. The solver's rows need not be told apart here.
+# bits, then the controller, which takes it at its word. Which rows are active is not told apart here, as there may be
+# many; that only the first n are read, and that n is less than their number where one more is appended, is shown by
+# prove_library.sh.
 if [ -n "$foresees" ]; then
-  sed -i '/dynamic_split/d' "$folder/library/mpc.c"
+  begun='for (unsigned i = 0; i < mpc->rows; i++) state->m[i] = 0, state->active[i] = 0;'
+  sed -i "/dynamic_split/s|.*|    $begun|; s|if (row < mpc->rows)|if (row < mpc->rows \\&\\& n < mpc->rows)|" \
+    "$folder/library/mpc.c"
+  grep -q 'active\[i\] = 0;' "$folder/library/mpc.c" && grep -q '&& n < mpc->rows' "$folder/library/mpc.c" ||
+    stop 2 "not understood: src/mpc.c reads otherwise than it did"
   frama-c -eva -eva-precision 2 -eva-domains equality -eva-split-return full -eva-slevel-function take:10000 \
     -eva-auto-loop-unroll 200 -eva-min-loop-unroll 16 -warn-special-float none -machdep x86_64 \
     -cpp-extra-args="$(printf '%q ' "${flags[@]}") -include unknown.h" "$here/foresight.c" \

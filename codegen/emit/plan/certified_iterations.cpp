@@ -11,7 +11,7 @@ namespace {
 
 // Beyond them a proof takes minutes, or does not come.
 constexpr Eigen::Index most_rows = 12, most_states = 6;
-constexpr long most_pieces = 50000;
+constexpr long most_pieces = 20000;
 
 }  // namespace
 

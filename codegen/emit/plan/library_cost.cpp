@@ -32,7 +32,7 @@ constexpr FilterFigures factored = {{{3576, 3480, 4784, 4784}}, 24, {{168, 176, 
 constexpr Variants law_flash = {{200, 196, 280, 304}}, law_stack = {{36, 36, 100, 120}};
 constexpr Variants servo_flash = {{1048, 1072, 1504, 1584}};  // beside a filter, with which it shares a function
 constexpr Variants observe_flash = {{140, 140, 172, 172}};
-constexpr Variants limit_flash = {{2560, 2540, 3318, 3376}}, limit_stack = {{100, 100, 236, 284}};
+constexpr Variants limit_flash = {{2632, 2564, 3420, 3436}}, limit_stack = {{104, 96, 232, 280}};
 constexpr Variants servo_stack = {{88, 88, 196, 240}};
 
 const FilterFigures& figures_of(step::Filter filter) {
@@ -170,19 +170,21 @@ long bytes_of_software_floats(const Controller& controller, bool divides) {
          (controller.target.is_fused ? fused : 0);
 }
 
-void add_foresight(const Controller& controller, CodeCost& cost) {
+void add_foresight(const Controller& controller, bool is_in_loops, CodeCost& cost) {
   if (!controller.has.foresight) return;
   const design::LimitedRows& limits = *controller.solution.foreseen;
   const long rows = static_cast<long>(limits.G.rows()), ns = static_cast<long>(limits.F.cols());
   const long numbers = static_cast<long>(limits.F.size()) + rows * rows + 4 * rows +
                        (controller.has.rate_limit ? controller.size.nu : 0);
   const bool copies = controller.has.input_change || controller.size.nr > 0;
-  constexpr long description = 48, control = 150, frame = 104, check = 1;
+  constexpr long description = 48, control = 220, frame = 24, frame_beside_loops = 104, check = 1;
   cost.flash += limit_flash.of(controller) + bytes_of_real(controller) * numbers + description + control +
                 bytes_of_software_floats(controller, true) -
                 bytes_of_software_floats(controller, carries_covariance(controller)) + (copies ? 20 * ns : 0);
   const long memory = bytes_of_real(controller) * (7 * rows + rows * (rows - 1) / 2 + (copies ? ns : 0)) + 2 * rows;
-  cost.stack = std::max(cost.stack, aligned(memory) + frame + limit_stack.of(controller) + 8);
+  // In straight-line code control is part of step; loops have a frame of their own that is gone by then.
+  const long solver = aligned(memory) + limit_stack.of(controller);
+  cost.stack = is_in_loops ? std::max(cost.stack, solver + frame_beside_loops) : cost.stack + solver + frame;
   cost.multiply_adds += static_cast<long>(limits.F.size()) + check * rows;
   cost.instructions.clear();
 }

@@ -15,8 +15,9 @@ constexpr long stack_of_double = 20;  // of the deepest of them that compute dou
 // Those that compute doubles: nothing for float.
 long bytes_of_software_floats(const Controller& controller, bool divides);
 
-// What limits that are foreseen add to a style's cost: the solver with its tables, and its memory on the stack.
-void add_foresight(const Controller& controller, CodeCost& cost);
+// What limits that are foreseen add to the cost of straight-line code or of the library's loops: the solver with its
+// tables, and its memory on the stack.
+void add_foresight(const Controller& controller, bool is_in_loops, CodeCost& cost);
 
 // NAME_init of the compact style and all that follows from it.
 CodeCost cost_of_loops(const Controller& controller);

@@ -74,7 +74,7 @@ std::vector<Way> ways_of(const Controller& controller) {
   }
   if (asked != design::Style::unrolled)
     ways.push_back({design::Style::compact, controller::Sharing::nothing, cost_of_compact(controller)});
-  for (Way& way : ways) add_foresight(controller, way.cost);
+  for (Way& way : ways) add_foresight(controller, way.style == design::Style::compact, way.cost);
   return ways;
 }
 
