@@ -13,7 +13,7 @@
 #endif
 
 /* No multiplier goes farther along a direction. */
-#define FARTHEST ((lqg_real)1e37)
+#define FARTHEST ((lqg_real)1.329227995784916e36) /* 2¹²⁰ */
 
 /* Of a row: not active, or at which of its limits. */
 enum { NOT_ACTIVE, AT_LOW, AT_HIGH };

@@ -59,7 +59,7 @@ class Optimum {
  private:
   enum class Side { none, low, high };
   static constexpr int contradiction = -1;
-  static constexpr double farthest = 1e37;  // no multiplier goes farther along a direction
+  static constexpr double farthest = 0x1p120;  // no multiplier goes farther along a direction
 
   Side side(int row) const { return side_[static_cast<std::size_t>(row)]; }
   int length() const { return static_cast<int>(active_.size()); }
