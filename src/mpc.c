@@ -199,10 +199,12 @@ static unsigned advance(const lqg_mpc_t *mpc, lqg_mpc_state_t *state, unsigned l
         if (state->side[state->active[k]] == AT_LOW ? !(next[k] < 0) : !(next[k] > 0))
             continue;
         const lqg_real possible = m[k] / (is_singular ? -next[k] : m[k] - next[k]);
-        if (possible < share)
+        if (possible < share) {
             share = possible;
-        else if (blocking != length)
-            continue;
+        } else {
+            if (blocking != length)
+                continue;
+        }
         blocking = k;
     }
     if (!(share > 0)) /* rounding has left a multiplier with the other sign: back would be no step */

@@ -177,7 +177,7 @@ void add_foresight(const Controller& controller, bool is_in_loops, CodeCost& cos
   const long numbers = static_cast<long>(limits.F.size()) + rows * rows + 4 * rows +
                        (controller.has.rate_limit ? controller.size.nu : 0);
   const bool copies = controller.has.input_change || controller.size.nr > 0;
-  constexpr long description = 48, control = 220, frame = 24, frame_beside_loops = 104, check = 1;
+  constexpr long description = 48, control = 220, frame = 48, frame_beside_loops = 104, check = 1;
   cost.flash += limit_flash.of(controller) + bytes_of_real(controller) * numbers + description + control +
                 bytes_of_software_floats(controller, true) -
                 bytes_of_software_floats(controller, carries_covariance(controller)) + (copies ? 20 * ns : 0);
