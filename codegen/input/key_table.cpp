@@ -215,7 +215,8 @@ std::vector<KeyRule> keys_of_the_loop() {
        "after the sample at hand, too.", "1e6"},
       {"limits.iterations", Type::whole, no, no, optional, {},
        "Changes of the set of active limits in one sample, at most. Where they are not enough, u is clipped, and the "
-       "status says so.", "the bound that lqgen finds"},
+       "status says so.", "a proved bound where there is one, else a cap of 10 for each limited "
+       "quantity; the header says which"},
 
       {"stage", Type::tables, no, no, optional, {},
        "A time-varying plant: from step `from` on, these matrices replace those before. A key that is left out keeps "
