@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "problems.hpp"
 
+#include <limits>
 #include <map>
 #include <string>
 
@@ -76,6 +77,21 @@ Limits limits_of_size(const VectorXd& u_min, const VectorXd& u_max) {
   limits.u_min = u_min;
   limits.u_max = u_max;
   return limits;
+}
+
+LimitedProblem foreseeing_law(const RiccatiEquation& equation, const std::vector<int>& blocks) {
+  const RiccatiResult result = solve_discrete_riccati(equation, {});
+  LimitedProblem problem;
+  problem.A = equation.A;
+  problem.B = equation.B;
+  problem.K = result.K;
+  problem.weight = equation.R + transpose_congruence(equation.B, result.X);
+  problem.blocks = blocks;
+  problem.u_max = RealVector::Constant(equation.B.cols(), std::numeric_limits<Real>::infinity());
+  problem.u_min = -problem.u_max;
+  problem.tolerance = 1e-12;
+  problem.softening = 0;
+  return problem;
 }
 
 Problem double_integrator(double sample_time) {

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "design/equations/riccati.hpp"
+#include "design/limits/limited_rows.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "design/solution.hpp"
 #include "design/solve.hpp"
@@ -34,6 +36,10 @@ Problem regulator_alone(Problem problem);
 
 // Of inputs, which are clipped.
 lqg::design::Limits limits_of_size(const Eigen::VectorXd& u_min, const Eigen::VectorXd& u_max);
+
+// The law that solves `equation`, which foresees `blocks`: no limits yet.
+lqg::design::LimitedProblem foreseeing_law(const lqg::design::RiccatiEquation& equation,
+                                           const std::vector<int>& blocks);
 
 // ẍ = u, the position is measured.
 Problem double_integrator(double sample_time);

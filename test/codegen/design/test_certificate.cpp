@@ -26,17 +26,9 @@ LimitedProblem limited(const Problem& plant, const VectorXd& Q, double R, const 
   const SampledPlant sampled = solved(alone).plant;
   const RiccatiEquation equation{sampled.A, sampled.B, real(Q.asDiagonal()), real(MatrixXd::Constant(1, 1, R)),
                                  zeros(sampled.A.rows(), 1)};
-  const RiccatiResult result = solve_discrete_riccati(equation, {});
-  LimitedProblem problem;
-  problem.A = equation.A;
-  problem.B = equation.B;
-  problem.K = result.K;
-  problem.weight = equation.R + transpose_congruence(equation.B, result.X);
-  problem.blocks = blocks;
+  LimitedProblem problem = foreseeing_law(equation, blocks);
   problem.u_min = real(MatrixXd::Constant(1, 1, -limit));
   problem.u_max = real(MatrixXd::Constant(1, 1, limit));
-  problem.tolerance = 1e-12;
-  problem.softening = 0;
   return problem;
 }
 

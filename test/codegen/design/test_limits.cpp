@@ -31,22 +31,6 @@ RealVector reals(const std::vector<double>& values) {
 
 RealMatrix row(const std::vector<double>& values) { return reals(values).transpose(); }
 
-// A law and its limits, none yet.
-LimitedProblem problem_of(const RiccatiEquation& equation, const std::vector<int>& blocks) {
-  const RiccatiResult result = solve_discrete_riccati(equation, {});
-  LimitedProblem problem;
-  problem.A = equation.A;
-  problem.B = equation.B;
-  problem.K = result.K;
-  problem.weight = equation.R + transpose_congruence(equation.B, result.X);
-  problem.blocks = blocks;
-  problem.u_min = reals(std::vector<double>(static_cast<std::size_t>(equation.B.cols()), -infinity));
-  problem.u_max = -problem.u_min;
-  problem.tolerance = 1e-12;
-  problem.softening = 0;
-  return problem;
-}
-
 RiccatiEquation sampled(const MatrixXd& A, const MatrixXd& B, double T, const VectorXd& Q, double R) {
   Problem problem = regulator_alone(design_test::problem_of(Domain::continuous, T, A, B, MatrixXd(0, A.rows())));
   problem.regulator->cost = Cost::discrete;
@@ -61,7 +45,7 @@ RiccatiEquation two_mass_equation() {
 
 // Those of limits_reference.py.
 LimitedProblem two_mass_in_blocks() {
-  LimitedProblem problem = problem_of(two_mass_equation(), default_blocks(20, false));
+  LimitedProblem problem = foreseeing_law(two_mass_equation(), default_blocks(20, false));
   problem.u_min = reals({-0.3});
   problem.u_max = reals({0.3});
   return problem;
@@ -70,7 +54,7 @@ LimitedProblem two_mass_in_blocks() {
 LimitedProblem two_mass_with_a_cross_weight() {
   RiccatiEquation equation = two_mass_equation();
   equation.N = reals({0.05, 0, 0, 0.02});
-  LimitedProblem problem = problem_of(equation, default_blocks(10, true));
+  LimitedProblem problem = foreseeing_law(equation, default_blocks(10, true));
   problem.u_min = reals({-0.3});
   problem.u_max = reals({0.3});
   return problem;
@@ -79,8 +63,8 @@ LimitedProblem two_mass_with_a_cross_weight() {
 LimitedProblem servo_with_limits_of_rate_and_speed() {
   const MatrixXd A = (MatrixXd(2, 2) << 0, 1, 0, -59.2236711684).finished();
   LimitedProblem problem =
-      problem_of(sampled(A, Eigen::Vector2d(0, 2121.79407756), 0.001, Eigen::Vector2d(400, 1 / 1024.0), 1 / 128.0),
-                 default_blocks(10, true));
+      foreseeing_law(sampled(A, Eigen::Vector2d(0, 2121.79407756), 0.001, Eigen::Vector2d(400, 1 / 1024.0), 1 / 128.0),
+                     default_blocks(10, true));
   problem.u_min = reals({-12});
   problem.u_max = reals({12});
   problem.u_step = reals({2});
@@ -90,7 +74,7 @@ LimitedProblem servo_with_limits_of_rate_and_speed() {
 }
 
 LimitedProblem two_mass_with_limits_of_an_output() {
-  LimitedProblem problem = problem_of(two_mass_equation(), default_blocks(8, true));
+  LimitedProblem problem = foreseeing_law(two_mass_equation(), default_blocks(8, true));
   problem.u_min = reals({-0.5});
   problem.u_max = reals({0.5});
   problem.quantities = {{row({0, 0, 1, 0}), row({0.125}), false, -1, 0.75, Real(1000)},
@@ -102,8 +86,8 @@ LimitedProblem two_inputs_in_blocks() {
   const MatrixXd A = (MatrixXd(3, 3) << 1, 0.125, 0, 0, 1, 0.25, 0.125, 0, 0.75).finished();
   const MatrixXd B = (MatrixXd(3, 2) << 0.5, 0, 0, 1, 0.25, -0.5).finished();
   const MatrixXd R = (MatrixXd(2, 2) << 0.5, 0.125, 0.125, 1).finished();
-  LimitedProblem problem =
-      problem_of({real(A), real(B), real(Eigen::Vector3d(1, 2, 0.5).asDiagonal()), real(R), zeros(3, 2)}, {1, 2, 3});
+  LimitedProblem problem = foreseeing_law(
+      {real(A), real(B), real(Eigen::Vector3d(1, 2, 0.5).asDiagonal()), real(R), zeros(3, 2)}, {1, 2, 3});
   problem.u_min = reals({-0.25, -1});
   problem.u_max = reals({0.5, infinity});
   problem.quantities = {{row({1, 0, 1}), row({0, 0}), false, -0.5, 0.5, Real(8)}};
@@ -213,8 +197,8 @@ void test_a_law_without_limits_has_a_row_an_input_now_and_no_more() {
 void test_what_no_input_can_move_has_no_row() {
   const Digits scope(50);
   const MatrixXd A = (MatrixXd(3, 3) << 0.5, 1, 0, 0, 0, 1, 0, 0, 0).finished();
-  LimitedProblem problem = problem_of({real(A), real(Eigen::Vector3d(0, 0, 1)), identity(3), identity(1), zeros(3, 1)},
-                                      default_blocks(5, true));
+  LimitedProblem problem = foreseeing_law(
+      {real(A), real(Eigen::Vector3d(0, 0, 1)), identity(3), identity(1), zeros(3, 1)}, default_blocks(5, true));
   problem.quantities = {{row({1, 0, 0}), row({0}), false, -1, 1, Real(10)}};
   const LimitedRows rows = *limited_rows(problem);
   TEST_ASSERT_EQUAL(3, rows.G.rows());
