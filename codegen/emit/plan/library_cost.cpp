@@ -183,7 +183,7 @@ void add_foresight(const Controller& controller, bool is_in_loops, CodeCost& cos
                 bytes_of_software_floats(controller, carries_covariance(controller)) + (copies ? 20 * ns : 0);
   const long memory = bytes_of_real(controller) * (7 * rows + rows * (rows - 1) / 2 + (copies ? ns : 0)) + 2 * rows;
   // In straight-line code control is part of step; loops have a frame of their own that is gone by then.
-  const long solver = aligned(memory) + limit_stack.of(controller);
+  const long solver = aligned(memory) + limit_stack.of(controller) + (copies ? 4 * bytes_of_real(controller) : 0);
   cost.stack = is_in_loops ? std::max(cost.stack, solver + frame_beside_loops) : cost.stack + solver + frame;
   cost.multiply_adds += static_cast<long>(limits.F.size()) + check * rows;
   cost.instructions.clear();
