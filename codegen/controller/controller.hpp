@@ -102,9 +102,9 @@ struct FormChoice {
 };
 
 // What straight-line code has once, and not again and again: nothing; of a filter that carries P the functions over P
-// that all outputs need, or also those over A, which run over the columns of P; of one with a constant gain the loops
-// of its products with dense matrices.
-enum class Sharing { nothing, outputs, columns, products };
+// that all outputs need, or also those over A, which run over the columns of P, or these with loops over the entries of
+// P in all that outputs need; of one with a constant gain the loops of its products with dense matrices.
+enum class Sharing { nothing, outputs, columns, entries, products };
 
 // How often a sample may change the set of active limits, and where that number is from.
 struct Iterations {

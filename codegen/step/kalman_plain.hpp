@@ -72,29 +72,24 @@ void correct_covariance_row(State<S>& state, const S& gain, const Vector<S>& f, 
   }
 }
 
+// Both for state j, of an output with this cov(x̂, y), 1/S and innovation.
+template <class S, class Listener>
+void correct_plain_row(State<S>& state, const Vector<S>& f, const S& reciprocal, const S& innovation, int j,
+                       Listener& listener) {
+  const S gain = plain_gain(f, reciprocal, j, listener);
+  correct_state(state, gain, innovation, j, listener);
+  correct_covariance_row(state, gain, f, j, listener);
+}
+
 // S = C P Cᵀ + V, L = P Cᵀ / S, x̂ ← x̂ + L(y − C x̂ − D u), P ← P − L C P for output i; true if it was used.
 template <class S, class Listener>
 auto update_plain_output(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
   const Vector<S> f = covariance_with_output(model, state, i, listener);
   const PlainCorrection<S> correction = plain_correction(model, state, f, y, i, listener);
   listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation,  P ← P − L (P Cᵀ)ᵀ", i);
-  for (int j = model.nx - 1; j >= 0; --j) {  // from the last row up: few P Cᵀ outlive the entry of P that they may be
-    const S gain = plain_gain(f, correction.reciprocal, j, listener);
-    correct_state(state, gain, correction.innovation, j, listener);
-    correct_covariance_row(state, gain, f, j, listener);
-  }
+  for (int j = model.nx - 1; j >= 0; --j)  // from the last row up: few P Cᵀ outlive the entry of P that they may be
+    correct_plain_row(state, f, correction.reciprocal, correction.innovation, j, listener);
   return correction.usable;
-}
-
-// The same of x̂ alone, of a cov(x̂, y) that is there: what P is corrected with is left to the caller.
-template <class S, class Listener>
-S update_plain_state(const Model<S>& model, State<S>& state, const Vector<S>& f, const S& y, int i,
-                     Listener& listener) {
-  const PlainCorrection<S> correction = plain_correction(model, state, f, y, i, listener);
-  listener.section("L = P Cᵀ / S,  x̂ ← x̂ + L innovation", i);
-  for (int j = 0; j < model.nx; ++j)
-    correct_state(state, plain_gain(f, correction.reciprocal, j, listener), correction.innovation, j, listener);
-  return correction.reciprocal;
 }
 
 // P ← A P Aᵀ + W, lower triangle, with A freed of what the outputs told of w.

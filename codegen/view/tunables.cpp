@@ -180,13 +180,13 @@ void set_range(Tunable& tunable, const Rule& rule, double largest, const design:
 
 // Numbers that have a default and that a person wants to move: they are added to the file when they are written.
 std::vector<PlacedNumber> absent_numbers(const input::DesignFile& file) {
-  std::vector<PlacedNumber> absent;
+  std::vector<PlacedNumber> numbers;
   const auto add = [&](const std::string& key, const char* table, double value) {
-    if (file.locations.count(key) == 0 && file.locations.count(table) != 0) absent.push_back({key, value, 0, 0});
+    if (file.locations.count(key) == 0 && file.locations.count(table) != 0) numbers.push_back({key, value, 0, 0});
   };
   if (file.problem->regulator) add("plant.delay", "plant", 0);
   add("lqr.bryson.rho", "lqr.bryson", 1);
-  return absent;
+  return numbers;
 }
 
 using Largest = std::map<std::string, double>;  // by the first word of a key's rule

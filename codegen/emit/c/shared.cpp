@@ -23,7 +23,15 @@ std::string table_of(const Controller& controller, const std::string& suffix, co
          array_values(values, controller.target.is_double) + "};\n";
 }
 
-bool shares_columns(const Controller& controller) { return controller.sharing == controller::Sharing::columns; }
+bool loops_over_entries(const Controller& controller) { return controller.sharing == controller::Sharing::entries; }
+
+// c + a b, or c − a b, as the trace rounds them.
+std::string multiply_add(const Controller& controller, const std::string& a, const std::string& b, const std::string& c,
+                         bool subtracts) {
+  if (!controller.target.is_fused) return c + (subtracts ? " - (" : " + (") + a + " * " + b + ")";
+  return std::string(controller.target.is_double ? "fma(" : "fmaf(") + (subtracts ? "-" : "") + a + ", " + b + ", " +
+         c + ")";
+}
 
 design::RealMatrix lower_row_by_row(const design::RealMatrix& matrix) {
   const auto n = static_cast<int>(matrix.rows());
@@ -38,8 +46,8 @@ std::string tables(const Controller& controller) {
   const design::OnlineSolution& online = *controller.solution.online;
   const std::string triangle = std::to_string(controller.size.nx * (controller.size.nx + 1) / 2);
   return gain_tables(controller) +
-         (shares_columns(controller) ? table_of(controller, "W", "[" + triangle + "]", lower_row_by_row(online.W))
-                                     : "") +
+         (loops_over_columns(controller) ? table_of(controller, "W", "[" + triangle + "]", lower_row_by_row(online.W))
+                                         : "") +
          (projects(controller) ? table_of(controller, "C", "[" + std::to_string(online.C.size()) + "]", online.C) : "");
 }
 
@@ -50,12 +58,13 @@ std::string begun_by(const std::string& call, std::string body) {
 }
 
 std::string use_function(const Controller& controller, int i) {
-  const std::string call =
-      is_projected(controller, i)
-          ? fill("    {name}_project(self, &{NAME}_C[" + std::to_string(i) + " * {NAME}_NX], cov);\n",
-                 common_words(controller))
-          : "";
-  const TracedFunction traced = trace_use(controller, i, !call.empty());
+  std::string call;
+  if (is_projected(controller, i))
+    call = "    {name}_project(self, &{NAME}_C[" + std::to_string(i) + " * {NAME}_NX], cov);\n";
+  if (is_column(controller, i))
+    call = "    {name}_column(self, " + std::to_string(*measured_state(controller, i)) + ", cov);\n";
+  call = fill(call, common_words(controller));
+  const TracedFunction traced = trace_use(controller, i);
   return write_function(
       templates::shared_use, controller,
       {{"output", name_of_output(controller, i)}, {"body", begun_by(call, body(controller, traced, {"self"}))}});
@@ -74,14 +83,29 @@ std::string calls_of_rows(const Controller& controller, const std::string& argum
   return out;
 }
 
-std::string covariance_functions(const Controller& controller) {
+// What outputs need of P.
+std::string output_functions(const Controller& controller) {
   std::string out;
+  if (loops_over_entries(controller)) {
+    if (takes_columns(controller)) out += write_function(templates::shared_column, controller, {});
+    if (projects(controller))
+      out += write_function(templates::shared_project_in_loops, controller,
+                            {{"sum_of_row", multiply_add(controller, "self->P[first + k]", "c[k]", "sum", false)},
+                             {"sum_of_column", multiply_add(controller, "self->P[at]", "c[k]", "sum", false)}});
+    return out + write_function(templates::shared_correct_in_loops, controller,
+                                {{"corrected_x", multiply_add(controller, "gain", "innovation", "self->x[j]", false)},
+                                 {"corrected_P", multiply_add(controller, "gain", "cov[k]", "self->P[at]", true)}});
+  }
   if (projects(controller))
     out += write_function(templates::shared_project, controller,
                           {{"body", body(controller, trace_projection(controller), {"self", "c"})}});
-  out += write_function(templates::shared_correct, controller,
-                        {{"body", body(controller, trace_correction(controller), {"self"})}});
-  if (!shares_columns(controller)) return out;
+  return out + write_function(templates::shared_correct, controller,
+                              {{"body", body(controller, trace_correction(controller), {"self"})}});
+}
+
+std::string covariance_functions(const Controller& controller) {
+  std::string out = output_functions(controller);
+  if (!loops_over_columns(controller)) return out;
   for (const auto& [first, end] : blocks_of_rows(controller))
     out += write_function(templates::shared_rows, controller,
                           {{"first", std::to_string(first)},
@@ -101,8 +125,8 @@ std::string use(const Controller& controller, int i, const std::string& given) {
   if (!observation.stores.empty()) return write_body(templates::shared_observation, controller, words);
   words.merge(common_words(controller));
   return fill(
-      "    status |= {name}_use_{output}(self, {given}, cov, &reciprocal);\n"
-      "    {name}_correct(self, cov, reciprocal);\n",
+      "    status |= {name}_use_{output}(self, {given}, cov, &reciprocal, &innovation);\n"
+      "    {name}_correct(self, cov, reciprocal, innovation);\n",
       words);
 }
 
@@ -118,7 +142,7 @@ std::string predict_of(const Controller& controller, const TracedFunction& trace
 }
 
 std::string shared_predict_body(const Controller& controller) {
-  if (!shares_columns(controller)) return predict_of(controller, trace_prediction(controller));
+  if (!loops_over_columns(controller)) return predict_of(controller, trace_prediction(controller));
   return begun_by(fill("    {name}_predict_covariance(self);\n", common_words(controller)),
                   predict_of(controller, trace_end_of_predict(controller)));
 }

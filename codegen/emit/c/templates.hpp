@@ -18,8 +18,8 @@ extern const char linear_filter_form[], linear_predictor_form[], linear_state[],
 extern const char initial_state[], counters[], recover_body[], weigh_body[], step_calls[], foreseeing_control[];
 extern const char compact_init[], compact_update[], compact_update_alone[], compact_predict[], compact_control[],
     compact_law[], compact_act[], compact_recover[], compact_filter_of_sample[], compact_law_of_sample[];
-extern const char shared_project[], shared_use[], shared_correct[], shared_rows[], shared_predict_covariance[],
-    shared_update[], shared_observation[];
+extern const char shared_project[], shared_use[], shared_correct[], shared_column[], shared_correct_in_loops[],
+    shared_project_in_loops[], shared_rows[], shared_predict_covariance[], shared_update[], shared_observation[];
 extern const char products_add_rows[], products_innovate[], products_update[];
 
 }  // namespace templates

@@ -27,9 +27,13 @@ namespace {
 // there once.
 constexpr long most_inlined = 80;
 constexpr long bytes_of_call = 16, bytes_of_column_loops = 220, bytes_of_observation = 40;
+constexpr long bytes_of_correction = 100, bytes_of_projection = 100, bytes_of_column = 56, bytes_of_loop_registers = 40;
 constexpr long bytes_of_product = 56, bytes_of_rows = 40, stack_of_rows = 64;
-// Of a function with loops over n states: all registers, and what they do not hold.
-long bytes_of_saved_registers(long n, bool is_double) { return 100 + 2 * n + (is_double ? 64 : 0); }
+// Of a function with loops over n states: its registers, and what they do not hold. All of them where coefficients fill
+// those that no call keeps.
+long bytes_of_saved_registers(long n, bool is_full, bool is_double) {
+  return (is_full ? 124 : std::min(12 * n - 8, 60 + 9 * n / 2)) + (is_double ? 64 : 0);
+}
 
 // What a compiler does not do as it is counted here; most of it where P is carried as it is, in double.
 long with_margin(const Controller& controller, long bytes) {
@@ -253,23 +257,39 @@ CodeCost cost_of_shared(const Controller& controller) {
   };
   const long weigh = controller.has.gate ? add_function(aside, controller, trace_weigh(controller), true).stack : 0;
   const long recover = add_function(aside, controller, trace_begin_covariance(controller)).stack;
-  long part = add(trace_correction(controller), ny), projected = 0, use = 0;
+  // A function with loops in place of its straight lines.
+  const auto add_loops = [&](const TracedFunction& function, long times, long bytes) {
+    CodeCost once;
+    add_function(once, controller, function);
+    cost.flash += bytes + (controller.target.is_double ? bytes / 2 : 0);
+    cost.multiply_adds += times * once.multiply_adds;
+    return bytes_of_loop_registers;
+  };
+  const bool is_in_loops = controller.sharing == controller::Sharing::entries;
+  long part = is_in_loops ? add_loops(trace_correction(controller), ny, bytes_of_correction)
+                          : add(trace_correction(controller), ny),
+       projected = 0, use = 0;
   for (int i = 0; i < ny; ++i) {
-    use = std::max(use, add(trace_use(controller, i, is_projected(controller, i)), 1));
+    use = std::max(use, add(trace_use(controller, i), 1));
     projected += is_projected(controller, i);
     if (controller.size.nxi) cost.flash += bytes_of_observation;
   }
-  if (projected > 0) part = std::max(part, add(trace_projection(controller), projected));
+  if (projected > 0)
+    part = std::max(part, is_in_loops ? add_loops(trace_projection(controller), projected, bytes_of_projection)
+                                      : add(trace_projection(controller), projected));
+  if (takes_columns(controller)) cost.flash += bytes_of_column;
   add(trace_end_of_update(controller), 1);
-  const long update = aligned(bytes_of_real(controller) * (nx + 1)) + 8 + use + std::max(part, weigh);
+  const long update = aligned(bytes_of_real(controller) * (nx + 2)) + 8 + use + std::max(part, weigh);
   const long control = controller.has.regulator ? add(trace_regulator(controller), 1) : 0;
   long predict = 0, tables = 0;
-  if (controller.sharing == controller::Sharing::columns) {
+  if (loops_over_columns(controller)) {
     long rows = 0;
+    bool is_full = false;
     for (const auto& [first, end] : blocks_of_rows(controller)) {
       CodeCost block;
       rows = std::max(rows, add_function(block, controller, trace_rows(controller, first, end)).stack);
       const bool is_in_both_loops = block.multiply_adds + nx + 3 * (end - first) < most_inlined;
+      is_full = is_full || !is_in_both_loops || block.multiply_adds > 3 * nx;
       cost.flash += !is_in_both_loops             ? block.flash + 2 * bytes_of_call
                     : controller.target.is_double ? 7 * block.flash / 4
                                                   : 5 * block.flash / 4;
@@ -279,7 +299,7 @@ CodeCost cost_of_shared(const Controller& controller) {
     cost.flash += bytes_of_column_loops;
     tables += triangle(nx) + nx;
     predict = aligned(bytes_of_real(controller) * (nx * nx + 2 * nx)) +
-              bytes_of_saved_registers(nx, controller.target.is_double) + rows;
+              bytes_of_saved_registers(nx, is_full, controller.target.is_double) + rows;
     predict = std::max(predict, add(trace_end_of_predict(controller), 1));
   } else {
     predict = add(trace_prediction(controller), 1);

@@ -35,8 +35,9 @@ constexpr int least_in_loops = 5;
 
 std::vector<controller::Sharing> sharings_of(const Controller& controller) {
   if (controller.size.nx < least_in_loops) return {controller::Sharing::outputs};
-  if (controller.problem.code.style == design::Style::compact) return {controller::Sharing::columns};
-  return {controller::Sharing::outputs, controller::Sharing::columns};
+  if (controller.problem.code.style == design::Style::compact)
+    return {controller::Sharing::columns, controller::Sharing::entries};
+  return {controller::Sharing::outputs, controller::Sharing::columns, controller::Sharing::entries};
 }
 
 // With a constant gain straight lines and loops over tables. The compact style has those lines as long as the loops

@@ -51,6 +51,31 @@ std::vector<std::pair<int, int>> blocks_of_rows(const Controller& controller) {
   return blocks;
 }
 
+bool loops_over_columns(const Controller& controller) {
+  return controller.sharing == controller::Sharing::columns || controller.sharing == controller::Sharing::entries;
+}
+
+std::optional<int> measured_state(const Controller& controller, int output) {
+  const design::RealMatrix& C = controller.solution.online->C;
+  std::optional<int> state;
+  for (Eigen::Index k = 0; k < C.cols(); ++k) {
+    if (C(output, k) == 0) continue;
+    if (state || C(output, k) != 1) return std::nullopt;
+    state = static_cast<int>(k);
+  }
+  return state;
+}
+
+bool is_column(const Controller& controller, int output) {
+  return controller.sharing == controller::Sharing::entries && measured_state(controller, output);
+}
+
+bool takes_columns(const Controller& controller) {
+  for (int i = 0; i < controller.size.ny; ++i)
+    if (is_column(controller, i)) return true;
+  return false;
+}
+
 bool is_projected(const Controller& controller, int output) {
   const design::RealMatrix& C = controller.solution.online->C;
   return controller.size.ny > 1 && 2 * (C.row(output).array() != 0).count() > C.cols();
@@ -72,14 +97,17 @@ TracedFunction trace_projection(const Controller& controller) {
   return function;
 }
 
-TracedFunction trace_use(const Controller& controller, int output, bool is_projected) {
+TracedFunction trace_use(const Controller& controller, int output) {
   return trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener,
                                     TracedFunction& function) {
     const std::string parameter = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
     const Expr y = step::in_range_or_nan(model, Expr::of(trace::graph().input(parameter, parameter)), output, listener);
-    const Symbols f = is_projected ? load_covariance(controller, model.nx)
-                                   : step::covariance_with_output(model, state, output, listener);
-    store(function, "*reciprocal", step::update_plain_state(model, state, f, y, output, listener));
+    const bool is_there = is_projected(controller, output) || is_column(controller, output);
+    const Symbols f =
+        is_there ? load_covariance(controller, model.nx) : step::covariance_with_output(model, state, output, listener);
+    const step::PlainCorrection<Expr> correction = step::plain_correction(model, state, f, y, output, listener);
+    store(function, "*reciprocal", correction.reciprocal);
+    store(function, "*innovation", correction.innovation);
     store_all(function, "cov", f);
     store_rest(controller, function, state);
   });
@@ -88,14 +116,15 @@ TracedFunction trace_use(const Controller& controller, int output, bool is_proje
 TracedFunction trace_correction(const Controller& controller) {
   TracedFunction function = trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state,
                                                        TraceListener& listener, TracedFunction& traced) {
-    listener.section("P ← P − L covᵀ,  L = cov / S");
+    listener.section("L = cov / S,  x̂ ← x̂ + L innovation,  P ← P − L covᵀ");
     const Symbols f = load_covariance(controller, model.nx);
-    const Expr reciprocal = Expr::of(trace::graph().input("reciprocal", "reciprocal"));
-    for (int j = model.nx - 1; j >= 0; --j)
-      step::correct_covariance_row(state, step::plain_gain(f, reciprocal, j, listener), f, j, listener);
-    SymbolicState P;
-    P.P = state.P;
-    store_state(controller, traced, P, covariance_pattern(controller));
+    const Expr reciprocal = Expr::of(trace::graph().input("reciprocal", "reciprocal")),
+               innovation = Expr::of(trace::graph().input("innovation", "innovation"));
+    for (int j = model.nx - 1; j >= 0; --j) step::correct_plain_row(state, f, reciprocal, innovation, j, listener);
+    SymbolicState corrected;
+    corrected.x = state.x;
+    corrected.P = state.P;
+    store_state(controller, traced, corrected, covariance_pattern(controller));
   });
   function.is_void = true;
   return function;

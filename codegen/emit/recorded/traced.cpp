@@ -104,8 +104,8 @@ std::vector<int> TracedFunction::results() const {
 std::vector<int> TracedFunction::results_before() const {
   std::vector<int> nodes;
   if (!before) return nodes;
-  for (const std::vector<trace::Store>* stores : {&before->stores, &before->recovers})
-    for (const trace::Store& store : *stores) nodes.push_back(store.node);
+  for (const std::vector<trace::Store>* parts : {&before->stores, &before->recovers})
+    for (const trace::Store& store : *parts) nodes.push_back(store.node);
   nodes.insert(nodes.end(), before->statuses.begin(), before->statuses.end());
   if (before->finite >= 0) nodes.push_back(before->finite);
   return nodes;

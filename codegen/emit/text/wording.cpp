@@ -56,9 +56,9 @@ std::vector<design::Signal> reference_signals(const Controller& controller) {
 std::string in_percent(double share) { return decimal(100 * share) + " %"; }
 
 std::string style_of(const Controller& controller) {
-  const bool has_loops = controller.style == design::Style::compact ||
-                         controller.sharing == controller::Sharing::columns ||
-                         controller.sharing == controller::Sharing::products;
+  const bool has_loops =
+      controller.style == design::Style::compact || controller.sharing == controller::Sharing::columns ||
+      controller.sharing == controller::Sharing::entries || controller.sharing == controller::Sharing::products;
   return has_loops ? "compact" : "unrolled";
 }
 
