@@ -26,9 +26,10 @@ constexpr double lost = 1e6;
 
 MatrixXd doubles(const design::RealMatrix& values) { return design::to_doubles(values); }
 
-// The law with its limits, clipped or foreseen.
-step::Model<double> law_of(const Controller& controller, bool is_clipped) {
-  auto model = controller::model_of<double>(controller, constants_of<double>(controller.target));
+// The emitted law with its limits, clipped or foreseen.
+template <class S>
+step::Model<S> law_of(const Controller& controller, bool is_clipped) {
+  auto model = controller::model_of<S>(controller, constants_of<S>(controller.target));
   if (!is_clipped) return model;
   model.u_min = model.foreseen.low.head(model.nu);
   model.u_max = model.foreseen.high.head(model.nu);
@@ -52,7 +53,8 @@ class Comparison {
         C_(doubles(controller.solution.plant.C)), D_(doubles(controller.solution.plant.D)),
         Q_(doubles(controller.solution.regulator->cost.Q)), R_(doubles(controller.solution.regulator->cost.R)),
         N_(doubles(controller.solution.regulator->cost.N)), X_(doubles(controller.solution.regulator->X)),
-        clipped_(law_of(controller, true)), optimal_(law_of(controller, false)), samples_(samples_to_settle()) {}
+        clipped_(law_of<double>(controller, true)), optimal_(law_of<double>(controller, false)),
+        samples_(samples_to_settle()) {}
 
   Worth result() {
     Worth worth;
@@ -138,31 +140,35 @@ class Comparison {
     return price;
   }
 
-  Run run(const VectorXd& from, const step::Model<double>& law, bool is_kept) const {
+  // The plant in double, the law in S.
+  template <class S>
+  Run run(VectorXd x, const step::Model<S>& law, bool is_kept) const {
     Run out;
-    step::State<double> state;
-    state.x = from;
-    state.u = VectorXd::Zero(controller_.size.nu);
-    state.r = VectorXd::Zero(controller_.size.nr);
+    step::State<S> state;
+    VectorXd before = VectorXd::Zero(controller_.size.nu);
+    state.u = numbers_of<S>(before);
+    state.r = step::Vector<S>::Constant(controller_.size.nr, S(0));
     const auto distance = [&] {
-      const VectorXd own_state = state.x.head(own());
+      const VectorXd own_state = x.head(own());
       return own_state.dot(X_.topLeftCorner(own(), own()) * own_state);
     };
     const double first = distance();
     out.reach = VectorXd::Zero(own());
     for (int k = 0; k < samples_; ++k) {
       step::Listener listener;
-      const VectorXd before = state.u, u = step::control(law, state, listener);
-      if (is_kept) keep(out, k, state.x, u);
-      out.reach = out.reach.cwiseMax(state.x.head(own()).cwiseAbs());
+      state.x = numbers_of<S>(x);
+      state.u = step::control(law, state, listener);
+      const VectorXd u = as_doubles<S>(state.u);
+      if (is_kept) keep(out, k, x, u);
+      out.reach = out.reach.cwiseMax(x.head(own()).cwiseAbs());
       const design::Limits& limits = *controller_.problem.limits;
-      out.cost += state.x.dot(Q_ * state.x) + u.dot(R_ * u) + 2 * state.x.dot(N_ * u);
+      out.cost += x.dot(Q_ * x) + u.dot(R_ * u) + 2 * x.dot(N_ * u);
       const Eigen::MatrixXd& rate = controller_.problem.regulator->input_rate;
       if (rate.size()) out.cost += (u - before).dot(rate * (u - before));
-      if (k > 0) out.cost += price_of(limits.states, state.x.head(own()), out.excess);
-      out.cost += price_of(limits.outputs, C_ * state.x + D_ * u, out.excess);
-      state.x = A_ * state.x + B_ * u;
-      state.u = u;
+      if (k > 0) out.cost += price_of(limits.states, x.head(own()), out.excess);
+      out.cost += price_of(limits.outputs, C_ * x + D_ * u, out.excess);
+      x = A_ * x + B_ * u;
+      before = u;
       const double now = distance();
       if (!(now < lost * lost * first)) return out;
       if (now >= settled * first) continue;
@@ -187,11 +193,15 @@ class Comparison {
     const auto is_lost = [](const auto& start) { return std::isinf(start.first); };
     const auto lost_start = std::find_if(found.begin(), found.end(), is_lost);
     const VectorXd& x = lost_start != found.end() ? lost_start->second : found[(found.size() - 1) * 9 / 10].second;
-    const Run clipped = run(x, clipped_, true), optimal = run(x, optimal_, true);
     constexpr Eigen::Index after = 20;
-    const Eigen::Index wanted = 2 * optimal.samples + after;
+    const Eigen::Index wanted = 2 * run(x, optimal_, false).samples + after;
     const auto begin = [&](const MatrixXd& all) { return MatrixXd(all.leftCols(std::min(all.cols(), wanted))); };
-    worth.shown = {x, begin(clipped.u), begin(optimal.u), begin(clipped.x), begin(optimal.x)};
+    with_scalar_of(controller_.target, [&](auto scalar) {
+      using S = decltype(scalar);
+      const Run clipped = run(x, law_of<S>(controller_, true), true);
+      const Run optimal = run(x, law_of<S>(controller_, false), true);
+      worth.shown = {x, begin(clipped.u), begin(optimal.u), begin(clipped.x), begin(optimal.x)};
+    });
   }
 
   const Controller& controller_;

@@ -157,6 +157,27 @@ class Pages(unittest.TestCase):
                 if kept:
                     self.assertEqual((low, high), extremes([kept]), chart["id"])
 
+    def test_foresight_is_shown_beside_clipping_with_the_limits_as_lines(self):
+        for name, chart, limit in (
+            ("two_mass_limits", "foresight-u0", 0.3),
+            ("slewing_servo", "foresight-u0-rate", 2000),
+            ("slewing_servo", "foresight-x1", 20),
+        ):
+            data = data_of(name)
+            spec = next(each for each in data["charts"] if each["id"] == chart)
+            self.assertEqual([curve["label"] for curve in spec["curves"]], ["clipped", "foreseen"])
+            self.assertEqual([guide["at"] for guide in spec["guides"]], [-limit, limit])
+            clipped, foreseen = (data["lists"][curve["y"]] for curve in spec["curves"])
+            self.assertLess(max(map(abs, foreseen)), 1.001 * limit)
+            self.assertNotEqual(clipped, foreseen)
+            page = self.open(name, 360, java_script_enabled=False)
+            picture = page.locator(f'[data-chart="{chart}"] > svg')
+            self.assertTrue(picture.is_visible())
+            self.assertLessEqual(picture.bounding_box()["width"], 360)
+            self.assertEqual(picture.locator(".guide").count(), 2)
+            for word in ("clipped", "foreseen"):
+                self.assertEqual(picture.get_by_text(word, exact=True).count(), 1)
+
     def test_what_is_drawn_has_the_colours_of_its_curves(self):
         """Reads pixels: a curve that Chart.js knows but does not draw would be missing."""
         page = self.open("servo")

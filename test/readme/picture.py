@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""picture.py REPORT.html PICTURE.svg [--check]: makes the README's picture of three charts of a report, as they are;
-with --check fails where the picture is another one."""
+"""picture.py REPORT.html PICTURE.svg COLUMN… [--check]: makes a picture of charts of a report, as they are: columns from
+the left to the right, each with the ids of its charts, "run-a-y0,run-a-u0". With --check fails where the picture is
+another one."""
 
 import re
 import sys
@@ -10,7 +11,9 @@ GAP = 20
 
 
 def charts(report):
-    return re.findall(r'<svg viewBox="0 0 ([\d.]+) ([\d.]+)"[^>]*aria-label="([^"]*)">\n(.*?)</svg>', report, re.DOTALL)
+    """By their ids: width, height, title and what is drawn."""
+    begin = r'data-chart="([^"]+)">\n<svg viewBox="0 0 ([\d.]+) ([\d.]+)"[^>]*aria-label="([^"]*)">\n(.*?)</svg>'
+    return {found[0]: found[1:] for found in re.findall(begin, report, re.DOTALL)}
 
 
 def style(report):
@@ -36,29 +39,27 @@ def placed(chart, x, y, panel):
     )
 
 
-def picture(report):
-    nyquist, output, u = (
-        next(chart for chart in charts(report) if chart[2].startswith(title))
-        for title in ("Nyquist curve about", "angle", "voltage")
-    )
+def picture(report, columns):
+    there = charts(report)
     rules, colours = style(report)
-    side, top = float(nyquist[0]) + GAP, float(output[1]) + GAP
-    width, height = side + float(output[0]), float(nyquist[1])
-    panel = colours["--panel"]
+    inner, left, height = "", 0.0, 0.0
+    for column in columns:
+        top, wide = 0.0, 0.0
+        for chart in (there[name] for name in column.split(",")):
+            inner += placed(chart, left, top, colours["--panel"])
+            top, wide = top + float(chart[1]) + GAP, max(wide, float(chart[0]))
+        left, height = left + wide + GAP, max(height, top - GAP)
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" font-family="sans-serif" '
-        f'font-size="11">\n<style>\n{rules}\n</style>\n'
-        + placed(nyquist, 0, 0, panel)
-        + placed(output, side, 0, panel)
-        + placed(u, side, top, panel)
-        + "</svg>\n"
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {left - GAP:g} {height:g}" font-family="sans-serif" '
+        f'font-size="11">\n<style>\n{rules}\n</style>\n{inner}</svg>\n'
     )
 
 
 def main():
-    report, target = Path(sys.argv[1]), Path(sys.argv[2])
-    made = picture(report.read_text(encoding="utf-8"))
-    if sys.argv[3:] != ["--check"]:
+    words = [word for word in sys.argv[1:] if word != "--check"]
+    report, target = Path(words[0]), Path(words[1])
+    made = picture(report.read_text(encoding="utf-8"), words[2:])
+    if "--check" not in sys.argv:
         target.write_text(made, encoding="utf-8")
     elif not target.exists() or target.read_text(encoding="utf-8") != made:
         print(f"{target}: expected the charts of the report as it is; cmake --build build --target update_golden")

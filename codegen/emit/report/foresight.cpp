@@ -15,28 +15,30 @@ using controller::Worth;
 constexpr double noticeable = 1.05;
 constexpr int one_in = 50;
 
-std::vector<double> row_of(const Eigen::MatrixXd& values, Eigen::Index row) {
+// A quantity over the samples of the run that is shown: one row of each matrix.
+struct Quantity {
+  design::Signal signal;
+  std::string id;  // of its chart
+  Mark mark;
+  Eigen::RowVectorXd clipped, optimal;
+};
+
+std::vector<double> list_of(const Eigen::RowVectorXd& values) { return {values.begin(), values.end()}; }
+
+std::vector<double> times_of(const Eigen::RowVectorXd& values, double T) {
   std::vector<double> out;
-  for (Eigen::Index k = 0; k < values.cols(); ++k) out.push_back(values(row, k));
+  for (Eigen::Index k = 0; k < values.size(); ++k) out.push_back(static_cast<double>(k) * T);
   return out;
 }
 
-std::vector<double> times_of(const Eigen::MatrixXd& values, double T) {
-  std::vector<double> out;
-  for (Eigen::Index k = 0; k < values.cols(); ++k) out.push_back(static_cast<double>(k) * T);
-  return out;
-}
-
-Chart chart_of(const Controller& controller, const design::Signal& signal, const std::string& kind, Eigen::Index i,
-               const Eigen::MatrixXd& clipped, const Eigen::MatrixXd& optimal, Mark mark) {
-  const double T = controller.problem.plant.sample_time;
+Chart chart_of(const Quantity& shown, double T) {
   Chart out;
-  out.title = name_with_unit(signal);
-  out.id = "foresight-" + kind + std::to_string(i);
+  out.title = name_with_unit(shown.signal);
+  out.id = "foresight-" + shown.id;
   out.group = "foresight";
   out.x.label = "t [s]";
-  out.curves = {{"clipped", mark, 1, times_of(clipped, T), row_of(clipped, i)},
-                {"foreseen", mark, 0, times_of(optimal, T), row_of(optimal, i)}};
+  out.curves = {{"clipped", shown.mark, 1, times_of(shown.clipped, T), list_of(shown.clipped)},
+                {"foreseen", shown.mark, 0, times_of(shown.optimal, T), list_of(shown.optimal)}};
   return out;
 }
 
@@ -45,24 +47,88 @@ void add_guides(double low, double high, const char* words, Chart& out) {
     if (std::isfinite(at)) out.guides.push_back({Guide::Axis::y, at, words});
 }
 
-std::vector<Chart> charts_of(const Controller& controller, const Worth& worth) {
-  const design::Plant& plant = controller.problem.plant;
-  const design::Limits& limits = *controller.problem.limits;
-  std::vector<Chart> out;
-  const auto nu = static_cast<Eigen::Index>(plant.inputs.size()), nx = static_cast<Eigen::Index>(plant.states.size());
-  for (Eigen::Index i = 0; i < nu; ++i) {
-    out.push_back(chart_of(controller, plant.inputs[static_cast<std::size_t>(i)], "u", i, worth.shown.clipped_u,
-                           worth.shown.optimal_u, Mark::steps));
-    add_guides(limits.u_min(i), limits.u_max(i), "limit", out.back());
-  }
-  for (Eigen::Index i = 0; i < nx; ++i) {
-    out.push_back(chart_of(controller, plant.states[static_cast<std::size_t>(i)], "x", i, worth.shown.clipped_x,
-                           worth.shown.optimal_x, Mark::line));
-    if (limits.states.range.size())
-      add_guides(limits.states.range(i, 0), limits.states.range(i, 1), "soft limit", out.back());
-  }
+// From one sample to the next, a second; of the first from `before`.
+Eigen::RowVectorXd rate_of(const Eigen::RowVectorXd& values, double before, double T) {
+  Eigen::RowVectorXd out = values;
+  for (Eigen::Index k = values.size() - 1; k > 0; --k) out(k) = (values(k) - values(k - 1)) / T;
+  out(0) = (values(0) - before) / T;
   return out;
 }
+
+Quantity rate_of(const Quantity& of, bool is_from_rest, double T) {
+  const std::string unit = of.signal.unit.empty() ? "" : of.signal.unit + "/s";
+  const auto first = [&](const Eigen::RowVectorXd& values) { return is_from_rest ? 0 : values(0); };
+  return {{"rate of " + of.signal.name, unit},
+          of.id + "-rate",
+          Mark::steps,
+          rate_of(of.clipped, first(of.clipped), T),
+          rate_of(of.optimal, first(of.optimal), T)};
+}
+
+bool is_limited(const design::SoftLimits& limits, Eigen::Index i) {
+  return limits.range.size() && (std::isfinite(limits.range(i, 0)) || std::isfinite(limits.range(i, 1)));
+}
+
+// The run as charts: every input and state, the outputs that are limited, and all rates that are.
+class RunCharts {
+ public:
+  explicit RunCharts(const Controller& controller)
+      : plant_(controller.problem.plant), limits_(*controller.problem.limits), run_(controller.worth->shown) {
+    add_inputs();
+    add_states();
+    add_outputs(in_double(controller.solution.plant.C), in_double(controller.solution.plant.D));
+  }
+
+  std::vector<Chart> charts;
+
+ private:
+  void add(const Quantity& shown, double low, double high, const char* words) {
+    charts.push_back(chart_of(shown, plant_.sample_time));
+    add_guides(low, high, words, charts.back());
+  }
+  void add_soft(const Quantity& shown, const design::SoftLimits& limits, Eigen::Index i) {
+    const bool is_there = is_limited(limits, i);
+    add(shown, is_there ? limits.range(i, 0) : -design::forever, is_there ? limits.range(i, 1) : design::forever,
+        "soft limit");
+  }
+
+  void add_inputs() {
+    for (Eigen::Index i = 0; i < run_.clipped_u.rows(); ++i) {
+      const Quantity u = {plant_.inputs[static_cast<std::size_t>(i)], "u" + std::to_string(i), Mark::steps,
+                          run_.clipped_u.row(i), run_.optimal_u.row(i)};
+      add(u, limits_.u_min(i), limits_.u_max(i), "limit");
+      if (limits_.u_rate.size() && std::isfinite(limits_.u_rate(i)))
+        add(rate_of(u, true, plant_.sample_time), -limits_.u_rate(i), limits_.u_rate(i), "limit");
+    }
+  }
+
+  void add_states() {
+    for (std::size_t i = 0; i < plant_.states.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      add_soft(
+          {plant_.states[i], "x" + std::to_string(i), Mark::line, run_.clipped_x.row(row), run_.optimal_x.row(row)},
+          limits_.states, row);
+    }
+  }
+
+  void add_outputs(const Eigen::MatrixXd& C, const Eigen::MatrixXd& D) {
+    for (std::size_t i = 0; i < plant_.outputs.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const auto y = [&](const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
+        return Eigen::RowVectorXd(C.row(row) * x + D.row(row) * u);
+      };
+      const Quantity output = {plant_.outputs[i], "y" + std::to_string(i), Mark::line,
+                               y(run_.clipped_x, run_.clipped_u), y(run_.optimal_x, run_.optimal_u)};
+      if (is_limited(limits_.outputs, row)) add_soft(output, limits_.outputs, row);
+      if (is_limited(limits_.output_rates, row))
+        add_soft(rate_of(output, false, plant_.sample_time), limits_.output_rates, row);
+    }
+  }
+
+  const design::Plant& plant_;
+  const design::Limits& limits_;
+  const controller::WorthOfRun& run_;
+};
 
 std::string of_starts(int some, int all) { return std::to_string(some) + " of " + std::to_string(all); }
 
@@ -109,9 +175,11 @@ PageSection foresight_section(const Controller& controller) {
   view.text = worth_in_words(controller) +
               " Measured with the exact state and without noise, from starts where the law " +
               "alone goes beyond a limit, up to 4 times.";
-  view.charts = charts_of(controller, worth);
-  view.caption = worth.clipped_settle < worth.optimal_settle ? "A start that the clipped law does not survive."
-                                                             : "One of the tenth of starts that cost it most.";
+  view.charts = RunCharts(controller).charts;
+  view.caption =
+      std::string(worth.clipped_settle < worth.optimal_settle ? "A start that the clipped law does not survive. "
+                                                              : "One of the tenth of starts that cost it most. ") +
+      "Both laws have the bits of the emitted one.";
   view.tables = {table_of(worth)};
   section.views = {view};
   return section;

@@ -10,6 +10,7 @@
 #include "design_text.hpp"
 #include "emit/report/innovations.hpp"
 #include "emit/report/report.hpp"
+#include "emit/report/sections.hpp"
 #include "emit/text/html.hpp"
 #include "emit/text/wording.hpp"
 
@@ -181,6 +182,82 @@ void test_margin_against_cost_stands_in_it_with_recovery() {
     TEST_ASSERT_TRUE_MESSAGE(has(html, words), words);
 }
 
+const lqg::emit::Chart& chart_in(const lqg::emit::PageSection& section, const std::string& id) {
+  const std::vector<lqg::emit::Chart>& charts = section.views.front().charts;
+  const auto found = std::find_if(charts.begin(), charts.end(), [&](const auto& chart) { return chart.id == id; });
+  TEST_ASSERT_TRUE_MESSAGE(found != charts.end(), id.c_str());
+  return *found;
+}
+
+void expect_limits(const lqg::emit::Chart& chart, double size, const char* words) {
+  TEST_ASSERT_EQUAL(2, chart.guides.size());
+  TEST_ASSERT_EQUAL_DOUBLE(-size, chart.guides[0].at);
+  TEST_ASSERT_EQUAL_DOUBLE(size, chart.guides[1].at);
+  TEST_ASSERT_EQUAL_STRING(words, chart.guides[0].label.c_str());
+  TEST_ASSERT_EQUAL_STRING("clipped", chart.curves[0].label.c_str());
+  TEST_ASSERT_EQUAL_STRING("foreseen", chart.curves[1].label.c_str());
+}
+
+void test_foresight_shows_all_that_is_limited_beside_clipping() {
+  const Controller controller = controller_of(R"(
+name = "mass"
+[plant]
+domain = "continuous"
+sample_time = 0.1
+A = [[0, 1], [0, 0]]
+B = [[0], [1]]
+C = [[2, 0]]
+states  = ["place [m]", "speed [m/s]"]
+inputs  = ["force [N]"]
+outputs = ["twice [m]"]
+[lqr]
+Q = [1, 0.1]
+R = [0.1]
+[kalman]
+process_noise     = [1e-4, 1e-2]
+measurement_noise = [1e-3]
+[limits]
+u_min  = [-1]
+u_max  = [1]
+u_rate = [4]
+horizon = 6
+states  = { speed = 0.5 }
+outputs = { twice = 3 }
+output_rates = { twice = 0.9 }
+)");
+  const lqg::emit::PageSection section = lqg::emit::foresight_section(controller);
+  std::string ids;
+  for (const lqg::emit::Chart& chart : section.views.front().charts)
+    ids += chart.id.substr(9) + " " + chart.title + ", ";
+  TEST_ASSERT_EQUAL_STRING(
+      "-u0 force [N], -u0-rate rate of force [N/s], -x0 place [m], -x1 speed [m/s], -y0 twice [m], "
+      "-y0-rate rate of twice [m/s], ",
+      ids.c_str());
+  const auto& u = chart_in(section, "foresight-u0");
+  const auto& rate = chart_in(section, "foresight-u0-rate");
+  const auto& place = chart_in(section, "foresight-x0");
+  const auto& twice = chart_in(section, "foresight-y0");
+  const auto& speed_of_it = chart_in(section, "foresight-y0-rate");
+  expect_limits(u, 1, "limit");
+  expect_limits(rate, 4, "limit");
+  expect_limits(chart_in(section, "foresight-x1"), 0.5, "soft limit");
+  expect_limits(twice, 3, "soft limit");
+  expect_limits(speed_of_it, 0.9, "soft limit");
+  TEST_ASSERT_TRUE(place.guides.empty());
+  for (std::size_t law = 0; law < 2; ++law) {
+    const std::vector<double>&force = u.curves[law].y, &y = twice.curves[law].y;
+    TEST_ASSERT_TRUE(force.size() > 20);
+    for (std::size_t k = 0; k < force.size(); ++k) {
+      TEST_ASSERT_TRUE(std::abs(force[k]) <= 1);
+      TEST_ASSERT_DOUBLE_WITHIN(1e-9, (force[k] - (k > 0 ? force[k - 1] : 0)) / 0.1, rate.curves[law].y[k]);
+      TEST_ASSERT_TRUE(std::abs(rate.curves[law].y[k]) < 4 * (1 + 1e-5));
+      TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2 * place.curves[law].y[k], y[k]);
+      TEST_ASSERT_DOUBLE_WITHIN(1e-9, k > 0 ? (y[k] - y[k - 1]) / 0.1 : 0, speed_of_it.curves[law].y[k]);
+    }
+  }
+  expect_sound(controller);
+}
+
 void test_notes_of_the_design_stand_in_it() {
   lqg::design::Findings findings;
   lqg::design::add_note(findings, "lqr.R", "is <small>");
@@ -239,6 +316,7 @@ int main() {
   RUN_TEST(test_the_root_locus_goes_through_the_poles_of_the_design);
   RUN_TEST(test_the_deviations_end_at_those_of_the_steady_filter);
   RUN_TEST(test_margin_against_cost_stands_in_it_with_recovery);
+  RUN_TEST(test_foresight_shows_all_that_is_limited_beside_clipping);
   RUN_TEST(test_notes_of_the_design_stand_in_it);
   RUN_TEST(test_ids_of_charts_differ_from_each_other);
   RUN_TEST(test_chi_squared_has_the_values_of_the_table);

@@ -101,6 +101,35 @@ void test_a_plant_that_clipping_does_not_settle_is_worth_foresight() {
   TEST_ASSERT_EQUAL(worth.shown.optimal_u.cols(), worth.shown.optimal_x.cols());
 }
 
+template <class S>
+void expect_bits_of(const Controller& controller, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
+  simulate::EmittedController<S> emitted(controller, simulate::constants_of<S>(controller.target));
+  TEST_ASSERT_TRUE(u.cols() > 20 && u.cols() == x.cols());
+  for (Eigen::Index k = 0; k < u.cols(); ++k) {
+    step::Vector<S> v;
+    emitted.state().x = simulate::numbers_of<S>(x.col(k));
+    emitted.control(v);
+    TEST_ASSERT_TRUE(simulate::as_double(v(0)) == u(0, k));
+  }
+}
+
+template <class S>
+void compare_the_shown_run(const std::string& real) {
+  const Controller with = lqg_test::controller_of(text_of(foreseen, real));
+  const Controller clipped = lqg_test::controller_of(text_of("[limits]\nu_min = [-0.3]\nu_max = [0.3]\n", real));
+  const controller::WorthOfRun shown = simulate::worth_of_foresight(with).shown;
+  expect_bits_of<S>(clipped, shown.clipped_x, shown.clipped_u);
+  expect_bits_of<S>(with, shown.optimal_x, shown.optimal_u);
+  TEST_ASSERT_TRUE(shown.clipped_x.col(0) == shown.x && shown.optimal_x.col(0) == shown.x);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-7, 0.3, shown.optimal_u.cwiseAbs().maxCoeff());
+  TEST_ASSERT_TRUE(shown.optimal_x.rightCols(1).norm() < 1e-2 * shown.x.norm());
+}
+
+void test_the_run_that_is_shown_has_the_bits_of_both_emitted_laws() {
+  compare_the_shown_run<float>("float");
+  compare_the_shown_run<double>("double");
+}
+
 // A first-order lag that nothing but the input moves: the clipped law is optimal.
 void test_a_lag_at_its_limit_is_worth_nothing() {
   const Controller controller = lqg_test::controller_of(
@@ -166,6 +195,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(test_u_is_the_law_bit_for_bit_where_no_limit_is_in_the_way);
   RUN_TEST(test_a_plant_that_clipping_does_not_settle_is_worth_foresight);
+  RUN_TEST(test_the_run_that_is_shown_has_the_bits_of_both_emitted_laws);
   RUN_TEST(test_a_lag_at_its_limit_is_worth_nothing);
   RUN_TEST(test_a_state_that_begins_within_its_limit_stays_there);
   RUN_TEST(test_the_number_of_changes_says_where_it_is_from);
