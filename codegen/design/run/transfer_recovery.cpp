@@ -83,8 +83,7 @@ class Trials {
     LoopSolution& loop = run.solution.loop;
     loop.poles = sorted_poles(run.loop_poles);
     if (run.cost_per_sample) loop.cost_per_sample = to_double(*run.cost_per_sample);
-    const OpenLoop open =
-        open_at_inputs(measured_plant(problem_, final_plant(run.solution)), compensator(problem_, run.solution));
+    const OpenLoop open = open_at_inputs(measured_plant(problem_, run.solution), compensator(problem_, run.solution));
     loop.at_input = rough_ ? rough_margins(open, run.loop_poles) : margins(open, run.loop_poles);
   }
 

@@ -230,17 +230,26 @@ std::size_t point_of(const RecoveryReport& report, double q) {
   return 0;
 }
 
-void test_table_has_the_loops_that_its_q_make() {
-  const Solution found = solved(with_recovery(oscillator(), 0.5));
+void expect_loops_in_the_table(const Problem& problem) {
+  const Solution found = solved(with_recovery(problem, 0.5));
   const RecoveryReport& report = *found.loop.recovery;
   TEST_ASSERT_EQUAL(6, report.points.size());
   for (const double q : {0.0, 0.005, 0.05, 0.5, 5.0, 50.0}) {
     const RecoveryPoint& point = report.points[point_of(report, q)];
-    const LoopSolution loop = solved(with_recovery(oscillator(), q)).loop;
+    const LoopSolution loop = solved(with_recovery(problem, q)).loop;
     expect_near(*loop.at_input.disk, *point.at_input.disk, "disk margin", 1e-5);
     expect_near(*loop.at_input.phase_deg, *point.at_input.phase_deg, "phase margin", 1e-5);
     expect_near(*loop.cost_per_sample, *point.cost_per_sample, "cost", rounding);
   }
+}
+
+void test_table_has_the_loops_that_its_q_make() { expect_loops_in_the_table(oscillator()); }
+
+// A disturbance is in the filter, but not in the plant that the loop is opened at: a pole at 1 that no input moves.
+void test_table_of_a_loop_with_a_disturbance() {
+  Problem problem = oscillator();
+  problem.estimator->disturbance = {{0, 0.1}};
+  expect_loops_in_the_table(problem);
 }
 
 // One step of two digits less is not enough.
@@ -409,6 +418,7 @@ int main() {
   RUN_TEST(test_sampled_noise_is_recovered_like_continuous_noise);
   RUN_TEST(test_noise_at_the_inputs_does_what_noise_is_missing_for);
   RUN_TEST(test_table_has_the_loops_that_its_q_make);
+  RUN_TEST(test_table_of_a_loop_with_a_disturbance);
   RUN_TEST(test_auto_finds_the_smallest_q_of_two_digits);
   RUN_TEST(test_auto_is_0_where_nothing_is_missing);
   RUN_TEST(test_auto_that_no_q_satisfies_tells_the_best_and_its_cost);
