@@ -17,7 +17,7 @@ using design::Signal;
 using input::PlacedNumber;
 
 enum class Named { nothing, states, inputs, outputs, noises, integrals };
-enum class Span { weight, largest, time, limit, rate, delay, steps, gate, spike, decay };
+enum class Span { weight, largest, time, limit, rate, walk, delay, steps, gate, spike, decay };
 
 struct Rule {
   const char* key;
@@ -50,6 +50,7 @@ const Rule rules[] = {
     {"kalman.process_correlation_time", "Correlation times of the process noise", Named::noises, Span::time},
     {"kalman.measurement_correlation_time", "Correlation times of the measurement noise", Named::outputs, Span::time},
     {"kalman.horizon", "Horizon of the filter", Named::nothing, Span::steps, "samples"},
+    {"kalman.disturbance", "Disturbances", Named::inputs, Span::walk},
     {"kalman.recovery", "Loop transfer recovery", Named::nothing, Span::weight},
     {"kalman.gate", "Gates", Named::nothing, Span::gate, "σ"},
     {"kalman.spike", "Gates", Named::nothing, Span::spike, "σ"},
@@ -59,13 +60,16 @@ const Rule rules[] = {
 };
 // clang-format on
 
-// "lqr.Q" and {1} of "lqr.Q[1]".
+// "lqr.Q" and {1} of "lqr.Q[1]"; "kalman.disturbance" and "voltage" of "kalman.disturbance.voltage".
 struct SplitKey {
   std::string base;
   std::vector<std::size_t> indices;
+  std::string name = {};
 };
 
 SplitKey split(const std::string& key) {
+  static const std::string by_name = "kalman.disturbance";
+  if (key.rfind(by_name + ".", 0) == 0) return {by_name, {}, key.substr(by_name.size() + 1)};
   SplitKey result = {key.substr(0, key.find('[')), {}};
   for (std::size_t at = result.base.size(); at < key.size() && key[at] == '['; at = key.find(']', at) + 1)
     result.indices.push_back(static_cast<std::size_t>(std::stoul(key.substr(at + 1))));
@@ -76,13 +80,6 @@ const Rule* rule_of(const std::string& base) {
   const auto found =
       std::find_if(std::begin(rules), std::end(rules), [&](const Rule& rule) { return base == rule.key; });
   return found == std::end(rules) ? nullptr : found;
-}
-
-// The entry of a vector or of a diagonal; nothing beside the diagonal.
-std::optional<std::size_t> entry(const SplitKey& key) {
-  if (key.indices.empty()) return 0;
-  const bool is_beside = key.indices.size() > 2 || (key.indices.size() == 2 && key.indices[0] != key.indices[1]);
-  return is_beside ? std::nullopt : std::optional(key.indices[0]);
 }
 
 // A process noise has the name of its state where it enters that state alone, as without a G.
@@ -110,17 +107,31 @@ std::vector<Signal> names_of(Named named, const input::DesignFile& file) {
   return names;
 }
 
+// The entry of a vector or of a diagonal; nothing beside the diagonal. Of walks the place of the name: without names the
+// file has indices, which nobody turns.
+std::optional<std::size_t> entry(const Rule& rule, const SplitKey& key, const std::vector<Signal>& names) {
+  if (rule.span == Span::walk) {
+    const auto has_name = [&](const Signal& signal) { return signal.name == key.name; };
+    const auto found = std::find_if(names.begin(), names.end(), has_name);
+    return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
+  }
+  if (key.indices.empty()) return 0;
+  const bool is_beside = key.indices.size() > 2 || (key.indices.size() == 2 && key.indices[0] != key.indices[1]);
+  return is_beside ? std::nullopt : std::optional(key.indices[0]);
+}
+
 std::string last_word(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// "(rad/s)/s" of a rate, "V" of a limit; nothing of a weight, whose unit nobody thinks in.
+// "(rad/s)/s" of a rate, "V/√s" of a walk, "V" of a limit; nothing of a weight, whose unit nobody thinks in.
 std::string unit_of(const Rule& rule, const std::string& unit) {
   if (rule.span == Span::time) return "s";
   if (unit.empty() || rule.span == Span::weight) return "";
-  if (rule.span == Span::rate) return unit.find_first_of("/ ") == unit.npos ? unit + "/s" : "(" + unit + ")/s";
+  if (rule.span == Span::rate || rule.span == Span::walk)
+    return (unit.find_first_of("/ ") == unit.npos ? unit : "(" + unit + ")") + (rule.span == Span::rate ? "/s" : "/√s");
   return unit;
 }
 
-void set_name(Tunable& tunable, const Rule& rule, std::size_t index, const input::DesignFile& file) {
+void set_name(Tunable& tunable, const Rule& rule, std::size_t index, const std::vector<Signal>& names) {
   tunable.group = std::string(rule.words);
   if (rule.named == Named::nothing) {
     tunable.name = last_word(rule.key);
@@ -128,7 +139,6 @@ void set_name(Tunable& tunable, const Rule& rule, std::size_t index, const input
     return;
   }
   tunable.group += ", " + std::string(rule.key);
-  const std::vector<Signal> names = names_of(rule.named, file);
   const Signal signal = index < names.size() ? names[index] : Signal{std::to_string(index), ""};
   tunable.name = signal.name;
   tunable.unit = unit_of(rule, signal.unit);
@@ -166,6 +176,7 @@ void set_range(Tunable& tunable, const Rule& rule, double largest, const design:
     case Span::largest: span_decades(tunable, 30); break;
     case Span::time: span_decades(tunable, 10); break;
     case Span::rate: span_decades(tunable, 10); break;
+    case Span::walk: span_decades(tunable, 100); break;
     case Span::spike: span_decades(tunable, 10); break;
     case Span::limit: span_from_zero(tunable, largest); break;
     case Span::delay: span_delay(tunable, problem.plant); break;
@@ -218,12 +229,14 @@ std::vector<Tunable> tunables(const input::DesignFile& file) {
   for (const PlacedNumber& number : numbers) {
     const SplitKey key = split(number.key);
     const Rule* const rule = rule_of(key.base);
-    const std::optional<std::size_t> index = entry(key);
-    if (rule == nullptr || !index || !std::isfinite(number.value)) continue;
+    if (rule == nullptr || !std::isfinite(number.value)) continue;
+    const std::vector<Signal> names = names_of(rule->named, file);
+    const std::optional<std::size_t> index = entry(*rule, key, names);
+    if (!index) continue;
     Tunable tunable;
     tunable.targets = {{number.key, 1}};
     tunable.value = number.value;
-    set_name(tunable, *rule, *index, file);
+    set_name(tunable, *rule, *index, names);
     set_range(tunable, *rule, largest_beside(largest, key.base), *file.problem);
     result.push_back(tunable);
   }

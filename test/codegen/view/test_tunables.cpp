@@ -80,6 +80,18 @@ void test_acceptable_values_and_limits_have_the_units_of_their_signals() {
   TEST_ASSERT_EQUAL_STRING("V/s", at(all, "limits.u_rate[0]").unit.c_str());
 }
 
+void test_sizes_of_disturbances_have_the_names_of_their_inputs() {
+  const std::string begin = plant + "[lqr]\nQ = [1, 1]\nR = [1]\n[kalman]\nprocess_noise = [1, 1]\n";
+  const auto all = of(begin + "measurement_noise = [1]\ndisturbance = { voltage = 0.5 }\n");
+  const Tunable& size = at(all, "kalman.disturbance.voltage");
+  TEST_ASSERT_EQUAL_STRING("voltage", size.name.c_str());
+  TEST_ASSERT_EQUAL_STRING("V/√s", size.unit.c_str());
+  TEST_ASSERT_EQUAL_STRING("Disturbances, kalman.disturbance", size.group.c_str());
+  TEST_ASSERT_TRUE(size.scale == Scale::logarithmic && size.low == 0.005 && size.high == 50);
+  const auto by_default = of(begin + "measurement_noise = [1]\ndisturbance = [0]\n[limits]\nu_max = [1]\n");
+  TEST_ASSERT_NULL(find(by_default, "kalman.disturbance[0]"));
+}
+
 void test_times_steps_and_gates_have_fitting_scales() {
   const auto all = of(plant +
                       "delay = 0.02\n[lqr]\nQ = [1, 1]\nR = [1]\nhorizon = 30\n"
@@ -170,6 +182,7 @@ int main(int argc, char** argv) {
   UNITY_BEGIN();
   RUN_TEST(test_weights_and_noises_have_names_and_decades);
   RUN_TEST(test_acceptable_values_and_limits_have_the_units_of_their_signals);
+  RUN_TEST(test_sizes_of_disturbances_have_the_names_of_their_inputs);
   RUN_TEST(test_times_steps_and_gates_have_fitting_scales);
   RUN_TEST(test_delay_and_factor_of_R_are_there_although_the_file_leaves_them_out);
   RUN_TEST(test_the_delay_of_samples_moves_by_whole_samples);
