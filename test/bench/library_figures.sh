@@ -54,6 +54,7 @@ for suffix in _f32 _f32_fused _f64 _f64_fused; do
   done
   measure law lqr_control
   measure "limits that are foreseen" mpc_limit
+  measure "steady and servo without a memory" kalman_steady_{init,partial_update,predict} servo_{init,control}
   measure "steady and servo" kalman_steady_{init,partial_update,predict} servo_{init,control,advance}
   measure "steady, servo and integrals" kalman_steady_{init,partial_update,predict} servo_{init,control,advance,observe}
 done

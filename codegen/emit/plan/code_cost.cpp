@@ -129,7 +129,8 @@ Beginning beginning_of(const Controller& controller) {
     beginning.flash += 11 * set + (is_short ? 0 : bytes_of_memset);
   else
     beginning.flash += bytes + (is_short ? 0 : bytes_of_memcpy);
-  if (kept > 0 || !is_short)
+  const bool fits_registers = kept == 1 && references <= 1 && bytes <= 28 && !carries_covariance(controller);
+  if ((kept > 0 || !is_short) && !fits_registers)
     beginning.stack = aligned(4 * (kept + references)) +
                       (kept <= 4   ? 16
                        : kept <= 8 ? 24

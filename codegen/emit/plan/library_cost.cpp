@@ -31,6 +31,7 @@ constexpr FilterFigures plain = {{{4480, 4316, 6488, 6400}}, 24, {{184, 184, 332
 constexpr FilterFigures factored = {{{3576, 3480, 4784, 4784}}, 24, {{168, 176, 304, 328}}, {{144, 152, 248, 256}}};
 constexpr Variants law_flash = {{200, 196, 280, 304}}, law_stack = {{36, 36, 100, 120}};
 constexpr Variants servo_flash = {{1048, 1072, 1504, 1584}};  // beside a filter, with which it shares a function
+constexpr Variants memory_flash = {{284, 324, 440, 448}};  // of these, where nothing is carried from sample to sample
 constexpr Variants observe_flash = {{140, 140, 172, 172}};
 constexpr Variants limit_flash = {{2632, 2564, 3420, 3436}}, limit_stack = {{104, 96, 232, 280}};
 constexpr Variants servo_stack = {{88, 88, 196, 240}};
@@ -121,7 +122,8 @@ long flash_of_library(const Controller& controller) {
     bytes += figures_of(controller.filter).flash.of(controller) +
              (is_watched(controller) ? 0 : figures_of(controller.filter).whole);
   if (controller.has.regulator && controller.has.servo)
-    bytes += servo_flash.of(controller) + (controller.size.nxi ? observe_flash.of(controller) : 0);
+    bytes += servo_flash.of(controller) - (remembers(controller) ? 0 : memory_flash.of(controller)) +
+             (controller.size.nxi ? observe_flash.of(controller) : 0);
   else if (controller.has.regulator)
     bytes += law_flash.of(controller);
   return bytes;
