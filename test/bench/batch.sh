@@ -103,7 +103,7 @@ make_rows() {
   add two_mass-double "$designs/two_mass.toml" --real double
   with_code "$designs/two_mass.toml" 'realisation = "modal"' >"$folder/modal.toml"
   add two_mass-modal "$folder/modal.toml"
-  add servo "$designs/servo.toml"
+  add integrating_servo "$lqg_root/test/designs/integrating_servo.toml"
   add balancing_robot "$designs/balancing_robot.toml"
   for kind in chain dense; do
     for states in 2 4 8 12; do

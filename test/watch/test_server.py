@@ -352,11 +352,18 @@ class Writing(unittest.TestCase):
             before = watched.path.read_bytes()
             watched.path.chmod(0o640)
             revision = watched.state()["revision"]
-            change = {"lqr.bryson.states[0]": 0.02, "lqr.integral.Q[0]": 250000, "limits.u_max[0]": 10.5}
+            change = {
+                "lqr.bryson.states[0]": 0.02,
+                "kalman.process_noise[0]": 2.5e-6,
+                "kalman.disturbance.voltage": 0.25,
+                "limits.u_max[0]": 10.5,
+            }
             status, answer = watched.post("/write", revision, change)
             self.assertEqual((status, answer), (200, {"written": True}))
-            expected = before.replace(b"[0.05, 30]", b"[0.02, 30]").replace(b"Q = [1e5]", b"Q = [2.5e5]")
-            expected = expected.replace(b"u_max = [12]", b"u_max = [10.5]")
+            expected = before.replace(b"[0.05, 30]", b"[0.02, 30]").replace(b"= [1e-6]  ", b"= [2.5e-6]  ")
+            expected = expected.replace(b"voltage = 0.073", b"voltage = 0.25").replace(
+                b"u_max = [12]", b"u_max = [10.5]"
+            )
             self.assertEqual(watched.path.read_bytes(), expected)
             self.assertEqual(stat.S_IMODE(watched.path.stat().st_mode), 0o640)
             self.assertEqual([path.name for path in watched.folder.iterdir()], [watched.path.name])

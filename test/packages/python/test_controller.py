@@ -106,7 +106,7 @@ class Steps(InFolder):
         plant = design.solve().plant
         for compiled in (True, False):
             with design.controller(compiled) as controller:
-                x, limited = numpy.zeros(2), 0
+                x, limited = numpy.array([0, 0, -0.5]), 0  # with a load of 0.5 V beside the input
                 for _ in range(1000):
                     u = controller.step(plant.C @ x, r=0.5)
                     limited += "input_limited" in controller.status

@@ -14,6 +14,7 @@ from tinylqg.quantile import chi_squared_quantile
 from tinylqg.simulation import simulated
 
 SERVO = SOURCE / "codegen" / "designs" / "servo.toml"
+INTEGRATING = SOURCE / "test" / "designs" / "integrating_servo.toml"  # whose filter expects what the plant does
 STEP = {
     "name": "step",
     "duration": 0.1,
@@ -82,7 +83,7 @@ class Many(InFolder):
         self.assertEqual(many.percentiles[95].steps[0].overshoot, overshoots[37])
 
     def test_the_filter_knows_its_error_unless_the_plant_is_another(self):
-        design = tinylqg.Design.load(SERVO)
+        design = tinylqg.Design.load(INTEGRATING)
         right = design.monte_carlo(200, scenario={"duration": 0.2})
         self.assertEqual(right.nees.expected, 2)
         self.assertEqual(right.nis.expected, 1)

@@ -81,6 +81,14 @@ class Loops(InFolder):
                 for key, size in sizes.items():
                     self.assertEqual(len(set(names[key])), size, f"{file.name}: {part}.{key}")
 
+    def test_states_that_the_filter_adds_have_their_names(self):
+        for name in ("disturbed", "delayed"):
+            design = design_of(SOURCE / "test" / "designs" / f"{name}.toml")
+            found = design.state_space("plant")[1]["states"]
+            added = design.plant.get("added_states", [])
+            self.assertEqual(found[: len(design.plant.states) + len(added)], [*design.plant.states, *added])
+        self.assertIn("torque_disturbance [N m]", design_of(SOURCE / "test/designs/disturbed.toml").plant.added_states)
+
 
 class Files(InFolder):
     def test_every_number_of_the_file_is_there(self):

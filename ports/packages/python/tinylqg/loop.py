@@ -10,10 +10,12 @@ def final_plant(design):
 
 
 def state_names(design):
-    """Those of the design file, and of the inputs on their way where there is a delay: the oldest first."""
+    """Those of the design file, disturbances and late outputs, and the inputs on their way where there is a delay: the
+    oldest first."""
     table = design.plant
-    waiting = len(table.A) - len(table.states)
-    return list(table.states) + [f"late {table.inputs[i % len(table.inputs)]} {i}" for i in range(waiting)]
+    named = list(table.states) + list(table.get("added_states", []))
+    waiting = len(table.A) - len(named)
+    return named + [f"late {table.inputs[i % len(table.inputs)]} {i}" for i in range(waiting)]
 
 
 def senses_last_input(design, plant):
