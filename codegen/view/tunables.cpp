@@ -107,8 +107,8 @@ std::vector<Signal> names_of(Named named, const input::DesignFile& file) {
   return names;
 }
 
-// The entry of a vector or of a diagonal; nothing beside the diagonal. Of walks the place of the name: without names the
-// file has indices, which nobody turns.
+// The entry of a vector or of a diagonal; nothing beside the diagonal. Of walks the place of the name: without names
+// the file has indices, which nobody turns.
 std::optional<std::size_t> entry(const Rule& rule, const SplitKey& key, const std::vector<Signal>& names) {
   if (rule.span == Span::walk) {
     const auto has_name = [&](const Signal& signal) { return signal.name == key.name; };

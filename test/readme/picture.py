@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""picture.py REPORT.html PICTURE.svg COLUMN… [--check]: makes a picture of charts of a report, as they are: columns from
-the left to the right, each with the ids of its charts, "run-a-y0,run-a-u0". With --check fails where the picture is
-another one."""
+"""picture.py REPORT.html PICTURE.svg COLUMN… [--check]: makes a picture of charts of a report, as they are: columns
+from the left to the right, each with the ids of its charts, "run-a-y0,run-a-u0". With --check fails where the picture
+is another one."""
 
 import re
 import sys
