@@ -179,7 +179,7 @@ PageSection foresight_section(const Controller& controller) {
   view.caption =
       std::string(worth.clipped_settle < worth.optimal_settle ? "A start that the clipped law does not survive. "
                                                               : "One of the tenth of starts that cost it most. ") +
-      "Both laws have the bits of the emitted one.";
+      "Both have the bits of what is emitted: with this horizon, and with horizon = 0.";
   view.tables = {table_of(worth)};
   section.views = {view};
   return section;
