@@ -19,6 +19,9 @@
 #   test/campaign.sh <build> flips [flips]       every bit of the state of every controller, in both styles, and of 72
 #                                                random designs, flipped once in closed loop: default all, or so many of
 #                                                each; test/flips
+#   test/campaign.sh <build> foresight [states]  random states of every design whose limits are foreseen, in float and
+#                                                double, by the conditions of an optimum, and a thousandth as many by
+#                                                another solver: default 1000000; test/foresight
 #
 # <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19
 # test/run.sh. A campaign has parts, of which as many run side by side as there are processors. It ends at the first
@@ -45,6 +48,7 @@ test/campaign.sh <build> <campaign>             on two processors
   mutants [count]   default all of each part     2 hours
   flips [count]     default all of each part    2 minutes
   proofs                                        15 minutes
+  foresight [states] default 1000000             3 minutes
 END
 }
 
@@ -276,6 +280,27 @@ flips() {
   done
 }
 
+# Two parts for each design, one for each real, and another beside DAQP where the tools of test/foresight are there.
+# PARTS as above.
+foresight() {
+  local states parts=() part name run=$lqg_root/test/foresight tools=$build/test/foresight/tools/bin/python
+  states=$(number 1000000 "$@")
+  lqg_has_command python3 || refuse "Not found: python3"
+  for name in "$lqg_root"/codegen/designs/*.toml; do
+    awk '/^\[/ { table = $1 } table == "[limits]" && /^horizon *=/ { found = 1 } END { exit !found }' "$name" || continue
+    parts+=("$(basename "$name" .toml)".{float,double})
+    [ ! -x "$tools" ] || parts+=("$(basename "$name" .toml).answers")
+  done
+  keep_parts
+  for part in "${parts[@]}"; do
+    name=$lqg_root/codegen/designs/${part%.*}.toml
+    case $part in
+      *.answers) start "$part" "$tools" -B "$run/answers.py" "$build" "$name" $((states / 1000 + 1)) ;;
+      *) start "$part" python3 -B "$run/foresight.py" "$build" "$name" "${part##*.}" conditions "$states" ;;
+    esac
+  done
+}
+
 # A part for each design and style. PARTS as above.
 proofs() {
   local parts=() part design
@@ -304,7 +329,7 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz | options | spikes | mutants | flips)
+    soak | random | fuzz | options | spikes | mutants | flips | foresight)
       [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*"
       ;;
     bits) ;;
@@ -326,6 +351,7 @@ main() {
     options) options "$@" ;;
     mutants) mutants "$@" ;;
     flips) flips "$@" ;;
+    foresight) foresight "$@" ;;
     proofs) proofs ;;
   esac
   finish_all

@@ -173,29 +173,30 @@ def plant_text(design, limits: dict, header: str) -> str:
     return text
 
 
-def generate(build: Path, file: Path, style: str):
+def generate(build: Path, file: Path, style: str, *options):
     """The design as lqgen's JSON has it; None, and what lqgen said is printed, where it refuses the file."""
     lqgen = build / "codegen" / "lqgen"
     if not lqgen.exists():
         stop(f"Not found: {lqgen}")
     for old in Path().glob("*.json"):
         old.unlink()
-    done = run(lqgen, file, "-o", ".", "--only", "h,json", "--quiet", "--style", style)
+    done = run(lqgen, file, "-o", ".", "--only", "h,json", "--quiet", "--style", style, *options)
     if done.returncode:
         print(done.stdout, end="")
         return None
     return json.loads(next(Path().glob("*.json")).read_text())
 
 
-def build_program(design, text: str, program: str) -> None:
-    """Of program.c, which includes closed_loop.h."""
+def build_program(design, text: str, program: str, folder=Path(__file__).parent) -> None:
+    """Of the folder's program.c, which includes closed_loop.h."""
     Path("plant.h").write_text(text)
     code = design["code"]
     options, sources = ["-std=c99", "-O2", "-I", ".", "-I", ROOT / "include"], [ROOT / "src" / "status.c"]
+    options += ["-I", Path(__file__).parent]
     if code["style"] == "compact" or "limits" in design:
         options += ["-DLQG_REAL_DOUBLE"] * (code["real"] == "double")
         options += ["-DLQG_FUSED"] * (code["arithmetic"] == "fused")
         sources = sorted((ROOT / "src").glob("*.c"))
-    built = run(*CC, *options, Path(__file__).parent / f"{program}.c", *sources, "-lm", "-o", program)
+    built = run(*CC, *options, folder / f"{program}.c", *sources, "-lm", "-o", program)
     if built.returncode:
         stop(built.stdout)

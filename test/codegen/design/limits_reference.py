@@ -2,14 +2,19 @@
 # Makes limits_reference.hpp, the inputs that test_limits.cpp expects:
 # python3 limits_reference.py >limits_reference.hpp, with mpmath, numpy and daqp (pip).
 #
-# Nothing here is shared with the design engine. All inputs of the horizon are unknowns, the cost is summed sample by
-# sample with xᵀXx at the end, X by the Riccati recursion; that v is held over a block is an equation. DAQP finds which
-# limits are active; what follows from these is solved, and its conditions are checked, in 60 digits.
-import daqp
+# Nothing here is shared with the design engine: ../../foresight/optimum.py has the problem over all inputs, here in 60
+# digits.
+import sys
+from pathlib import Path
+
 import numpy as np
-from mpmath import diag, expm, eye, inf, lu_solve, matrix, mp, mpf, zeros
+from mpmath import diag, expm, inf, matrix, mp, mpf, zeros
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "foresight"))
+from optimum import Problem
 
 mp.dps = 60
+TOLERANCE = mpf(10) ** -30
 STATES = 12
 
 
@@ -39,127 +44,13 @@ def sampled(A, B, T):
     return whole[:nx, :nx], whole[:nx, nx:]
 
 
-def riccati(A, B, Q, R, N):
-    X = Q
-    while True:
-        K = (R + B.T * X * B) ** -1 * (B.T * X * A + N.T)
-        after = A.T * X * A + Q - (A.T * X * B + N) * K
-        if mp.norm(after - X, 1) < mpf(10) ** -50 * mp.norm(X, 1):
-            return after, K
-        X = after
-
-
-class Affine:
-    """constant + rows · unknowns"""
-
-    def __init__(self, constant, rows):
-        self.constant, self.rows = constant, rows
-
-    def __add__(self, other):
-        return Affine(self.constant + other.constant, self.rows + other.rows)
-
-    def __sub__(self, other):
-        return Affine(self.constant - other.constant, self.rows - other.rows)
-
-    def times(self, M):
-        return Affine(M * self.constant, M * self.rows)
-
-
-def optimum(case, x0, u_last):
-    A, B, K, X = case["A"], case["B"], case["K"], case["X"]
-    nx, nu, blocks = A.rows, B.cols, case["blocks"]
-    firsts = [sum(blocks[:b]) for b in range(len(blocks))]
-    horizon = sum(blocks)
-    xs, us = [Affine(x0, zeros(nx, horizon * nu))], []
-    for k in range(horizon):
-        rows = zeros(nu, horizon * nu)
-        for i in range(nu):
-            rows[i, k * nu + i] = 1
-        us.append(Affine(zeros(nu, 1), rows))
-        xs.append(xs[k].times(A) + us[k].times(B))
-    H, g = zeros(horizon * nu), zeros(horizon * nu, 1)
-
-    def add_cost(a, weight, b):
-        nonlocal H, g
-        H += a.rows.T * weight * b.rows + (a.rows.T * weight * b.rows).T
-        g += a.rows.T * weight * b.constant + b.rows.T * weight.T * a.constant
-
-    for k in range(horizon):
-        add_cost(xs[k], case["Q"], xs[k])
-        add_cost(us[k], case["R"], us[k])
-        add_cost(xs[k].times(2 * eye(nx)), case["N"], us[k])
-    add_cost(xs[horizon], X, xs[horizon])
-
-    limits, prices = [], []  # (row, low, high); its price or None
-
-    def limit(z, low, high, price):
-        for i in range(len(z.constant)):
-            limits.append((z.rows[i, :], low[i] - z.constant[i], high[i] - z.constant[i]))
-            prices.append(price)
-
-    for k in range(horizon):
-        if k not in firsts:
-            equation = us[k] + xs[k].times(K) - us[k - 1] - xs[k - 1].times(K)
-            limit(equation, [mpf(0)] * nu, [mpf(0)] * nu, None)
-            continue
-        low, high = list(case["u_min"]), list(case["u_max"])
-        if k == 0 and "u_step" in case:
-            low = [max(a, u - s) for a, u, s in zip(low, u_last, case["u_step"])]
-            high = [min(a, u + s) for a, u, s in zip(high, u_last, case["u_step"])]
-        limit(us[k], low, high, None)
-        if k > 0 and "u_step" in case:
-            limit(us[k] - us[k - 1], [-s for s in case["u_step"]], case["u_step"], case["step_price"])
-        for c, d, is_change, least, most, price in case["quantities"]:
-            z = xs[k].times(c) + us[k].times(d)
-            if is_change and k == 0:
-                continue
-            if is_change:
-                z = z - xs[k - 1].times(c) - us[k - 1].times(d)
-            if mp.norm(z.rows, 1) > 0:
-                limit(z, [least], [most], price)
-
-    soft = [i for i, price in enumerate(prices) if price]
-    size = horizon * nu + len(soft)
-    whole, gradient, rows = zeros(size), zeros(size, 1), zeros(len(limits), size)
-    whole[: horizon * nu, : horizon * nu], gradient[: horizon * nu, 0] = H, g
-    for i, (row, _, _) in enumerate(limits):
-        rows[i, : horizon * nu] = row
-    for e, i in enumerate(soft):
-        whole[horizon * nu + e, horizon * nu + e] = 2 * prices[i]
-        rows[i, horizon * nu + e] = 1
-
-    def numbers(a, shape):
-        return np.array([float(x) for x in a]).reshape(shape)
-
-    low, high = ([limit[side] for limit in limits] for side in (1, 2))
-    sense = np.array([5 if a == b else 0 for a, b in zip(low, high)], dtype=np.int32)
-    _, _, status, info = daqp.solve(
-        numbers(whole, (size, size)),
-        numbers(gradient, size),
-        numbers(rows, (len(limits), size)),
-        np.clip(numbers(high, len(limits)), -1e30, 1e30),
-        np.clip(numbers(low, len(limits)), -1e30, 1e30),
-        sense,
-        primal_tol=1e-11,
-        eps_prox=0.0,
-    )
-    assert status == 1, status
-    force = info["lam"]
-    active = [i for i in range(len(limits)) if sense[i] or abs(force[i]) > 1e-12]
-    saddle, right = zeros(size + len(active)), zeros(size + len(active), 1)
-    saddle[:size, :size] = whole
-    for i in range(size):
-        right[i] = -gradient[i]
-    for a, i in enumerate(active):
-        right[size + a] = high[i] if force[i] > 0 else low[i]
-        for j in range(size):
-            saddle[size + a, j] = saddle[j, size + a] = rows[i, j]
-    solution = lu_solve(saddle, right)
-    z = rows * solution[:size, 0]
-    assert all(a - mpf(10) ** -30 <= v <= b + mpf(10) ** -30 for a, v, b in zip(low, z, high))
-    for a, i in enumerate(active):
-        assert sense[i] or (solution[size + a] > 0) == (force[i] > 0)
-    return [solution[i] for i in range(nu)], len(active) - int(np.count_nonzero(sense))
+def arrays(case):
+    """The matrices of a case as the shared problem takes them."""
+    kept = {name: np.array(case[name].tolist()).reshape(case[name].rows, -1) for name in "ABQRN"}
+    quantities = [
+        (np.array(c.tolist())[0], np.array(d.tolist())[0], *rest) for c, d, *rest in case.get("quantities", [])
+    ]
+    return case | kept | {"quantities": quantities}
 
 
 def two_mass(N):
@@ -233,14 +124,14 @@ print("#pragma once\n\nnamespace design_test {\n\nconstexpr int reference_states
 print("struct ReferenceInput {\n  double u[2];\n  int active;\n};\n")
 print("constexpr ReferenceInput reference_inputs[%d][reference_states] = {" % len(cases))
 for index, case in enumerate(cases):
-    case["X"], case["K"] = riccati(*(case[name] for name in "ABQRN"))
+    problem = Problem(arrays(case))
     random = Random(index)
     random.draw(1)
     print("    {")
     for n in range(STATES):  # from near to far
-        x0 = matrix([mpf(random.number(scale) / 2 ** (n % 4)) for scale in case["scale"]])
-        u_last = [mpf(random.number(8)) for _ in range(case["B"].cols)]
-        u, active = optimum(case, x0, u_last)
+        x0 = [mpf(random.number(scale) / 2 ** (n % 4)) for scale in case["scale"]]
+        u_last = [mpf(random.number(8)) for _ in range(problem.nu)]
+        u, active = problem.optimum(np.array(x0 + u_last), TOLERANCE)
         print("        {{%s}, %d}," % (", ".join("%.17g" % float(value) for value in u + [0] * (2 - len(u))), active))
     print("    },")
 print("};\n\n}  // namespace design_test")
