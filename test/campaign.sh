@@ -287,7 +287,8 @@ foresight() {
   states=$(number 1000000 "$@")
   lqg_has_command python3 || refuse "Not found: python3"
   for name in "$lqg_root"/codegen/designs/*.toml; do
-    awk '/^\[/ { table = $1 } table == "[limits]" && /^horizon *=/ { found = 1 } END { exit !found }' "$name" || continue
+    awk '/^\[/ { table = $1 } table == "[limits]" && /^horizon *=/ { found = 1 } END { exit !found }' "$name" ||
+      continue
     parts+=("$(basename "$name" .toml)".{float,double})
     [ ! -x "$tools" ] || parts+=("$(basename "$name" .toml).answers")
   done

@@ -51,9 +51,9 @@ static lqg_real clipped(lqg_real value, lqg_real low, lqg_real high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* The row's z = f + G m, with more digits where the machine has them. *size: what its terms, and those of L diag(d) Lᵀ m,
- * add up to at most; of these rounding is a share (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd
- * edition, theorem 8.5). */
+/* The row's z = f + G m, with more digits where the machine has them. *size: what its terms, and those of
+ * L diag(d) Lᵀ m, add up to at most; of these rounding is a share (N. J. Higham, Accuracy and Stability of Numerical
+ * Algorithms, 2nd edition, theorem 8.5). */
 static long double row_value(const lqg_mpc_t *mpc, const lqg_mpc_state_t *state, unsigned row, unsigned length,
                              const lqg_real x[], const lqg_real law[], double *size)
 {
@@ -253,9 +253,10 @@ static int check_conditions(long number)
         real last[NU], u[NU];
         answer(&controller, last, u);
     }
-    printf("%lu states, %lu with an active limit: %u changes at most where %u may be, %lu given up; rounding is %.2g of "
-           "what is allowed, %lu wrong\n",
-           seen.states, seen.active, seen.most, LAW_LIMITS.iterations, seen.given_up, seen.residual, seen.wrong);
+    printf(
+        "%lu states, %lu with an active limit: %u changes at most where %u may be, %lu given up; rounding is %.2g of "
+        "what is allowed, %lu wrong\n",
+        seen.states, seen.active, seen.most, LAW_LIMITS.iterations, seen.given_up, seen.residual, seen.wrong);
     return seen.wrong > 0 || seen.given_up > 0 || seen.active < seen.states / 4;
 }
 

@@ -23,6 +23,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "flips"))
 from closed_loop import array, build_program, generate, plant_text, product, run, solved, square_root, transposed
 
+HERE = Path(__file__).resolve().parent
 DRAWS = 1000
 INFINITE = 1e300  # what the JSON file has in place of a limit that there is not
 
@@ -86,9 +87,9 @@ def soft_states(design, limits):
         yield name, tuple(range_) if isinstance(range_, list) else (-range_, range_)
 
 
-def prepare(build: Path, file: Path, real: str, change=("", "")):
-    """The design as the JSON file has it, its limits as the design file has them; ./foresight is there. `change`: in the
-    header, a pattern and what comes in its place."""
+def prepare(build: Path, file: Path, real: str, change=("", ""), program="foresight", folder=HERE):
+    """The design as the JSON file has it, its limits as the design file has them; ./foresight is there, or another
+    program of another folder. `change`: in the header, a pattern and what comes in its place."""
     design = generate(build, file, "unrolled", "--real", real)
     if not design:
         sys.exit(2)
@@ -100,7 +101,7 @@ def prepare(build: Path, file: Path, real: str, change=("", "")):
         assert count == 1, f"expected one {change[0]}"
         file_of_header.write_text(changed)
     text = plant_text(design, limits, header) + foresight_text(design, limits)
-    build_program(design, text, "foresight", Path(__file__).resolve().parent)
+    build_program(design, text, program, folder)
     return design, limits
 
 

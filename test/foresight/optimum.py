@@ -45,8 +45,8 @@ def riccati(A, B, Q, R, N):
 
 
 class Problem:
-    """Of a case: A, B, Q, R, N; blocks, their lengths; u_min, u_max; u_step and its step_price, or none; quantities, each
-    (c, d, is_change, low, high, price) of z = c x + d u or its change; Nx and Nu, where x and u go with r, or none.
+    """Of a case: A, B, Q, R, N; blocks, their lengths; u_min, u_max; u_step and its step_price, or none; quantities,
+    each (c, d, is_change, low, high, price) of z = c x + d u or its change; Nx and Nu, where x and u go with r, or none.
 
     What the state is, is `given`: x, u[k−1], r. Unknown are v of each block, u = law + v, then the excess of each soft
     limit."""
@@ -157,7 +157,7 @@ class Problem:
         return which, force, self.z_free @ given + self.z_moved[:, which] @ force
 
     def optimum(self, given, tolerance):
-        """u of this sample and how many limits are active. The conditions hold to `tolerance`, a share of each range."""
+        """u of this sample and how many limits are active. The conditions hold to `tolerance`, a share of a range."""
         low, high = self.bounds(given)
         ranges = [max([abs(a) for a in (h - l, l, h) if abs(a) < 1e300]) for l, h in zip(low, high)]
         active = self._guess(given, low, high)
