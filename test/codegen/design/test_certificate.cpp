@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How often the set of active limits changes at most, against the solver of the target.
 #include <algorithm>
+#include <limits>
 
 #include <unity.h>
 
@@ -67,7 +68,7 @@ CertifiedChanges certified(const LimitNumbers& numbers, double size, double tie_
 // The most changes that the solver makes: in states of the box, on its faces, in its corners and as near to cuts as
 // numbers lie, where each answer is an optimum with that cap.
 template <class S>
-int most_seen(const LimitNumbers& numbers, double size, int cap) {
+int most_seen(const LimitNumbers& numbers, double size, int cap, int states = 100000) {
   using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   const auto in_target = [](const auto& values) { return Matrix(values.template cast<S>()); };
@@ -91,7 +92,7 @@ int most_seen(const LimitNumbers& numbers, double size, int cap) {
   };
   Random random(7);
   VectorXd before = VectorXd::Zero(numbers.law.cols());
-  for (int n = 0; n < 100000; ++n) {
+  for (int n = 0; n < states; ++n) {
     VectorXd x = random.matrix(numbers.law.cols(), 1);
     if (n % 3 == 1) x /= x.cwiseAbs().maxCoeff();
     if (n % 3 == 2) x = x.cwiseSign();
@@ -206,6 +207,54 @@ void test_the_same_box_gives_the_same_pieces() {
   TEST_ASSERT_EQUAL(first.changes, second.changes);
 }
 
+// Rows that no plant stands behind, some nearly dependent, some with a limit on one side only.
+LimitNumbers random_numbers(Random& random, Scalar number) {
+  const Index nx = 2 + static_cast<Index>(random.uniform() + 1), rows = 3 + static_cast<Index>(random.uniform() + 1);
+  const bool is_float = number == Scalar::float32;
+  const auto rounded = [&](const MatrixXd& values) {
+    return is_float ? MatrixXd(values.cast<float>().cast<double>()) : values;
+  };
+  MatrixXd M = random.matrix(rows, rows + 1);
+  if (random.uniform() > 0.5) M.row(rows - 1) = M.row(0) + 0.1 * M.row(rows - 1);
+  LimitNumbers numbers;
+  numbers.real = number;
+  numbers.law = rounded(3 * random.matrix(1, nx));
+  numbers.F = rounded(3 * random.matrix(rows - 1, nx));
+  numbers.G = rounded(M * M.transpose());
+  numbers.G = numbers.G.selfadjointView<Eigen::Lower>();
+  numbers.scale = rounded(numbers.G.diagonal().cwiseSqrt().cwiseInverse());
+  numbers.high = VectorXd::Ones(rows);
+  numbers.low = -numbers.high;
+  if (random.uniform() > 0) numbers.low(rows - 1) = -std::numeric_limits<double>::infinity();
+  numbers.tolerance = VectorXd::Constant(rows, is_float ? 2e-4 : 2e-12);
+  return numbers;
+}
+
+void expect_random_proofs_to_hold(Scalar number, double tie_distance, int least) {
+  Random random(number == Scalar::float32 ? 21 : 22);
+  int proved = 0;
+  for (int n = 0; n < 60; ++n) {
+    const LimitNumbers numbers = random_numbers(random, number);
+    const CertifiedChanges found = certified(numbers, 1, tie_distance, 3000);
+    if (!found.is_proved()) continue;
+    ++proved;
+    const int seen = number == Scalar::float32 ? most_seen<float>(numbers, 1, found.changes, 2000)
+                                               : most_seen<double>(numbers, 1, found.changes, 2000);
+    TEST_ASSERT_LESS_OR_EQUAL(found.changes, seen);
+  }
+  TEST_ASSERT_GREATER_OR_EQUAL(least, proved);
+}
+
+void test_proofs_for_random_rows_hold_for_every_state() {
+  expect_random_proofs_to_hold(Scalar::float32, 0, 30);
+  expect_random_proofs_to_hold(Scalar::float64, 0, 30);
+}
+
+void test_proofs_for_random_rows_hold_away_from_ties() {
+  expect_random_proofs_to_hold(Scalar::float32, 1e-3, 45);
+  expect_random_proofs_to_hold(Scalar::float64, 1e-9, 45);
+}
+
 // x + y ≥ 1.5 and x − y ≥ bound: empty from bound > 0.5 on, as x ≤ 1.
 void test_a_region_is_empty_only_when_it_is() {
   for (const double bound : {0.4, 0.5 - 1e-12, 0.5 + 1e-12, 0.6}) {
@@ -260,6 +309,8 @@ int main() {
   RUN_TEST(test_without_effort_left_nothing_is_proved);
   RUN_TEST(test_a_tolerance_below_rounding_is_no_proof);
   RUN_TEST(test_the_same_box_gives_the_same_pieces);
+  RUN_TEST(test_proofs_for_random_rows_hold_for_every_state);
+  RUN_TEST(test_proofs_for_random_rows_hold_away_from_ties);
   RUN_TEST(test_a_region_is_empty_only_when_it_is);
   RUN_TEST(test_the_factors_are_those_of_the_rows_that_are_left);
   return UNITY_END();
