@@ -46,7 +46,8 @@ def riccati(A, B, Q, R, N):
 
 class Problem:
     """Of a case: A, B, Q, R, N; blocks, their lengths; u_min, u_max; u_step and its step_price, or none; quantities,
-    each (c, d, is_change, low, high, price) of z = c x + d u or its change; Nx and Nu, where x and u go with r, or none.
+    each (c, d, is_change, low, high, price) of z = c x + d u or its change; Nx and Nu, where x and u go with r, or
+    none.
 
     What the state is, is `given`: x, u[k−1], r. Unknown are v of each block, u = law + v, then the excess of each soft
     limit."""

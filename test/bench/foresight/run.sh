@@ -60,8 +60,8 @@ table | tee "$folder/table.md"
 if [ -n "$update" ]; then
   {
     printf '# Limits that are foreseen, by four methods\n\n'
-    printf "Multiply-adds of a sample. Made by \`test/bench/foresight/run.sh --update\`, which says what is counted, with\n"
-    printf '%d states of each model.\n\n' "$states"
+    printf "Multiply-adds of a sample. Made by \`test/bench/foresight/run.sh --update\`, which says what is counted,\n"
+    printf 'with %d states of each model.\n\n' "$states"
     cat "$folder/table.md"
   } >"$here/record.md"
 fi

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Looks for the states of a compiled header whose samples take the most multiply-adds: worst NUMBER. Prints tables of
- * them, and of states in which no limit is in the way. Bits are the same on all targets, so these are the targets' worst
- * ones, too. plant.h is that of test/foresight. */
+ * them, and of states in which no limit is in the way. Bits are the same on all targets, so these are the targets'
+ * worst ones, too. plant.h is that of test/foresight. */
 #include "lqg/mpc.h"
 
 #include "../../../src/kernel.h"

@@ -81,13 +81,14 @@ std::vector<double> multipliers(const RoundedFactor& factor, TargetArithmetic ta
   const int n = factor.length();
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < k; ++j)
-      m[static_cast<std::size_t>(k)] = target.multiply_subtract(factor.L(k, j), m[static_cast<std::size_t>(j)],
-                                                                m[static_cast<std::size_t>(k)]);
-  for (int j = 0; j < n; ++j) m[static_cast<std::size_t>(j)] = target.round(m[static_cast<std::size_t>(j)] / factor.d(j));
+      m[static_cast<std::size_t>(k)] =
+          target.multiply_subtract(factor.L(k, j), m[static_cast<std::size_t>(j)], m[static_cast<std::size_t>(k)]);
+  for (int j = 0; j < n; ++j)
+    m[static_cast<std::size_t>(j)] = target.round(m[static_cast<std::size_t>(j)] / factor.d(j));
   for (int j = n; j-- > 1;)
     for (int i = 0; i < j; ++i)
-      m[static_cast<std::size_t>(i)] = target.multiply_subtract(factor.L(j, i), m[static_cast<std::size_t>(j)],
-                                                                m[static_cast<std::size_t>(i)]);
+      m[static_cast<std::size_t>(i)] =
+          target.multiply_subtract(factor.L(j, i), m[static_cast<std::size_t>(j)], m[static_cast<std::size_t>(i)]);
   return m;
 }
 
