@@ -280,13 +280,13 @@ flips() {
   done
 }
 
-# Two parts for each design, one for each real, and another beside DAQP where the tools of test/foresight are there.
+# Of each design that foresees limits two parts, one for each real, and another beside DAQP where the tools of test/foresight are there.
 # PARTS as above.
 foresight() {
   local states parts=() part name run=$lqg_root/test/foresight tools=$build/test/foresight/tools/bin/python
   states=$(number 1000000 "$@")
   lqg_has_command python3 || refuse "Not found: python3"
-  for name in "$lqg_root"/codegen/designs/*.toml; do
+  for name in "$lqg_root"/codegen/designs/*.toml "$run"/designs/*.toml; do
     awk '/^\[/ { table = $1 } table == "[limits]" && /^horizon *=/ { found = 1 } END { exit !found }' "$name" ||
       continue
     parts+=("$(basename "$name" .toml)".{float,double})
@@ -294,9 +294,9 @@ foresight() {
   done
   keep_parts
   for part in "${parts[@]}"; do
-    name=$lqg_root/codegen/designs/${part%.*}.toml
+    name=$(compgen -G "$lqg_root/codegen/designs/${part%.*}.toml" || echo "$run/designs/${part%.*}.toml")
     case $part in
-      *.answers) start "$part" "$tools" -B "$run/answers.py" "$build" "$name" $((states / 1000 + 1)) ;;
+      *.answers) start "$part" "$tools" -B "$run/answers.py" "$build" "$name" $((states / 1000 + 50)) ;;
       *) start "$part" python3 -B "$run/foresight.py" "$build" "$name" "${part##*.}" conditions "$states" ;;
     esac
   done
