@@ -48,7 +48,7 @@ test/campaign.sh <build> <campaign>             on two processors
   mutants [count]   default all of each part     2 hours
   flips [count]     default all of each part    2 minutes
   proofs                                        15 minutes
-  foresight [states] default 1000000             3 minutes
+  foresight [states] default 1000000             6 minutes
 END
 }
 
@@ -280,8 +280,8 @@ flips() {
   done
 }
 
-# Of each design that foresees limits two parts, one for each real, and another beside DAQP where the tools of test/foresight are there.
-# PARTS as above.
+# Of each design that foresees limits a part for each real, and one beside DAQP where the tools of test/foresight are
+# there. PARTS as above.
 foresight() {
   local states parts=() part name run=$lqg_root/test/foresight tools=$build/test/foresight/tools/bin/python
   states=$(number 1000000 "$@")
