@@ -11,7 +11,7 @@ namespace {
 
 // Beyond them a proof takes minutes, or does not come.
 constexpr Eigen::Index most_rows = 12, most_states = 6;
-constexpr long most_pieces = 20000;
+constexpr long most_pieces = 40000;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void certify_iterations(Controller& controller) {
   const design::Digits scope(std::max(50u, controller.solution.numerics.digits));
   const design::CertifiedBox box{-far, far, {}, {}};
   design::CertificateEffort effort;
-  effort.tie_distance = controller.target.is_double ? 1e-9 : 1e-3;
+  effort.tie_distance = controller.target.is_double ? 1e-9 : 2e-3;
   effort.pieces = most_pieces;
   const design::CertifiedChanges changes = design::certify_changes(
       design::limit_numbers(-controller.solution.regulator->K, rows, {}, controller.problem.code.real), box, effort);
