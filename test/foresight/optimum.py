@@ -47,7 +47,7 @@ def riccati(A, B, Q, R, N):
 class Problem:
     """Of a case: A, B, Q, R, N; blocks, their lengths; u_min, u_max; u_step and its step_price, or none; quantities,
     each (c, d, is_change, low, high, price) of z = c x + d u or its change; Nx and Nu, where x and u go with r, or
-    none.
+    none; prices of all limits, one after the other, in place of those, or none.
 
     What the state is, is `given`: x, u[k−1], r. Unknown are v of each block, u = law + v, then the excess of each soft
     limit."""
@@ -59,6 +59,8 @@ class Problem:
         self.given = self.nx + self.nu + (case["Nx"].shape[1] if "Nx" in case else 0)
         self.limits = []  # (row over given and v, low, high, price or None)
         cost = self._look_ahead()
+        if "prices" in case:
+            self.limits = [(*limit[:3], price) for limit, price in zip(self.limits, case["prices"], strict=True)]
         soft = [i for i, limit in enumerate(self.limits) if limit[3] is not None]
         self.size = len(cost) - self.given + len(soft)
         zero = self.X.flat[0] * 0
