@@ -90,7 +90,7 @@ case $task in
       printf '# The worst sample of designs whose limits are foreseen\n\n'
       printf "Instructions of control, in float. Made by \`test/bench/foresight/worst.sh --update\`, which says what\n"
       printf 'the columns mean, with %d states of each design.\n\n' "$states"
-      compilers | sed 's/$/  /' && echo
+      compilers | sed 's/^/- /' && echo
       cat "$folder/table.md"
     } >"$record"
     ;;
