@@ -50,10 +50,13 @@ OrderedCompensator best_compensator(const OrderProblem& problem, int order);
 // The same from a compensator that is near it already (the result of a coarser run).
 OrderedCompensator polished_compensator(const OrderProblem& problem, const OrderedCompensator& start);
 
+// best_compensator for each order from `lowest` to `highest`, in less time than one after the other.
+std::vector<OrderedCompensator> best_compensators(const OrderProblem& problem, int lowest, int highest);
+
 // u = −K x under white parameters: X = Q + E[AᵀXA] − (E[AᵀXB] + N)(R + E[BᵀXB])⁻¹(…)ᵀ (discrete only).
 struct WhiteRegulator {
-  bool exists = false;      // the plant can be stabilised in the mean square
-  double growth = 0;        // without: by how much the second moments grow a sample, at best (> 1: square root of it … see .cpp)
+  bool exists = false;  // the plant can be stabilised in the mean square
+  double growth = 0;    // not: by how much the second moments grow a sample under the best K, their map's spectral radius
   RealMatrix X, K;
 };
 WhiteRegulator white_regulator(const OrderProblem& problem);
