@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "controller/controller.hpp"
@@ -134,6 +135,7 @@ Steady steady_of_online(const Controller& controller, const std::vector<int>& la
 
 Steady steady_of(const Controller& controller, const std::vector<int>& lasting) {
   if (!controller.solution.estimator) return steady_of_online(controller, lasting);
+  if (const auto& own = controller.solution.compensator) return {MatrixXd(), design::to_doubles(own->P)};
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   const design::SampledPlant& plant = design::final_plant(controller.solution);
   const MatrixXd A = design::to_doubles(plant.A), C = design::to_doubles(plant.C);
@@ -172,19 +174,32 @@ Loop loop_of(const Controller& controller) {
   return {design::to_doubles(loop.A), static_cast<Index>(modelled.size()) + kept, modelled};
 }
 
+// Of which states the controller's first numbers are estimates.
+std::vector<Index> estimated_states(const Controller& controller) {
+  if (const auto& own = controller.solution.compensator) return {own->estimates.begin(), own->estimates.end()};
+  std::vector<Index> all(controller.solution.estimator ? static_cast<std::size_t>(controller.size.nx) : 0);
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
 // From what `far` has of each state on, in plant and estimate, until both are `within`. ξ begins at its bound, and is
 // not asked; neither is an input that is kept.
 std::optional<long> samples_of_loop(const Controller& controller, const VectorXd& far, const Recovery& recovery) {
   Loop loop = loop_of(controller);
-  const Index nx = controller.size.nx, all = loop.M.rows(), estimates = controller.solution.estimator ? nx : 0;
+  const std::vector<Index> estimated = estimated_states(controller);
+  const Index all = loop.M.rows(), estimates = static_cast<Index>(estimated.size());
   const double infinite = std::numeric_limits<double>::infinity();
   VectorXd start = VectorXd::Constant(all, far.maxCoeff()), target = VectorXd::Constant(all, infinite);
   for (std::size_t i = 0; i < loop.modelled.size(); ++i) {
     start(static_cast<Index>(i)) = far(loop.modelled[i]);
     target(static_cast<Index>(i)) = recovery.within(loop.modelled[i]);
   }
-  start.segment(loop.plant, estimates) = far.head(estimates);
-  target.segment(loop.plant, estimates) = recovery.within.head(estimates);
+  for (Index i = 0; i < estimates; ++i) {
+    const Index state = estimated[static_cast<std::size_t>(i)];
+    if (state >= controller.size.nx) continue;  // an input that it remembers
+    start(loop.plant + i) = far(state);
+    target(loop.plant + i) = recovery.within(state);
+  }
   for (int i = 0; i < controller.size.nxi; ++i)
     start(loop.plant + estimates + i) = std::ldexp(1.0, controller.bounds.xi[static_cast<std::size_t>(i)]);
   for (const int i : recovery.lasting) {
@@ -230,7 +245,8 @@ Recovery recovery_of(const Controller& controller) {
   const Steady steady = steady_of(controller, recovery.lasting);
   recovery.within = standard_deviations(controller, steady.P);
   const VectorXd far = farthest(controller);
-  const std::optional<long> filter = samples_until(steady.F, far, recovery.within);
+  const std::optional<long> filter =
+      steady.F.size() ? samples_until(steady.F, far, recovery.within) : std::optional<long>(0);
   const std::optional<long> loop =
       controller.has.regulator ? samples_of_loop(controller, far, recovery) : std::optional<long>(0);
   if (!filter || !loop) return recovery;

@@ -31,10 +31,27 @@ Solution in_present_digits(const Solution& solution) {
   result.regulator.emplace().K = rounded(solution.regulator->K);
   result.estimator.emplace().L = rounded(solution.estimator->L);
   result.estimator->M = rounded(solution.estimator->M);
+  if (!solution.compensator) return result;
+  CompensatorSolution& own = result.compensator.emplace(*solution.compensator);
+  for (RealMatrix* a : {&own.A, &own.B, &own.C, &own.D, &own.T, &own.expected, &own.estimate, &own.heard, &own.of_state,
+                        &own.keep})
+    *a = rounded(*a);
   return result;
 }
 
+// Of a given order: z is what it keeps.
+LinearForm of_given_order(const Solution& solution) {
+  const CompensatorSolution& own = *solution.compensator;
+  LinearForm form;
+  form.A = own.A, form.B = own.B, form.C = own.C, form.D = own.D;
+  form.T = own.T, form.expected = own.expected, form.estimate = own.estimate, form.heard = own.heard;
+  form.of_state = own.of_state, form.keep = own.keep;
+  form.z0 = multiply(own.of_state, solution.start->x0);
+  return form;
+}
+
 LinearForm in_physical_states(const Problem& problem, const Solution& solution) {
+  if (solution.compensator) return of_given_order(solution);
   const Compensator controller = compensator(problem, solution);
   const SampledPlant& plant = solution.plant;
   const Index nx = plant.A.rows(), ny = plant.C.rows(), ns = controller.A.rows(), kept = ns - nx;
@@ -122,9 +139,19 @@ LinearFormResult settled_linear_form(const Problem& problem, const Solution& sol
   return result;
 }
 
+std::string unstable_by_itself(unsigned digits, const RealMatrix& A) {
+  const Digits scope(std::max(digits, least_digits_of_form));
+  for (const ComplexReal& pole : eigenvalues(A))
+    if (on_or_outside_circle(pole))
+      return "the controller by itself has a pole at z = " + short_complex(pole, 1) +
+             ", and what comes of an input that was not applied as it is would not die out";
+  return "";
+}
+
 }  // namespace
 
 std::string no_linear_form(const Problem& problem, const Solution& solution) {
+  if (solution.compensator) return unstable_by_itself(solution.numerics.digits, solution.compensator->A);
   if (!problem.regulator || !problem.estimator) return "u of y takes a regulator and an estimator";
   const Regulator& regulator = *problem.regulator;
   const Estimator& estimator = *problem.estimator;
@@ -136,12 +163,7 @@ std::string no_linear_form(const Problem& problem, const Solution& solution) {
   if (regulator.horizon > 0) return "the regulator's gain is not constant";
   if (!reference_outputs(problem).empty()) return "the law follows a reference";
   if (regulator.input_rate.size() > 0) return "the law goes on from the input that was applied";
-  const Digits scope(std::max(solution.numerics.digits, least_digits_of_form));
-  for (const ComplexReal& pole : eigenvalues(compensator(problem, solution).A))
-    if (on_or_outside_circle(pole))
-      return "the controller by itself has a pole at z = " + short_complex(pole, 1) +
-             ", and what comes of an input that was not applied as it is would not die out";
-  return "";
+  return unstable_by_itself(solution.numerics.digits, compensator(problem, solution).A);
 }
 
 LinearFormResult folded_form(const Problem& problem, const Solution& solution) {

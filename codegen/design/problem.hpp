@@ -34,6 +34,8 @@ struct Plant {
   Eigen::MatrixXd H;             // ny × nw
   double delay = 0;              // s from sampling y to u taking effect; whole periods of a discrete plant
   Eigen::VectorXd output_delay;  // ny, s by which the filter hears each output late, whole periods; or empty: none
+  Eigen::VectorXd dropout;       // ny, the probability that C x of an output is 0 in a sample; or empty: never
+  double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
 };
 
@@ -167,6 +169,17 @@ struct Requirements {
   std::vector<RmsRequirement> rms = {};
 };
 
+// What one white parameter γ of the file adds to the plant at its samples: A + γ A₁, B + γ B₁, C + γ C₁ with E γ = 0,
+// E γ² = 1, in each sample independent of all others. Empty: 0.
+struct Uncertain {
+  Eigen::MatrixXd A, B, C;  // nx × nx, nx × nu, ny × nx
+};
+
+// A compensator of that many states in place of a filter and a law.
+struct Order {
+  int order = 0;
+};
+
 enum class Scalar { float32, float64 };
 enum class Arithmetic { plain, fused };
 enum class Style { automatic, unrolled, compact };
@@ -189,10 +202,23 @@ struct Problem {
   std::optional<Regulator> regulator;
   std::optional<Estimator> estimator;
   std::optional<Limits> limits;
+  std::optional<Order> compensator;
+  std::vector<Uncertain> uncertain;
   std::vector<Stage> stages;  // by rising `from`
   std::vector<Scenario> scenarios;
   Requirements requirements;
   Code code;
 };
+
+// The plant has parameters that are random from sample to sample.
+inline bool has_white_parameters(const Problem& problem) {
+  return !problem.uncertain.empty() || problem.plant.jitter > 0 || (problem.plant.dropout.array() > 0).any();
+}
+
+// The controller is one optimum of its own, not a filter and a law that are designed apart: its order is given, or
+// white parameters couple the two.
+inline bool is_of_given_order(const Problem& problem) {
+  return problem.compensator || (problem.regulator && problem.estimator && has_white_parameters(problem));
+}
 
 }  // namespace lqg::design

@@ -16,6 +16,7 @@ using Poles = std::vector<std::complex<double>>;  // by falling |z|, then by fal
 // The plant at the sample instants as the filter knows it: x⁺ = A x + B u + G w, y = C x + D u + v. After the plant's
 // own states come those of sampled/added_states: disturbances of inputs, and outputs on their way. With a delay of q
 // samples or a part of them, the q inputs on their way are the last states, the oldest first, and D is part of C.
+// With plant.dropout C x is what it is in the mean.
 struct SampledPlant {
   RealMatrix A, B, C, D, G;
 };
@@ -50,6 +51,34 @@ struct StructureReport {
   Poles full_poles;
   double cost_ratio = 1;  // of the structured gain's cost to the full one's
   Margins full_margins;   // at the plant's inputs
+};
+
+// What white parameters cost, beside the design that does not know of them.
+struct WhiteReport {
+  std::optional<double> cost_nominal;  // per sample (second), of this design where no parameter is random
+  RealMatrix K_unaware;                // of a regulator alone: its gain without white parameters
+  Margins margins_unaware;             // at the plant's inputs, likewise
+  double growth = 0, growth_unaware = 0;  // of the second moments in a sample, of this design and of that; < 1: they settle
+  std::optional<double> cost_unaware;  // of that design under the white parameters; empty: without bound
+};
+
+// z⁺ = A z + B y, u = C z + D y: the best of a given order that was found, a local minimum of E[xᵀQx + 2xᵀNu + uᵀRu].
+// z are its estimates of the plant's states `estimates`: T has rows of the identity there. T = E[x zᵀ] E[z zᵀ]⁻¹: the
+// best linear estimate of x that z allows, from which C T z is what the outputs should be. With z and y it is
+// x̂ = `estimate` z + `heard` y. x over the states of MeasuredPlant.
+struct CompensatorSolution {
+  RealMatrix A, B, C, D;
+  RealMatrix T, expected, estimate, heard;
+  RealMatrix P;               // covariance of x − T z, over the plant's own states
+  RealMatrix of_state, keep;  // z of a state x: of_state x + keep z, where keep is of an input that is a state
+  std::vector<int> estimates;
+  RealMatrix A_continuous, B_continuous, C_continuous;  // of a continuous cost: ż = A z + B y, u = C z, beside its z
+  Poles poles;                                          // of A
+  Real cost;                                            // a sample; with a continuous cost a second
+  int starts = 0, reached = 0;                          // that were tried, that ended in this minimum
+  double curvature = 0;                                 // the least one off the orbit beside the largest
+  std::optional<double> full_cost;  // of LQG, whose order is that of the plant, without white parameters: no cost is less
+  std::optional<double> held_cost_per_second;  // of a continuous cost: with u held and y sampled, as it is emitted
 };
 
 // u = −K z + Nbar r, z = [x; ξ of `integral`; u[k−1] with `input_rate`: then Δu is what the law gives];
@@ -175,6 +204,9 @@ struct Solution {
   std::optional<EstimatorSolution> estimator;  // empty beside `online` where the filter never becomes steady
   std::optional<OnlineSolution> online;        // with Gain::online only
   std::vector<StageSolution> stages;           // by rising `from`
+  // In place of regulator and estimator, which are then those of LQG without white parameters, to compare with.
+  std::optional<CompensatorSolution> compensator;
+  std::optional<WhiteReport> white;  // with white parameters and a regulator
   std::optional<LimitedRows> foreseen;         // with limits that are foreseen
   LoopSolution loop;
   Numerics numerics;

@@ -98,6 +98,24 @@ void visit_rows(A& rows, Visit visit) {
   visit("limits.scale", Place::target, rows.scale);
 }
 
+template <typename A, typename Visit>
+void visit_compensator(A& compensator, Visit visit) {
+  visit("compensator.A", Place::target, compensator.A);
+  visit("compensator.B", Place::target, compensator.B);
+  visit("compensator.C", Place::target, compensator.C);
+  visit("compensator.D", Place::target, compensator.D);
+  visit("compensator.T", Place::report, compensator.T);
+  visit("compensator.P", Place::report, compensator.P);
+  visit("compensator.expected", Place::target, compensator.expected);
+  visit("compensator.estimate", Place::target, compensator.estimate);
+  visit("compensator.heard", Place::target, compensator.heard);
+  visit("compensator.of_state", Place::target, compensator.of_state);
+  visit("compensator.keep", Place::target, compensator.keep);
+  visit("compensator.A_continuous", Place::report, compensator.A_continuous);
+  visit("compensator.B_continuous", Place::report, compensator.B_continuous);
+  visit("compensator.C_continuous", Place::report, compensator.C_continuous);
+}
+
 }  // namespace detail
 
 // visit(name, place, matrix or vector) for every one; `A` is Solution or const Solution.
@@ -111,6 +129,8 @@ void for_each_matrix(A& solution, Visit visit) {
   if (solution.estimator) detail::visit_estimator(*solution.estimator, visit);
   if (solution.online) detail::visit_online(*solution.online, visit);
   for (auto& stage : solution.stages) detail::visit_stage(stage, visit);
+  if (solution.compensator) detail::visit_compensator(*solution.compensator, visit);
+  if (solution.white) visit("uncertain.K_unaware", Place::report, solution.white->K_unaware);
   if (solution.foreseen) detail::visit_rows(*solution.foreseen, visit);
 }
 

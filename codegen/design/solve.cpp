@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "design/checks/order_rules.hpp"
 #include "design/checks/representable.hpp"
 #include "design/checks/requirements.hpp"
 #include "design/checks/well_posed.hpp"
@@ -16,6 +17,7 @@
 #include "design/numeric/ziv_test.hpp"
 #include "design/rounding.hpp"
 #include "design/run/design_run.hpp"
+#include "design/run/order_run.hpp"
 #include "design/run/plausibility.hpp"
 #include "design/run/sparse_gain_run.hpp"
 #include "design/run/transfer_recovery.hpp"
@@ -74,6 +76,8 @@ bool run_passes_ziv_test(const DesignRun& coarse, DesignRun& fine, unsigned coar
   settled = passes_ziv_test(coarse.regulator_poles, fine.regulator_poles) && settled;
   settled = passes_ziv_test(coarse.estimator_poles, fine.estimator_poles) && settled;
   settled = passes_ziv_test(coarse.loop_poles, fine.loop_poles) && settled;
+  settled = passes_ziv_test(coarse.compensator_poles, fine.compensator_poles) && settled;
+  settled = optional_passes_ziv_test(coarse.full_cost, fine.full_cost, coarse_digits) && settled;
   settled = optional_passes_ziv_test(coarse.cost_per_sample, fine.cost_per_sample, coarse_digits) && settled;
   return optional_passes_ziv_test(coarse.cost_per_second, fine.cost_per_second, coarse_digits) && settled;
 }
@@ -87,7 +91,10 @@ void describe_loop(const Problem& problem, DesignRun& run, unsigned digits) {
   if (solution.estimator) solution.estimator->poles = sorted_poles(run.estimator_poles);
   if (run.cost_per_sample) solution.loop.cost_per_sample = to_double(*run.cost_per_sample);
   if (run.cost_per_second) solution.loop.cost_per_second = to_double(*run.cost_per_second);
+  if (solution.compensator) solution.compensator->poles = sorted_poles(run.compensator_poles);
+  if (solution.compensator && run.full_cost) solution.compensator->full_cost = to_double(*run.full_cost);
   if (!run.has_steady_loop) return;
+  report_white_parameters(problem, run);
   const Compensator controller = compensator(problem, solution);
   const MeasuredPlant plant = measured_plant(problem, solution);
   solution.loop.at_input = margins(open_at_inputs(plant, controller), run.loop_poles);
@@ -121,6 +128,7 @@ void check_matrices(const Problem& problem, Findings& findings) {
 
 bool is_well_posed(const Problem& problem, Findings& findings) {
   check_kinds(problem, findings);
+  check_order_and_white(problem, findings);
   check_structure(problem, findings);
   check_recovery(problem, findings);
   check_matrices(problem, findings);

@@ -55,6 +55,8 @@ design::Plant plant(const Values& values) {
   result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
   result.delay = values.number("plant.delay", 0);
   result.output_delay = vector_or_empty(values, "plant.output_delay");
+  result.dropout = vector_or_empty(values, "plant.dropout");
+  result.jitter = values.number("plant.jitter", 0);
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
@@ -236,6 +238,13 @@ std::vector<design::Stage> stages(const Values& values) {
   return result;
 }
 
+std::vector<design::Uncertain> uncertain(const Values& values) {
+  std::vector<design::Uncertain> result;
+  for (const std::string& table : values.tables_of("uncertain"))
+    result.push_back({empty_or(values, table + ".A"), empty_or(values, table + ".B"), empty_or(values, table + ".C")});
+  return result;
+}
+
 design::Requirements requirements(const Values& values) {
   design::Requirements result;
   result.gain_margin_dB = optional_number(values, "require.gain_margin_dB");
@@ -285,6 +294,8 @@ design::Problem assemble(const Values& values) {
   if (values.has("kalman")) problem.estimator = estimator(values, problem.plant);
   if (values.has("observer")) problem.estimator = observer(values, problem.plant);
   if (values.has("limits")) problem.limits = limits(values);
+  if (values.has("compensator")) problem.compensator = design::Order{whole(values, "compensator.order")};
+  problem.uncertain = uncertain(values);
   problem.stages = stages(values);
   problem.scenarios = scenarios(values);
   problem.requirements = requirements(values);

@@ -47,6 +47,15 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Time in s by which each output comes late: whole periods of the sample time. What is on its way becomes "
        "additional states of the filter, after those of the plant, the newest first. Needs [kalman].",
        "0", "README.md#late-outputs"},
+      {"plant.dropout", Type::vector, ny, no, optional, {},
+       "Probability with which C x of each output is 0 in a sample, 0 to below 1, independent from sample to sample. "
+       "The noise v of the output stays, and the controller is not told. Where it is told, let the output be NaN "
+       "instead: it is left out then, and this key is not needed.",
+       "0", "README.md#white-parameters"},
+      {"plant.jitter", Type::positive, no, no, optional, {},
+       "Root mean square in s by which each period differs from `sample_time`, independent from sample to sample, of a "
+       "continuous plant.",
+       "0", "README.md#white-parameters"},
       {"plant.states", Type::signals, nx, no, optional, {}, "Names of the states, with units: `\"angle [rad]\"`.",
        "`x0`, `x1`, …"},
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
@@ -217,6 +226,22 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Changes of the set of active limits in one sample, at most. Where they are not enough, u is clipped, and the "
        "status says so.", "a proved bound where there is one, else a cap of 10 for each limited "
        "quantity; the header says which"},
+
+      {"compensator", Type::table, no, no, optional, {},
+       "A controller of a given number of states in place of filter and regulator: z⁺ = A z + B y, u = C z + D y with "
+       "the least cost of [lqr] under the noises of [kalman]. `kalman.form` says whether u has D y of the same sample.",
+       "none", "README.md#fewer-states"},
+      {"compensator.order", Type::whole, no, no, required, {},
+       "Number of its states, at most that of the plant with its inputs on their way."},
+
+      {"uncertain", Type::tables, no, no, optional, {},
+       "A white parameter γ: in each sample the plant has A + γ `A`, B + γ `B` and C + γ `C`, with E γ = 0 and E γ² = 1, "
+       "independent from sample to sample and of other tables. Of a continuous plant these are the sampled matrices. "
+       "One of `A`, `B` and `C` is required.",
+       "none", "README.md#white-parameters"},
+      {"uncertain.A", Type::matrix, nx, nx, optional, {}, "What γ adds to A.", "0"},
+      {"uncertain.B", Type::matrix, nx, nu, optional, {}, "What γ adds to B.", "0"},
+      {"uncertain.C", Type::matrix, ny, nx, optional, {}, "What γ adds to C.", "0"},
 
       {"stage", Type::tables, no, no, optional, {},
        "A time-varying plant: from step `from` on, these matrices replace those before. A key that is left out keeps "

@@ -119,7 +119,8 @@ Trajectory simulate(const Problem& problem, const Solution& solution, const Simu
   const auto stop_on = [](const std::string& why) { throw std::invalid_argument("simulate: " + why); };
   if (!physical) stop_on(findings.back().key + ": " + findings.back().message);
   const Realisation wanted = problem.code.realisation;
-  if (wanted != Realisation::folded && wanted != Realisation::modal) return simulate::simulate(*physical, options);
+  const bool keeps_z = wanted == Realisation::folded || wanted == Realisation::modal || solution.compensator;
+  if (!keeps_z) return simulate::simulate(*physical, options);
   if (wanted == Realisation::modal && controller::carries_covariance(*physical)) {
     const std::string why = no_modal_plant(problem);
     if (!why.empty()) stop_on("code.realisation: " + why);
@@ -130,9 +131,10 @@ Trajectory simulate(const Problem& problem, const Solution& solution, const Simu
     return simulate::simulate(*physical, options);
   }
   const std::string obstacle = no_linear_form(problem, solution);
-  if (!obstacle.empty()) stop_on("code.realisation: " + obstacle);
+  if (!obstacle.empty() && (wanted == Realisation::modal || !solution.compensator))
+    stop_on("code.realisation: " + obstacle);
   const LinearFormResult found =
-      wanted == Realisation::folded ? folded_form(problem, solution) : modal_form(problem, solution);
+      wanted == Realisation::modal ? modal_form(problem, solution) : folded_form(problem, solution);
   if (!found.form) stop_on("code.realisation: " + found.obstacle);
   return simulate::simulate(controller::with_form(*std::move(physical), *found.form), options);
 }

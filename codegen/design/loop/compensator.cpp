@@ -61,6 +61,7 @@ const SampledPlant& final_plant(const Solution& solution) {
 }
 
 Compensator compensator(const Problem& problem, const Solution& solution) {
+  if (const auto& own = solution.compensator) return {own->A, own->B, own->C, own->D, own->A.rows(), 0};
   if (!solution.estimator) return of_measured_state(problem, solution);
   const SampledPlant& plant = final_plant(solution);
   const EstimatorSolution& filter = *solution.estimator;

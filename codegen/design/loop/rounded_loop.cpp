@@ -36,6 +36,11 @@ Solution held(const Solution& solution, Scalar real) {
     result.estimator->L = held_by(real, solution.estimator->L);
     result.estimator->M = held_by(real, solution.estimator->M);
   }
+  if (const auto& exact = solution.compensator) {
+    CompensatorSolution& compensator = result.compensator.emplace();
+    compensator.A = held_by(real, exact->A), compensator.B = held_by(real, exact->B);
+    compensator.C = held_by(real, exact->C), compensator.D = held_by(real, exact->D);
+  }
   return result;
 }
 

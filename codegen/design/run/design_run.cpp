@@ -11,6 +11,7 @@
 #include "design/loop/rounded_loop.hpp"
 #include "design/rounding.hpp"
 #include "design/run/design_run_parts.hpp"
+#include "design/run/order_run.hpp"
 #include "design/sampled/added_states.hpp"
 
 namespace lqg::design {
@@ -39,7 +40,7 @@ std::vector<ComplexReal> poles_of_closed_loop(const Problem& problem, const Solu
   std::vector<ComplexReal> poles = eigenvalues(closed_loop(plant, compensator(problem, solution)).A);
   const auto farther = [](const ComplexReal& a, const ComplexReal& b) { return hypot(a.re, a.im) > hypot(b.re, b.im); };
   std::sort(poles.begin(), poles.end(), farther);
-  poles.resize(poles.size() - static_cast<std::size_t>(plant.B.cols()));
+  if (!solution.compensator) poles.resize(poles.size() - static_cast<std::size_t>(plant.B.cols()));
   return poles;
 }
 
@@ -47,7 +48,10 @@ void take_loop_poles(const Problem& problem, DesignRun& run) {
   run.loop_poles = run.regulator_poles;
   run.loop_poles.insert(run.loop_poles.end(), run.estimator_poles.begin(), run.estimator_poles.end());
   run.loop_poles.insert(run.loop_poles.end(), static_cast<std::size_t>(late_output_count(problem)), {Real(0), Real(0)});
-  if (!run.has_steady_loop || !problem.estimator || is_separated(problem, final_plant(run.solution))) return;
+  if (run.solution.compensator) run.loop_poles = poles_of_closed_loop(problem, run.solution);
+  if (run.solution.compensator || !run.has_steady_loop || !problem.estimator ||
+      is_separated(problem, final_plant(run.solution)))
+    return;
   run.loop_poles = poles_of_closed_loop(problem, run.solution);
   if (!is_stable(run.loop_poles))
     add_error(
@@ -85,7 +89,10 @@ void take_condition(const RiccatiResult& result, Solution& solution) {
 
 DesignRun run_design(const Problem& problem, const DesignRun* coarser) {
   DesignRun result;
-  const std::vector<SampledStage> stages = sample_stages(problem);
+  std::vector<SampledStage> stages = sample_stages(problem);
+  if (has_white_parameters(problem) && !problem.regulator)
+    add_noise_of_white_parameters(problem, stages.front().samples, result.findings);
+  if (has_error(result.findings)) return result;
   result.stages = stages;
   result.solution.plant = stages.front().samples.plant;
   if (problem.estimator) result.solution.start = start_of(stages.front());
@@ -99,9 +106,12 @@ DesignRun run_design(const Problem& problem, const DesignRun* coarser) {
   if (foresees(problem.limits) && !has_error(result.findings)) run_limits(problem, stages.back().samples, result);
   if (problem.estimator) run_estimator(problem, stages, coarser, result);
   if (has_error(result.findings)) return result;
+  if (is_of_given_order(problem)) run_compensator(problem, stages.back().of_loop(), coarser, result);
+  if (has_error(result.findings)) return result;
   result.has_steady_loop = has_steady_loop(problem, result);
   take_loop_poles(problem, result);
   if (!result.has_steady_loop || !has_cost(problem.regulator) || !has_noise(problem.estimator)) return result;
+  if (result.ordered) return result;
   const std::optional<SteadyCost> cost = cost_of_loop(stages.back(), result.solution);
   if (cost) result.cost_per_sample = cost->per_sample;
   if (cost) result.cost_per_second = cost->per_second;

@@ -7,6 +7,7 @@
 #include "design/gains/pole_placement.hpp"
 #include "design/gains/regulator.hpp"
 #include "design/run/design_run_parts.hpp"
+#include "design/run/order_run.hpp"
 #include "design/run/sparse_gain_run.hpp"
 #include "design/sampled/added_states.hpp"
 #include "design/sampled/anti_windup.hpp"
@@ -50,8 +51,9 @@ void take_table(const GainTable& table, const char* key, DesignRun& result) {
 void run_steady_law(const SampledStage& last, const DesignRun* coarser, DesignRun& result) {
   check_regulator(last.problem, last.of_regulator(), result);
   if (has_error(result.findings)) return;
-  const SteadyRegulator found =
-      solve_regulator(last.problem, last.of_regulator(), coarser ? coarser->own_law->X : RealMatrix());
+  const bool is_white = has_white_parameters(last.problem) && !last.problem.estimator;
+  const RealMatrix start = !coarser ? RealMatrix() : is_white ? coarser->unaware_riccati : coarser->own_law->X;
+  const SteadyRegulator found = solve_regulator(last.problem, last.of_regulator(), start);
   explain_regulator(found.riccati.failure, result.findings);
   if (found.riccati.failure != RiccatiFailure::none) {
     result.may_want_digits = true;
@@ -61,6 +63,8 @@ void run_steady_law(const SampledStage& last, const DesignRun* coarser, DesignRu
   result.solution.regulator->K = found.riccati.K;
   result.solution.regulator->X = found.riccati.X;
   result.regulator_poles = found.poles;
+  result.unaware_riccati = found.riccati.X;
+  if (is_white) return run_white_law(last.problem, last.of_regulator(), found.riccati.K, result);
   if (last.problem.regulator->structure.size() > 0)
     keep_regulator_structure(last.problem, last.of_regulator(), coarser, result);
   if (last.problem.regulator->cost == Cost::continuous && !is_stable(found.poles))

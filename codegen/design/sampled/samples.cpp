@@ -89,11 +89,18 @@ SampledCost weights_of_samples(const Problem& problem, Index samples) {
   return cost;
 }
 
+// C x as it is in the mean, where an output drops out.
+RealMatrix mean_outputs(const Plant& plant) {
+  RealMatrix C = real(plant.C);
+  for (Index i = 0; i < plant.dropout.size(); ++i) C.row(i) *= 1 - Real(plant.dropout(i));
+  return C;
+}
+
 // C and D of what is sampled: D u of the input that acts then.
 void add_outputs(const Plant& plant, Index samples, SampledPlant& sampled) {
   const Index nx = plant.A.rows(), nu = plant.B.cols(), ny = plant.C.rows();
   sampled.C = zeros(ny, nx + samples * nu);
-  sampled.C.leftCols(nx) = real(plant.C);
+  sampled.C.leftCols(nx) = mean_outputs(plant);
   sampled.D = samples == 0 ? real(plant.D) : zeros(ny, nu);
   if (samples > 0) sampled.C.middleCols(nx, nu) = real(plant.D);
 }

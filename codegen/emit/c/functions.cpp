@@ -14,7 +14,8 @@ namespace {
 bool is_steady(const Controller& controller) { return controller.filter == step::Filter::steady; }
 
 std::string init_function(const Controller& controller, const FunctionBodies& bodies) {
-  std::string begin = controller.linear        ? "z of x̂ = x0"
+  std::string begin = controller.solution.compensator ? "z of x = x0"
+                      : controller.linear        ? "z of x̂ = x0"
                       : !controller.has.filter ? ""
                       : is_steady(controller)  ? "x̂ = x0"
                       : controller.modal       ? "z and P of x̂ = x0, its covariance P0"

@@ -23,6 +23,7 @@ Conditions common_conditions(const Controller& controller) {
           {"size.nr", controller.size.nr > 0},
           {"size.nxi", controller.size.nxi > 0},
           {"is_predictor", controller.is_predictor},
+          {"is_of_given_order", controller.solution.compensator.has_value()},
           {"carries_covariance", carries_covariance(controller)},
           {"is_steady", controller.filter == step::Filter::steady},
           {"has_law_table", has_law_table(controller)}};

@@ -108,9 +108,48 @@ std::optional<Controller> in_chosen_coordinates(Controller controller, design::F
   return modal;
 }
 
+std::optional<Controller> keeping(const design::LinearForm& form, Controller controller, design::Findings& findings) {
+  controller::check_numbers(form, controller.target.is_double, findings);
+  if (design::has_error(findings)) return std::nullopt;
+  design::check_rounded_form(controller.problem, form, controller.solution, findings);
+  if (design::has_error(findings)) return std::nullopt;
+  return controller::with_form(std::move(controller), form);
+}
+
+// The modes take fewer multiply-adds and lose no more than they may.
+bool is_cheaper(const Controller& controller, const design::LinearForm& modal, const design::LinearForm& estimates) {
+  const Controller in_modes = controller::with_form(controller, modal), plain = controller::with_form(controller, estimates);
+  return cost_of_linear_form(in_modes).multiply_adds < cost_of_linear_form(plain).multiply_adds &&
+         rounding_error(in_modes) <= most_loss * rounding_error(plain);
+}
+
+// A compensator of a given order keeps its estimates of some states, or its modes.
+std::optional<Controller> of_given_order(Controller controller, design::Findings& findings) {
+  const Realisation wanted = controller.problem.code.realisation;
+  const design::LinearFormResult estimates = design::folded_form(controller.problem, controller.solution);
+  if (!estimates.form) {
+    findings.push_back({design::Severity::error, "design", estimates.obstacle});
+    return std::nullopt;
+  }
+  const bool wants_modes = wanted == Realisation::modal || wanted == Realisation::cheapest;
+  if (!wants_modes) return keeping(*estimates.form, std::move(controller), findings);
+  const std::string why = obstacle(controller);
+  if (!why.empty()) {
+    if (wanted == Realisation::modal) return refuse("\"physical\"", why, findings);
+    findings.push_back({design::Severity::note, "code.realisation", "physical: " + why});
+    return keeping(*estimates.form, std::move(controller), findings);
+  }
+  const design::LinearFormResult modal = design::modal_form(controller.problem, controller.solution);
+  if (!modal.form && wanted == Realisation::modal) return refuse("\"physical\"", modal.obstacle, findings);
+  const bool takes_modes =
+      modal.form && (wanted == Realisation::modal || is_cheaper(controller, *modal.form, *estimates.form));
+  return keeping(takes_modes ? *modal.form : *estimates.form, std::move(controller), findings);
+}
+
 }  // namespace
 
 std::optional<Controller> in_chosen_form(Controller controller, design::Findings& findings) {
+  if (controller.solution.compensator) return of_given_order(std::move(controller), findings);
   const Realisation wanted = controller.problem.code.realisation;
   if (wanted == Realisation::physical) return controller;
   if (carries_covariance(controller)) return in_chosen_coordinates(std::move(controller), findings);

@@ -42,7 +42,7 @@ struct Beginning {
 
 bool is_known(const Controller& controller) {
   const auto& estimator = controller.problem.estimator;
-  return controller.has.filter && design::has_noise(estimator) && controller.solution.noise &&
+  return controller.has.filter && !controller.solution.compensator && design::has_noise(estimator) && controller.solution.noise &&
          controller.problem.stages.empty() && estimator->P0.size() > 0;
 }
 

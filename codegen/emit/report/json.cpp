@@ -8,6 +8,7 @@
 #include "design/numeric/digits.hpp"
 #include "design/sampled/added_states.hpp"
 #include "design/sampled/reference.hpp"
+#include "emit/text/order_description.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/plan/realisation.hpp"
 
@@ -169,7 +170,7 @@ Json observer(const Controller& controller) {
 // A filter that never becomes steady has its form alone.
 Json kalman(const Controller& controller) {
   Json out = {{"form", controller.is_predictor ? "predictor" : "filter"}};
-  if (!controller.solution.estimator) return out;
+  if (!controller.solution.estimator || controller.solution.compensator) return out;
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   out["L"] = rows(estimator.L);
   out["L_predictor"] = rows(estimator.L_predictor);
@@ -276,6 +277,39 @@ Json compensator(const design::LinearForm& form) {
   return out;
 }
 
+// What is known of a compensator of a given order, beside its form.
+void add_optimum(const Controller& controller, Json& out) {
+  const design::CompensatorSolution& own = *controller.solution.compensator;
+  out["order"] = own.A.rows();
+  out["estimates"] = own.estimates;
+  out["poles"] = poles(own.poles);
+  out["P"] = rows(own.P);
+  if (own.A_continuous.size() > 0) {
+    out["continuous"] = {
+        {"A", rows(own.A_continuous)}, {"B", rows(own.B_continuous)}, {"C", rows(own.C_continuous)}};
+    add(out, "held_cost_per_second", own.held_cost_per_second);
+  }
+  out["starts"] = own.starts;
+  out["reached"] = own.reached;
+  out["curvature"] = own.curvature;
+  add(out, "cost_of_full_order", own.full_cost);
+  add(out, "gap_percent", gap_percent(own));
+}
+
+Json white_parameters(const Controller& controller) {
+  const design::WhiteReport& white = *controller.solution.white;
+  const double sample_time = controller.problem.plant.sample_time;
+  Json unaware = Json::object();
+  add(unaware, "K", white.K_unaware);
+  unaware["growth"] = white.growth_unaware;
+  add(unaware, "cost_per_sample", white.cost_unaware);
+  add_margins(unaware, white.margins_unaware, sample_time);
+  Json out = {{"growth", white.growth}};
+  add(out, "nominal_cost_per_sample", white.cost_nominal);
+  out["unaware"] = unaware;
+  return out;
+}
+
 Json modes(const design::ModalPlant& modal) {
   Json out = {{"T", rows(modal.T)},       {"inverse", rows(modal.inverse)}, {"A", rows(modal.plant.A)},
               {"B", rows(modal.plant.B)}, {"C", rows(modal.plant.C)},       {"D", rows(modal.plant.D)},
@@ -332,12 +366,14 @@ std::string json(const Controller& controller) {
       out["cost"] = cost(regulator.cost);
       add(out["cost"], "Q_final", regulator.Q_final);
     }
-    out["lqr"] = lqr(controller);
+    if (!solution.compensator) out["lqr"] = lqr(controller);
     if (controller.has.foresight) out["limits"] = foreseen_limits(controller);
   }
   if (controller.has.filter) out["kalman"] = kalman(controller);
   if (!solution.stages.empty()) out["stages"] = stages(solution.stages);
   if (controller.linear) out["compensator"] = compensator(*controller.linear);
+  if (solution.compensator) add_optimum(controller, out["compensator"]);
+  if (solution.white) out["uncertain"] = white_parameters(controller);
   if (controller.modal) out["modes"] = modes(*controller.modal);
   out["loop"] = loop(solution.loop, controller.problem.plant.sample_time);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};

@@ -64,10 +64,35 @@ class Matrices {
     add("G", "how w acts", plant.G, x_, numbered("w", plant.G.cols()));
   }
 
+  void add_weights(const design::SampledCost& cost) {
+    add("Q", "of the samples", cost.Q, x_, x_);
+    add("R", "of the samples", cost.R, u_, u_);
+    add("N", "of the samples", cost.N, x_, u_);
+  }
+
+  void add_noises(const design::SampledNoise& noise) {
+    const Names w = numbered("w", noise.W.rows());
+    add("W", "E[w wᵀ]", noise.W, w, w);
+    add("V", "E[v vᵀ]", noise.V, y_, y_);
+    add("Swv", "E[w vᵀ]", noise.Swv, w, y_);
+  }
+
+  void add_compensator(const Controller& controller) {
+    const design::CompensatorSolution& own = *controller.solution.compensator;
+    const design::LinearForm& form = *controller.linear;
+    const Names z = numbered("z", form.A.rows());
+    add("A of z", "z⁺ = A z + B y", form.A, z, z);
+    add("B of y", "z⁺ = A z + B y", form.B, z, y_);
+    add("C of z", "u = C z + D y", form.C, u_, z);
+    if (!controller.is_predictor) add("D of y", "u = C z + D y", form.D, u_, y_);
+    add("T", "x̂ before the outputs, T z", form.T, x_, z);
+    add("P", "covariance of x − T z", own.P, x_, x_);
+    add("A continuous", "ż = A z + B y, z: estimates of states", own.A_continuous, z, z);
+    add("B continuous", "likewise", own.B_continuous, z, y_);
+    add("C continuous", "u = C z", own.C_continuous, u_, z);
+  }
+
   void add_regulator(const design::RegulatorSolution& regulator) {
-    add("Q", "of the samples", regulator.cost.Q, x_, x_);
-    add("R", "of the samples", regulator.cost.R, u_, u_);
-    add("N", "of the samples", regulator.cost.N, x_, u_);
     add("K", "gain of the regulator", regulator.K, u_, z_);
     add("Nbar", "gain of the reference", regulator.Nbar, u_, r_);
     add("Gamma", "of ξ + Γ x̂, what the model does not explain", regulator.Gamma, xi_, x_);
@@ -76,10 +101,6 @@ class Matrices {
   }
 
   void add_estimator(const design::EstimatorSolution& estimator) {
-    const Names w = numbered("w", estimator.noise.W.rows());
-    add("W", "E[w wᵀ]", estimator.noise.W, w, w);
-    add("V", "E[v vᵀ]", estimator.noise.V, y_, y_);
-    add("Swv", "E[w vᵀ]", estimator.noise.Swv, w, y_);
     add("fictitious", "q B Bᵀ at the samples, for the gain alone", estimator.fictitious, x_, x_);
     add("L", "gain of the filter", estimator.L, x_, y_);
     add("L_predictor", "A L + M", estimator.L_predictor, x_, y_);
@@ -109,8 +130,14 @@ class Matrices {
 PageSection number_section(const Controller& controller) {
   Matrices matrices(controller);
   matrices.add_plant(controller);
-  if (controller.solution.regulator) matrices.add_regulator(*controller.solution.regulator);
-  if (controller.solution.estimator) matrices.add_estimator(*controller.solution.estimator);
+  if (controller.solution.regulator) matrices.add_weights(controller.solution.regulator->cost);
+  if (controller.solution.estimator) matrices.add_noises(controller.solution.estimator->noise);
+  if (controller.solution.compensator) {
+    matrices.add_compensator(controller);
+  } else {
+    if (controller.solution.regulator) matrices.add_regulator(*controller.solution.regulator);
+    if (controller.solution.estimator) matrices.add_estimator(*controller.solution.estimator);
+  }
   PageView view;
   view.matrices = matrices.all();
   return {"numbers", "Numbers", {view}};

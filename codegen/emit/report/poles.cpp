@@ -194,6 +194,7 @@ design::Poles poles_of_plant(const Controller& controller) {
 
 std::vector<NamedPoles> poles_of_controller(const Controller& controller) {
   const design::Solution& solution = controller.solution;
+  if (solution.compensator) return {{"loop", solution.loop.poles}, {"compensator", solution.compensator->poles}};
   if (solution.regulator && solution.estimator &&
       !design::is_separated(controller.problem, design::final_plant(solution)))
     return {{"loop", solution.loop.poles}};

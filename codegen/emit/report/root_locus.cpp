@@ -27,6 +27,7 @@ std::optional<Regulated> regulated(const Controller& controller) {
   if (!controller.solution.regulator || !design::has_cost(problem.regulator)) return std::nullopt;
   const bool is_steady = problem.regulator->horizon == 0 && problem.stages.empty() && !problem.regulator->decay &&
                          !problem.regulator->settling_time && problem.regulator->structure.size() == 0;
+  if (controller.solution.compensator || controller.solution.white) return std::nullopt;
   if (!is_steady || problem.regulator->cost == design::Cost::continuous) return std::nullopt;
   const design::Digits digits(50);
   const design::RegulatedPlant plant =

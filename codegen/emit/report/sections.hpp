@@ -17,6 +17,7 @@ PageSection at_work(const Controller& controller, const Runs& runs);            
 PageSection foresight_section(const Controller& controller);                    // what are foreseen limits worth?
 PageSection far_from_trouble(const Controller& controller);                     // what may be wrong with the model?
 PageSection recovery_section(const Controller& controller);                     // what does robustness cost?
+PageSection order_section(const Controller& controller);                        // what is known of the optimum?
 PageSection pole_section(const Controller& controller);                         // how fast, how damped?
 PageSection estimator_section(const Controller& controller, const Runs& runs);  // does it know what it knows?
 PageSection target_section(const Controller& controller);                       // what does it cost?

@@ -141,7 +141,7 @@ std::string integrals(const Controller& controller) {
 }  // namespace
 
 std::string describe_regulator(const Controller& controller) {
-  if (!controller.has.regulator) return "";
+  if (!controller.has.regulator || controller.solution.compensator) return "";
   const design::RegulatorSolution& solution = *controller.solution.regulator;
   const bool is_double = controller.target.is_double;
   std::string out = "\nRegulator  u = " + equation_of_law(controller) + ":\n\n";
@@ -157,7 +157,7 @@ std::string describe_regulator(const Controller& controller) {
 // update adds L times the innovation, predict M times it. In predictor form no u is made between the two: together they
 // are L_predictor = A L + M, which is M where L = 0.
 std::string describe_gains(const Controller& controller) {
-  if (!controller.solution.estimator) return "";
+  if (!controller.solution.estimator || controller.solution.compensator) return "";
   const design::EstimatorSolution& solution = *controller.solution.estimator;
   const bool is_double = controller.target.is_double, predicts = controller.is_predictor;
   const bool is_in_one = predicts && is_zero(solution.L);
@@ -202,7 +202,7 @@ std::string bounds(const Controller& controller) {
 }  // namespace
 
 std::string describe_estimator(const Controller& controller) {
-  if (!controller.has.filter) return "";
+  if (!controller.has.filter || controller.solution.compensator) return "";
   const bool is_double = controller.target.is_double, is_observer = controller.problem.estimator->poles.has_value();
   std::string out = is_observer ? "\nObserver, " : "\nKalman filter, ";
   out += controller.is_predictor ? "predictor form (u[k] depends on the outputs up to y[k−1])"
@@ -307,7 +307,7 @@ std::string describe_forms(const Controller& controller) {
 }
 
 std::string describe_linear_form(const Controller& controller) {
-  if (!controller.linear) return "";
+  if (!controller.linear || controller.solution.compensator) return "";
   const design::LinearForm& form = *controller.linear;
   const bool is_double = controller.target.is_double, predicts = controller.is_predictor;
   std::string out = "\nThe same controller as one linear system; the two agree to " +

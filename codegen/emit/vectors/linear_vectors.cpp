@@ -44,8 +44,26 @@ Vector<S> physical_sample(EmittedController<S>& emitted, Sample& sample, Measure
   return u;
 }
 
-template <class S>
-Run<S> closed_loop(const Controller& controller, EmittedController<S> emitted) {
+// The same of a compensator of a given order, which has no other form than its own.
+template <class S, class Measure>
+Vector<S> physical_sample(EmittedForm<S>& emitted, Sample& sample, Measure measure) {
+  Vector<S> u;
+  const bool predicts = emitted.model().predictor_form;
+  const auto act = [&](const Vector<S>& y) {
+    emitted.control(y, u);
+    sample.x = list_of(emitted.estimate());
+  };
+  if (predicts) act({});
+  sample.y = measure(u);
+  const Vector<S> y = numbers_of<S>(sample.y);
+  if (!predicts) act(y);
+  emitted.advance(y);
+  sample.u = list_of(u);
+  return u;
+}
+
+template <class S, template <class> class Emitted>
+Run<S> closed_loop(const Controller& controller, Emitted<S> emitted) {
   simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
   Eigen::VectorXd applied = Eigen::VectorXd::Zero(controller.size.nu);
   Run<S> run;
@@ -90,15 +108,19 @@ std::vector<Vector<S>> run_physical(const Controller& controller, const std::vec
   return all;
 }
 
+template <class S, class Round>
+Run<S> reference_run(const Controller& controller, Round round) {
+  if (controller.solution.compensator) return closed_loop(controller, EmittedForm<S>(controller, round));
+  return closed_loop(controller, EmittedController<S>(controller, round));
+}
+
 // Calls act(run) with the run of a reference of at least twice the target's digits.
 template <class Act>
 auto with_reference(const Controller& controller, Act act) {
   if (!controller.target.is_double)
-    return act(closed_loop(
-        controller, EmittedController<double>(controller, [](const Real& value) { return design::to_double(value); })));
+    return act(reference_run<double>(controller, [](const Real& value) { return design::to_double(value); }));
   const design::Digits digits(reference_digits);
-  return act(closed_loop(controller, EmittedController<Real>(
-                                         controller, [](const Real& value) { return Real(value, reference_digits); })));
+  return act(reference_run<Real>(controller, [](const Real& value) { return Real(value, reference_digits); }));
 }
 
 template <class S>
