@@ -25,17 +25,17 @@ void take(const order::Polished& polished, const order::Units& units, Index nu, 
 }
 
 OrderedCompensator found_by(order::OrderSearch& search, const order::ScaledProblem& scaled, Index order) {
-  const order::OrderBest best = search.best(order);
+  const order::OrderMinima found = search.minima(order);
   OrderedCompensator result;
-  result.starts = best.starts;
-  result.reached = best.reached;
-  if (!best.point.is_stable) {
+  result.starts = found.starts;
+  result.reached = found.reached;
+  if (found.minima.empty()) {
     result.failure = OrderFailure::no_stabilising_compensator;
-    result.discount = scaled.problem.is_continuous ? -best.ease : 1 / ((1 + best.ease) * (1 + best.ease));
+    result.discount = scaled.problem.is_continuous ? -found.ease : 1 / ((1 + found.ease) * (1 + found.ease));
     return result;
   }
   const order::Family family = order::loop_family<double>(scaled.problem, order);
-  const RealMatrix Theta = real(order::balanced(family, best.point));
+  const RealMatrix Theta = real(order::balanced(family, found.minima.front()));
   take(order::polished(scaled.problem, order, Theta), scaled.units, scaled.problem.B.cols(), scaled.problem.C.rows(),
        result);
   return result;

@@ -35,7 +35,7 @@ double work_of_step(const Family& family) {
 
 int draws_for(const Family& family) {
   const double work = work_of_step(family);
-  return work < 3e5 ? 12 : work < 1e7 ? 6 : 2;
+  return work < 2e6 ? 12 : work < 1e7 ? 6 : 2;
 }
 
 // A state more, with a pole of its own, which is hardly driven and hardly heard.
@@ -51,98 +51,86 @@ Matrix<double> with_weak_mode(const Family& family, const Matrix<double>& less, 
   return Theta;
 }
 
-}  // namespace
+// Any compensator of about the size that laws have in these units.
+Matrix<double> drawn(const Family& family, Draws& draws) {
+  Matrix<double> column(family.free_entries(), 1);
+  for (Index k = 0; k < column.size(); ++k) column(k, 0) = draws.next() + draws.next();
+  return unpacked<double>(family, column);
+}
 
-struct OrderSearch::Ends {
-  std::vector<Point> minima;
-  OrderBest failed;  // the farthest
-  int starts = 0;
-};
+void try_start(const Family& family, const Matrix<double>& Theta, OrderMinima& found) {
+  const double same = 1e-7;
+  const Continued end = continued(family, Theta);
+  ++found.starts;
+  std::vector<Point>& minima = found.minima;
+  if (!end.point.is_stable) {
+    if (found.easiest.size() == 0 || end.ease < found.ease) {
+      found.ease = end.ease;
+      found.easiest = end.Theta;
+    }
+    return;
+  }
+  const auto place = std::find_if(minima.begin(), minima.end(),
+                                  [&](const Point& other) { return end.point.cost <= other.cost * (1 + same); });
+  const bool is_known = place != minima.end() && end.point.cost >= place->cost * (1 - same);
+  if (place == minima.begin()) found.reached = is_known ? found.reached + 1 : 1;
+  if (!is_known) minima.insert(place, end.point);
+}
+
+}  // namespace
 
 OrderSearch::OrderSearch(const OrderProblem& scaled_problem) : problem_(scaled_problem) {
   for (const auto& [inputs, outputs] : {std::pair(1.0, 1.0), std::pair(100.0, 100.0), std::pair(0.01, 0.01)})
     if (const std::optional<Matrix<double>> law = full_order_law(problem_, inputs, outputs)) laws_.push_back(*law);
 }
 
-void OrderSearch::try_start(const Family& family, const Matrix<double>& Theta, Ends& ends) const {
-  const Continued end = continued(family, Theta);
-  ++ends.starts;
-  if (end.point.is_stable)
-    ends.minima.push_back(end.point);
-  else if (ends.failed.Theta.size() == 0 || end.ease < ends.failed.ease) {
-    ends.failed.ease = end.ease;
-    ends.failed.Theta = end.Theta;
-  }
-}
-
-void OrderSearch::start_from_laws(const Family& family, Ends& ends) const {
-  const Index nx = family.nx;
+void OrderSearch::start_from_laws(const Family& family, OrderMinima& found) const {
+  const Family full = loop_family<double>(problem_, family.nx);
+  const Matrix<double> nothing = Matrix<double>::Zero(family.nu + family.order, family.ny + family.order);
   for (const Matrix<double>& law : laws_) {
-    if (family.order <= nx) {
-      const Family full = loop_family<double>(problem_, nx);
-      try_start(family, truncated(full, law, family.order), ends);
-      continue;
-    }
-    Matrix<double> padded = Matrix<double>::Zero(family.nu + family.order, family.ny + family.order);
-    padded.topLeftCorner(law.rows(), law.cols()) = law;
-    try_start(family, padded, ends);
+    Matrix<double> padded = nothing;
+    if (family.order > family.nx) padded.topLeftCorner(law.rows(), law.cols()) = law;
+    try_start(family, family.order > family.nx ? padded : truncated(full, law, family.order), found);
   }
-  if (laws_.empty()) try_start(family, Matrix<double>::Zero(family.nu + family.order, family.ny + family.order), ends);
+  if (laws_.empty()) try_start(family, nothing, found);
 }
 
-void OrderSearch::start_from_below(const Family& family, Ends& ends) {
+void OrderSearch::start_from_below(const Family& family, OrderMinima& found) {
   if (family.order == 0) return;
-  const OrderBest& less = upwards(family.order - 1);
-  const Matrix<double>& Theta = less.point.is_stable ? less.point.Theta : less.Theta;
+  const OrderMinima& less = upwards(family.order - 1);
+  const std::size_t most_seeds = 3, seeds = std::min(most_seeds, less.minima.size());
   Draws draws(static_cast<std::uint64_t>(family.order));
-  for (int k = draws_for(family); k > 0; --k) try_start(family, with_weak_mode(family, Theta, draws), ends);
+  const int count = draws_for(family);
+  for (int k = 0; k < count; ++k) {
+    const Matrix<double>& seed =
+        seeds == 0 ? less.easiest : less.minima[static_cast<std::size_t>(k) % seeds].Theta;
+    try_start(family, with_weak_mode(family, seed, draws), found);
+  }
+  for (int k = 0; k < count / 2; ++k) try_start(family, drawn(family, draws), found);
 }
 
-namespace {
-
-OrderBest best_of(const std::vector<Point>& minima, const OrderBest& failed, int starts) {
-  const double same = 1e-7;
-  OrderBest best = failed;
-  best.starts = starts;
-  for (const Point& minimum : minima)
-    if (!best.point.is_stable || minimum.cost < best.point.cost) best.point = minimum;
-  for (const Point& minimum : minima) best.reached += minimum.cost <= best.point.cost * (1 + same) ? 1 : 0;
-  return best;
-}
-
-}  // namespace
-
-const OrderBest& OrderSearch::upwards(Index order) {
+const OrderMinima& OrderSearch::upwards(Index order) {
   const auto known = upwards_.find(order);
   if (known != upwards_.end()) return known->second;
   const Family family = loop_family<double>(problem_, order);
-  Ends ends;
-  start_from_laws(family, ends);
+  OrderMinima found;
+  start_from_laws(family, found);
   // The climb to an order that is nearly full costs much and finds no more than the law itself.
   const bool is_worth_it = order < family.nx || work_of_step(family) < 1e7;
-  if (is_worth_it) start_from_below(family, ends);
-  return upwards_[order] = best_of(ends.minima, ends.failed, ends.starts);
+  if (is_worth_it) start_from_below(family, found);
+  return upwards_[order] = found;
 }
 
-OrderBest OrderSearch::best(Index order) {
-  const OrderBest& from_below = upwards(order);
+OrderMinima OrderSearch::minima(Index order) {
+  OrderMinima found = upwards(order);
   const Family family = loop_family<double>(problem_, order);
-  if (order >= family.nx) return from_below;
-  const OrderBest& more = upwards(order + 1);
-  if (!more.point.is_stable) return from_below;
+  if (order >= family.nx) return found;
   const Family larger = loop_family<double>(problem_, order + 1);
-  const Continued end = continued(family, truncated(larger, balanced(larger, more.point), order));
-  OrderBest best = from_below;
-  ++best.starts;
-  if (!end.point.is_stable) return best;
-  const double same = 1e-7;
-  if (!best.point.is_stable || end.point.cost < best.point.cost * (1 - same)) {
-    best.point = end.point;
-    best.reached = 1;
-  } else if (end.point.cost <= best.point.cost * (1 + same)) {
-    ++best.reached;
-  }
-  return best;
+  const std::size_t most_seeds = 3;
+  const std::vector<Point>& more = upwards(order + 1).minima;
+  for (std::size_t k = 0; k < std::min(most_seeds, more.size()); ++k)
+    try_start(family, truncated(larger, balanced(larger, more[k]), order), found);
+  return found;
 }
 
 }  // namespace lqg::design::order

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In doubles: the best minimum that several starts lead to.
+// In doubles: the minima that several starts lead to.
 #pragma once
 
 #include <map>
@@ -8,11 +8,13 @@
 
 namespace lqg::design::order {
 
-struct OrderBest {
-  Point point;           // stable where there is a minimum
-  double ease = 0;       // else the least that a start has reached
-  Matrix<double> Theta;  // that one's
-  int starts = 0, reached = 0;
+// What the starts of one order led to.
+struct OrderMinima {
+  std::vector<Point> minima;  // of different costs, the best one first
+  double ease = 0;            // of none: the least that a start has reached
+  Matrix<double> easiest;     // there
+  int starts = 0;
+  int reached = 0;  // of them that ended in the best one
 };
 
 // Keeps what it has found, because the minimum of an order is a start for the next ones.
@@ -20,21 +22,18 @@ class OrderSearch {
  public:
   explicit OrderSearch(const OrderProblem& scaled_problem);
 
-  // From laws of full order, truncated; from the best of order − 1 with a weak mode added; from the best of order + 1,
-  // truncated.
-  OrderBest best(Index order);
+  // From laws of full order, truncated; from minima of order − 1 with a weak mode added; from draws; from minima of
+  // order + 1, truncated.
+  OrderMinima minima(Index order);
 
  private:
-  struct Ends;
-
-  const OrderBest& upwards(Index order);
-  void try_start(const Family& family, const Matrix<double>& Theta, Ends& ends) const;
-  void start_from_laws(const Family& family, Ends& ends) const;
-  void start_from_below(const Family& family, Ends& ends);
+  const OrderMinima& upwards(Index order);
+  void start_from_laws(const Family& family, OrderMinima& found) const;
+  void start_from_below(const Family& family, OrderMinima& found);
 
   OrderProblem problem_;
   std::vector<Matrix<double>> laws_;
-  std::map<Index, OrderBest> upwards_;
+  std::map<Index, OrderMinima> upwards_;
 };
 
 }  // namespace lqg::design::order
