@@ -10,6 +10,7 @@
 
 #include "commands/check.hpp"
 #include "commands/new.hpp"
+#include "commands/orders.hpp"
 #include "commands/run.hpp"
 #include "commands/simulate.hpp"
 #include "emit/c/batch.hpp"
@@ -24,6 +25,7 @@
 #include "emit/text/sha256.hpp"
 #include "emit/unit_test/unit_test.hpp"
 #include "design/number_memory.hpp"
+#include "design/orders.hpp"
 #include "design/solve.hpp"
 #include "input/design_file.hpp"
 #include "input/keys.hpp"
@@ -42,6 +44,7 @@ enum Exit { written = 0, impossible = 1, wrong = 2, unreadable = 3 };
 struct Arguments {
   std::string design_file;
   bool wants_json = false;  // of `check`
+  bool wants_orders = false;
   std::string folder = ".";
   std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
@@ -181,6 +184,25 @@ int generate(const Arguments& arguments) {
   }
   show_summary(arguments, *controller);
   return written;
+}
+
+// `lqgen --orders`: a table on standard output, and no file.
+int show_orders(const Arguments& arguments) {
+  Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
+  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  report(arguments, file, file.findings);
+  if (!file.readable) return unreadable;
+  if (!file.problem || design::has_error(file.findings)) return wrong;
+  design::Findings findings;
+  watch.show("compensators of each order");
+  const auto orders =
+      design::costs_of_orders(*file.problem, findings, [&](const std::string& work) { watch.show(work); });
+  watch.end();
+  input::sort_by_place(file, findings);
+  report(arguments, file, findings);
+  if (!orders) return impossible;
+  std::cout << commands::table_of_orders(*orders);
+  return std::cout.flush() ? written : unreadable;
 }
 
 // `lqgen run`: samples come by standard input, which the design file can thus not come by.
@@ -396,6 +418,8 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember({"h", "test", "json", "html", "proof", "batch"}))
       ->option_text("h,test,json,html,proof,batch");
+  app.add_flag("--orders", arguments.wants_orders,
+               "print the least cost of a compensator of each order, write no file");
   add_printed(app, "--keys", reference::page, "print all keys of a design file and exit");
   add_printed(app, "--schema", reference::schema, "print the JSON Schema of a design file and exit");
 
@@ -432,7 +456,8 @@ int main(int argc, char** argv) {
     if (*comparison) return compare_designs(compare_arguments);
     if (*checking) return check(arguments);
     if (*runner) return run_controller(arguments);
-    return *simulation ? simulate_design(arguments, simulate_arguments) : generate(arguments);
+    if (*simulation) return simulate_design(arguments, simulate_arguments);
+    return arguments.wants_orders ? show_orders(arguments) : generate(arguments);
   } catch (const std::exception& error) {
     const std::string what = has_design ? shown_path(arguments) : "lqgen " + command;
     std::cerr << input::printable(what) << ": lqgen failed: " << input::printable(error.what()) << "\n";

@@ -126,6 +126,8 @@ void check_matrices(const Problem& problem, Findings& findings) {
   if (!has_error(findings)) check_definiteness(problem, findings);
 }
 
+}  // namespace
+
 bool is_well_posed(const Problem& problem, Findings& findings) {
   check_kinds(problem, findings);
   check_order_and_white(problem, findings);
@@ -143,6 +145,8 @@ bool is_well_posed(const Problem& problem, Findings& findings) {
   }
   return !has_error(findings);
 }
+
+namespace {
 
 // The pole nearest to the unit circle, and how near it is.
 struct Nearest {

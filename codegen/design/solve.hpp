@@ -15,6 +15,9 @@ namespace lqg::design {
 // (mode, states that take part, key). Notes may come with a solution. `progress` gets a line about every second.
 std::optional<Solution> solve(const Problem& problem, Findings& findings, const Progress& progress = {});
 
+// Does the problem make sense, before anything is solved? Without an error in `findings` it does.
+bool is_well_posed(const Problem& problem, Findings& findings);
+
 // A first look, several times faster, for a person who moves a weight and watches the curves: gains, poles, margins at
 // the inputs and rms from one run with 50 digits. No second run has judged their roundings, loop.at_output and
 // loop.rounded are empty, and nothing that makes a design impossible or a note is looked for beyond what keeps this run

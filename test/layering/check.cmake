@@ -78,7 +78,7 @@ check(codegen/serve ${any_room} "^serve/" "^boost/(asio|beast)/")
 check(codegen/view ${any_room} "^view/" "^serve/" "^emit/" "^simulate/" "^controller/" "^input/" "^design/"
       "^nlohmann/")
 check(codegen ${any_room} "^commands/" "^view/(watch|compare)\\.hpp$" "^input/" "^reference/documents\\.hpp$" "^emit/"
-      "^design/(solve|number_memory)\\.hpp$"
+      "^design/(solve|orders|number_memory)\\.hpp$"
       "^CLI/" "^watch\\.hpp$")
 
 # A folder that nobody has given a place has to be given one.

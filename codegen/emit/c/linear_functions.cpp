@@ -54,6 +54,22 @@ std::string functions_of_predictor_form(const Controller& controller, const Trac
   return write_function(templates::linear_predictor_form, controller, words);
 }
 
+std::string head_of_estimate(const Controller& controller) {
+  const bool predicts = controller.is_predictor;
+  const std::string when =
+      predicts ? "; after advance that of the next sample." : ". Call it between control and advance.";
+  if (!controller.solution.compensator) return "/* The estimate x̂ of this sample, of which u = −K x̂ is made" + when;
+  return std::string("/* x̂, the best linear estimate of the state of this sample that z ") +
+         (predicts ? "allows" : "and y allow") + "; u is not made of it.\n * " +
+         (predicts ? "After advance it is that of the next sample." : "Call it between control and advance.");
+}
+
+std::string head_of_set_state(const Controller& controller) {
+  return controller.solution.compensator
+             ? "/* z with which the loop costs least where the state is x, set from outside."
+             : "/* x̂ ← x, set from outside.";
+}
+
 }  // namespace
 
 std::string linear_functions(const Controller& controller) {
@@ -61,7 +77,9 @@ std::string linear_functions(const Controller& controller) {
   return (controller.is_predictor ? functions_of_predictor_form(controller, traced)
                                   : functions_of_filter_form(controller, traced)) +
          write_function(templates::linear_state, controller,
-                        {{"estimate", body(controller, traced.estimate, {"self"})},
+                        {{"what", head_of_estimate(controller)},
+                         {"begin_set_state", head_of_set_state(controller)},
+                         {"estimate", body(controller, traced.estimate, {"self"})},
                          {"set_state", body(controller, traced.set_state, {"self"})}});
 }
 

@@ -48,7 +48,9 @@ std::string data(const Controller& controller, const Vectors& vectors) {
     out += "/* Outputs of the plant. */\n" +
            table("y_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
     out += std::string("\n/* What the reference says: the estimate ") +
-           (controller.linear ? "of which u is made" : "after update") + " … */\n" +
+           (controller.solution.compensator ? "that z and y allow"
+            : controller.linear             ? "of which u is made"
+                                            : "after update") + " … */\n" +
            table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
   } else {
     out +=

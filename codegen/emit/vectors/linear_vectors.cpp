@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "emit/vectors/linear_vectors.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "design/numeric/digits.hpp"
 #include "emit/vectors/comparison.hpp"
 #include "simulate/emitted_controller.hpp"
@@ -62,12 +65,25 @@ Vector<S> physical_sample(EmittedForm<S>& emitted, Sample& sample, Measure measu
   return u;
 }
 
+// Of a compensator that is unstable by itself few: it is played the outputs of another run, from which it parts. What a
+// rounding error has grown to then is at most a 256th of what it was added to.
+std::size_t samples_of(const Controller& controller) {
+  if (!controller.solution.compensator) return sample_count;
+  double growth = 1;
+  for (const std::complex<double>& pole : controller.solution.compensator->poles)
+    growth = std::max(growth, std::abs(pole));
+  const double bits = controller.target.is_double ? 53 - 8 : 24 - 8;
+  const double most = growth > 1 ? bits * std::log(2.0) / std::log(growth) : static_cast<double>(sample_count);
+  return static_cast<std::size_t>(std::clamp(most, 4.0, static_cast<double>(sample_count)));
+}
+
 template <class S, template <class> class Emitted>
 Run<S> closed_loop(const Controller& controller, Emitted<S> emitted) {
   simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
   Eigen::VectorXd applied = Eigen::VectorXd::Zero(controller.size.nu);
   Run<S> run;
-  while (run.samples.size() < sample_count) {
+  const std::size_t count = samples_of(controller);
+  while (run.samples.size() < count) {
     const auto apply = [&](const Vector<S>& u) { applied = in_target(controller.target, simulate::as_doubles(u)); };
     const auto measure = [&](const Vector<S>& u) {
       if (controller.is_predictor) apply(u);
