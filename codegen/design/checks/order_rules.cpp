@@ -104,7 +104,6 @@ std::vector<Rule> rules_of_compensator(const Problem& problem) {
           {kalman.spike && std::isfinite(*kalman.spike), "kalman.spike", "it keeps no covariance to compare outputs with"},
           {kalman.output_min.size() > 0, "kalman.output_min", "it has no updates of single outputs"},
           {kalman.output_max.size() > 0, "kalman.output_max", "it has no updates of single outputs"},
-          {problem.code.updates == Updates::each, "code.updates", "it has no updates of single outputs"},
           {problem.code.style == Style::compact, "code.style", "the library's loops are of a filter and a law"},
           {!problem.regulator->track.empty(), "lqr.track", "its law follows no reference"}};
 }

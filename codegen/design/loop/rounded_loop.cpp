@@ -94,7 +94,9 @@ void check_cost(const SampledStage& last, const Compensator& controller, const S
                     "the cost of the loop with the numbers rounded to " + name_of(last.problem.code.real) +
                         " is not known: its poles are too near to the unit circle");
   rounded.cost_per_sample = to_double(cost->per_sample);
-  const double ratio = *rounded.cost_per_sample / *solution.loop.cost_per_sample;
+  const bool is_white = solution.white && solution.white->cost_nominal;  // the loop here has no white parameters
+  const double exact = is_white ? *solution.white->cost_nominal : *solution.loop.cost_per_sample;
+  const double ratio = *rounded.cost_per_sample / exact;
   if (ratio > 1.01)
     add_note(findings, "code.real",
              "the numbers rounded to " + name_of(last.problem.code.real) + " cost " + short_number(100 * (ratio - 1)) +

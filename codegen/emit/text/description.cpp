@@ -249,7 +249,8 @@ std::string rms_line(const char* what, const std::vector<design::Signal>& signal
 std::string describe_rms(const Controller& controller) {
   if (!controller.solution.loop.rms) return "";
   const design::Rms& rms = *controller.solution.loop.rms;
-  return "\nWith the noises of the design, r = 0 and no limits, root mean squares:\n\n" +
+  const std::string alone = controller.solution.white ? " and without white parameters" : "";
+  return "\nWith the noises of the design" + alone + ", r = 0 and no limits, root mean squares:\n\n" +
          rms_line("x  ", state_signals(controller), rms.x) + rms_line("u  ", controller.problem.plant.inputs, rms.u) +
          rms_line("y  ", controller.problem.plant.outputs, rms.y);
 }

@@ -71,5 +71,38 @@ std::vector<BadDesign> impossible() {
       {"folded form in the library's loops",
        {{33, "", 35}, {40, "style = \"compact\"\nrealisation = \"folded\""}},
        {"41:15: code.realisation: expected \"physical\": the library's loops, style = \"compact\", are of x̂"}},
+      {"compensator beside limits",
+       {{36, "[compensator]\norder = 2\n"}},
+       {"33:1: limits: does not go together with [compensator]: it does not hear of the input that was applied"}},
+      {"compensator of more states than the plant",
+       {{33, "[compensator]\norder = 5\n", 35}},
+       {"34:9: compensator.order: expected 1 to 4, the states of the plant, found 5"}},
+      {"compensator with a gain that changes",
+       {{27, "gain = \"online\""}, {33, "[compensator]\norder = 2\n", 35}},
+       {"27:8: kalman.gain: does not go together with [compensator]: expected \"steady\""}},
+      {"compensator of a continuous cost and of noise between samples",
+       {{20, "cost = \"continuous\""}, {33, "[compensator]\norder = 2\n", 35}},
+       {"26:9: kalman.noise: the continuous compensator counts with densities: expected \"continuous\""}},
+      {"output that always drops out",
+       {{14, "outputs = [\"y1 [m]\", \"y2 [m]\"]\ndropout = [1, 0]"}, {33, "", 35}},
+       {"15:11: plant.dropout: expected a probability from 0 to below 1, found 1 for output 0"}},
+      {"jitter of more than a period",
+       {{14, "outputs = [\"y1 [m]\", \"y2 [m]\"]\njitter = 0.6"}, {33, "", 35}},
+       {"15:10: plant.jitter: expected less than plant.sample_time, 0.5, found 0.6"}},
+      {"uncertainty of nothing",
+       {{33, "[[uncertain]]\nA = [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]\n", 35}},
+       {"…uncertain[0]: expected A, B or C with an entry that is not 0"}},
+      {"plant that no law keeps in bounds in the mean square",
+       {{0,
+         "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [[2]]\nB = [[1]]\n[lqr]\nQ = [1]\n"
+         "R = [1]\n[[uncertain]]\nB = [[0.578]]\n"}},
+       {"…uncertain: expected a plant that can be stabilised in the mean square: whatever the law, its second moments "
+        "grow by a factor of 1.0017 in a sample; less uncertainty may do"}},
+      {"filter alone of a plant whose second moments grow",
+       {{0,
+         "name = \"base\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [[0.9]]\nC = [[1]]\n[kalman]\n"
+         "process_noise = [1]\nmeasurement_noise = [1]\ngain = \"steady\"\n[[uncertain]]\nA = [[0.5]]\n"}},
+       {"…uncertain: expected a plant whose state has bounded second moments, …they grow by a factor of 1.06 in a "
+        "sample"}},
   };
 }

@@ -255,7 +255,7 @@ void test_a_filter_alone_takes_what_the_parameters_move_for_noise() {
   const double P = made["kalman"]["P_prior"][0][0], L = made["kalman"]["L_predictor"][0][0];
   expect_near((0.9 * P + S) / (P + V), L, 1e-13);
   expect_near(0.81 * P + W - (0.9 * P + S) * L, P, 1e-12);
-  const lqg::design::Findings refused = findings_of(with(text, "A = [[0.3", "8"));
+  const lqg::design::Findings refused = findings_of(with(text, "A = [[0.9", "9"));
   TEST_ASSERT_TRUE(has_error(refused));
   TEST_ASSERT_NOT_NULL(strstr(refused.back().message.c_str(), "grow by a factor of"));
 }
