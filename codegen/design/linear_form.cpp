@@ -33,8 +33,8 @@ Solution in_present_digits(const Solution& solution) {
   result.estimator->M = rounded(solution.estimator->M);
   if (!solution.compensator) return result;
   CompensatorSolution& own = result.compensator.emplace(*solution.compensator);
-  for (RealMatrix* a : {&own.A, &own.B, &own.C, &own.D, &own.T, &own.expected, &own.estimate, &own.heard, &own.of_state,
-                        &own.keep})
+  for (RealMatrix* a :
+       {&own.A, &own.B, &own.C, &own.D, &own.T, &own.expected, &own.estimate, &own.heard, &own.of_state, &own.keep})
     *a = rounded(*a);
   return result;
 }

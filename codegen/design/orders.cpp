@@ -44,9 +44,8 @@ std::optional<CostsOfOrders> costs_of_orders(const Problem& problem, Findings& f
   const ProgressScope reporting(progress);
   CostsOfOrders result;
   result.is_per_second = asked.regulator->cost == Cost::continuous;
-  const OrderProblem order = result.is_per_second
-                                 ? continuous_order_problem(asked)
-                                 : order_problem(asked, sample_stages(asked).back().of_loop());
+  const OrderProblem order = result.is_per_second ? continuous_order_problem(asked)
+                                                  : order_problem(asked, sample_stages(asked).back().of_loop());
   const int most = static_cast<int>(order.A.rows());
   const std::vector<OrderedCompensator> found = best_compensators(order, 1, most);
   for (std::size_t i = 0; i < found.size(); ++i)

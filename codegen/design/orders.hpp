@@ -15,12 +15,12 @@ struct CostOfOrder {
   int order = 0;
   std::optional<double> cost;  // empty: no compensator of that order was found that stabilises the plant
   int starts = 0, reached = 0;
-  bool is_unstable = false;    // by itself
+  bool is_unstable = false;  // by itself
 };
 
 struct CostsOfOrders {
-  bool is_per_second = false;          // of a continuous cost
-  std::vector<CostOfOrder> costs;      // of order 1, 2, … to that of the plant
+  bool is_per_second = false;      // of a continuous cost
+  std::vector<CostOfOrder> costs;  // of order 1, 2, … to that of the plant
 };
 
 // Whatever compensator.order is. Needs [lqr] and [kalman]; empty, with errors in `findings`, where the problem is none

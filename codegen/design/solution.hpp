@@ -58,7 +58,8 @@ struct WhiteReport {
   std::optional<double> cost_nominal;  // per sample (second), of this design where no parameter is random
   RealMatrix K_unaware;                // of a regulator alone: its gain without white parameters
   Margins margins_unaware;             // at the plant's inputs, likewise
-  double growth = 0, growth_unaware = 0;  // of the second moments in a sample, of this design and of that; < 1: they settle
+  double growth = 0,
+         growth_unaware = 0;  // of the second moments in a sample, of this design and of that; < 1: they settle
   std::optional<double> cost_unaware;  // of that design under the white parameters; empty: without bound
 };
 
@@ -77,7 +78,8 @@ struct CompensatorSolution {
   Real cost;                                            // a sample; with a continuous cost a second
   int starts = 0, reached = 0;                          // that were tried, that ended in this minimum
   double curvature = 0;                                 // the least one off the orbit beside the largest
-  std::optional<double> full_cost;  // of LQG, whose order is that of the plant, without white parameters: no cost is less
+  std::optional<double>
+      full_cost;  // of LQG, whose order is that of the plant, without white parameters: no cost is less
   std::optional<double> held_cost_per_second;  // of a continuous cost: with u held and y sampled, as it is emitted
 };
 
@@ -206,8 +208,8 @@ struct Solution {
   std::vector<StageSolution> stages;           // by rising `from`
   // In place of regulator and estimator, which are then those of LQG without white parameters, to compare with.
   std::optional<CompensatorSolution> compensator;
-  std::optional<WhiteReport> white;  // with white parameters and a regulator
-  std::optional<LimitedRows> foreseen;         // with limits that are foreseen
+  std::optional<WhiteReport> white;     // with white parameters and a regulator
+  std::optional<LimitedRows> foreseen;  // with limits that are foreseen
   LoopSolution loop;
   Numerics numerics;
 };

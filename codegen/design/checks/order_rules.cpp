@@ -28,17 +28,20 @@ void check_jitter(const Problem& problem, Findings& findings) {
   const Plant& plant = problem.plant;
   if (plant.jitter == 0) return;
   if (plant.domain == Domain::discrete)
-    add_error(findings, "plant.jitter", "needs plant.domain = \"continuous\": what a period does to the samples of a "
-                                        "discrete plant is not known; say it as [[uncertain]]");
+    add_error(findings, "plant.jitter",
+              "needs plant.domain = \"continuous\": what a period does to the samples of a "
+              "discrete plant is not known; say it as [[uncertain]]");
   if (plant.delay > 0)
-    add_error(findings, "plant.jitter", "needs a plant without plant.delay: expected none of the two, or the sum of "
-                                        "their effects as [[uncertain]]");
+    add_error(findings, "plant.jitter",
+              "needs a plant without plant.delay: expected none of the two, or the sum of "
+              "their effects as [[uncertain]]");
   if (plant.jitter >= plant.sample_time)
     add_error(findings, "plant.jitter",
               "expected less than plant.sample_time, " + short_number(plant.sample_time) + ", found " +
                   short_number(plant.jitter));
   if (!problem.regulator && plant.B.cols() > 0)
-    add_error(findings, "plant.jitter", "needs [lqr] where the plant has inputs: what u adds is not known without a law");
+    add_error(findings, "plant.jitter",
+              "needs [lqr] where the plant has inputs: what u adds is not known without a law");
 }
 
 void check_table(const Problem& problem, std::size_t i, Findings& findings) {
@@ -72,9 +75,10 @@ void check_rules(const std::vector<Rule>& rules, const std::string& what, Findin
 }
 
 std::vector<Rule> rules_of_any(const Problem& problem) {
-  return {{!problem.stages.empty(), "stage", "the optimum is one of a plant that does not change"},
-          {problem.regulator && problem.regulator->poles, "pole_placement", "it has a cost to minimise, expected [lqr]"},
-          {problem.estimator && problem.estimator->poles, "observer", "it counts with noises, expected [kalman]"}};
+  return {
+      {!problem.stages.empty(), "stage", "the optimum is one of a plant that does not change"},
+      {problem.regulator && problem.regulator->poles, "pole_placement", "it has a cost to minimise, expected [lqr]"},
+      {problem.estimator && problem.estimator->poles, "observer", "it counts with noises, expected [kalman]"}};
 }
 
 std::vector<Rule> rules_of_regulator(const Problem& problem) {
@@ -99,20 +103,20 @@ std::vector<Rule> rules_of_estimator(const Problem& problem) {
 
 std::vector<Rule> rules_of_compensator(const Problem& problem) {
   const Estimator& kalman = *problem.estimator;
-  return {{problem.limits.has_value(), "limits", "it does not hear of the input that was applied"},
-          {kalman.gate > 0, "kalman.gate", "it keeps no covariance to compare outputs with"},
-          {kalman.spike && std::isfinite(*kalman.spike), "kalman.spike", "it keeps no covariance to compare outputs with"},
-          {kalman.output_min.size() > 0, "kalman.output_min", "it has no updates of single outputs"},
-          {kalman.output_max.size() > 0, "kalman.output_max", "it has no updates of single outputs"},
-          {problem.code.style == Style::compact, "code.style", "the library's loops are of a filter and a law"},
-          {!problem.regulator->track.empty(), "lqr.track", "its law follows no reference"}};
+  return {
+      {problem.limits.has_value(), "limits", "it does not hear of the input that was applied"},
+      {kalman.gate > 0, "kalman.gate", "it keeps no covariance to compare outputs with"},
+      {kalman.spike && std::isfinite(*kalman.spike), "kalman.spike", "it keeps no covariance to compare outputs with"},
+      {kalman.output_min.size() > 0, "kalman.output_min", "it has no updates of single outputs"},
+      {kalman.output_max.size() > 0, "kalman.output_max", "it has no updates of single outputs"},
+      {problem.code.style == Style::compact, "code.style", "the library's loops are of a filter and a law"},
+      {!problem.regulator->track.empty(), "lqr.track", "its law follows no reference"}};
 }
 
 // Noise of the outputs that the integral of the cost meets again.
 bool answers_noise_of_period(const Problem& problem) {
   return problem.plant.domain == Domain::continuous && problem.regulator->cost == Cost::sampled &&
-         problem.estimator->form == Form::filter &&
-         (!problem.plant.H.isZero(0) || !problem.estimator->Swv.isZero(0));
+         problem.estimator->form == Form::filter && (!problem.plant.H.isZero(0) || !problem.estimator->Swv.isZero(0));
 }
 
 void check_continuous(const Problem& problem, Findings& findings) {

@@ -68,8 +68,7 @@ std::optional<Moments> moments_of(const OrderProblem& problem, const MeasuredPla
   const WhiteLoop white = white_loop(problem, plant, controller);
   const Index nx = plant.A.rows(), all = white.V.rows();
   const RealMatrix u = beside(multiply(controller.D, plant.C), controller.C);
-  RealMatrix cost =
-      transpose_congruence(above(identity(all).topRows(nx), u), joint(problem.Q, problem.N, problem.R));
+  RealMatrix cost = transpose_congruence(above(identity(all).topRows(nx), u), joint(problem.Q, problem.N, problem.R));
   std::vector<RealMatrix> back;
   for (const RealMatrix& Phi : white.Phi) back.push_back(Phi.transpose());
   for (const WhiteParameter& parameter : problem.white)
@@ -119,8 +118,7 @@ std::optional<CompensatorForm> in_estimates(const OrderProblem& problem, const M
   const RealMatrix Px = P.topLeftCorner(nx, nx);
   const RealMatrix error = symmetric_part(Px - congruence(*T, P.bottomRightCorner(n, n)));
   const auto A = divided(multiply(form.to, controller.A), form.to), C = divided(controller.C, form.to),
-             told = divided(*T, form.to), of_state = from_state(moments->S, *T, nx),
-             L = correction(problem, Px, error);
+             told = divided(*T, form.to), of_state = from_state(moments->S, *T, nx), L = correction(problem, Px, error);
   if (!A || !C || !told || !of_state || !L) return std::nullopt;
   form.controller = {*A, multiply(form.to, controller.B), *C, controller.D, n, 0};
   form.T = estimated_states(*told, form.estimates);

@@ -21,14 +21,14 @@ struct DesignRun {
   RealMatrix filter_riccati;                                          // the solution that the steady gain is made of
   std::optional<EstimatorSolution> full_filter;                       // without the structure that its gain has
   std::optional<Real> cost_per_sample, cost_per_second;
-  std::optional<OrderedCompensator> ordered;         // as the search left it
-  RealMatrix compensator_form;                       // from its z to that of the solution
-  std::vector<ComplexReal> compensator_poles;        // by itself
-  std::optional<Real> full_cost;                     // of LQG without white parameters, per sample or second
-  RealMatrix unaware_riccati;                        // X of a regulator alone without white parameters
-  bool has_steady_loop = false;  // stable, with margins
-  Findings findings;             // with an error: the rest is not complete
-  bool may_want_digits = false;  // the error may be one of too few digits
+  std::optional<OrderedCompensator> ordered;   // as the search left it
+  RealMatrix compensator_form;                 // from its z to that of the solution
+  std::vector<ComplexReal> compensator_poles;  // by itself
+  std::optional<Real> full_cost;               // of LQG without white parameters, per sample or second
+  RealMatrix unaware_riccati;                  // X of a regulator alone without white parameters
+  bool has_steady_loop = false;                // stable, with margins
+  Findings findings;                           // with an error: the rest is not complete
+  bool may_want_digits = false;                // the error may be one of too few digits
 };
 
 // `coarser` is a run with fewer digits and without errors to start from, or null.

@@ -44,17 +44,17 @@ void explain(const Problem& problem, const OrderProblem& order, int states, cons
     case OrderFailure::no_stabilising_compensator:
       return refuse("expected a plant that " + which + " stabilises" +
                     (order.white.empty() ? "" : " in the mean square") + ", and none was found: " +
-                    (order.is_continuous
-                         ? "the best one reached leaves the loop stable only with all poles moved by " +
-                               decimal(std::abs(found.discount)) + " 1/s to the left"
-                         : "the best one reached does so for second moments that are multiplied by " +
-                               decimal(found.discount) + " in each sample") +
+                    (order.is_continuous ? "the best one reached leaves the loop stable only with all poles moved by " +
+                                               decimal(std::abs(found.discount)) + " 1/s to the left"
+                                         : "the best one reached does so for second moments that are multiplied by " +
+                                               decimal(found.discount) + " in each sample") +
                     (order.white.empty() ? "; a larger order may do" : "; less uncertainty may do"));
     case OrderFailure::not_converged:
       result.may_want_digits = true;
       return refuse("the equations of " + which + " did not converge");
     case OrderFailure::not_strict:
-      return refuse(which + " of the least cost is not isolated: another one, or one with fewer states, costs the same");
+      return refuse(which +
+                    " of the least cost is not isolated: another one, or one with fewer states, costs the same");
   }
 }
 
@@ -172,7 +172,8 @@ void add_noise_of_white_parameters(const Problem& problem, Samples& samples, Fin
                      "grow by a factor of " +
                          factor(growth) + " in a sample");
   const std::optional<RealMatrix> X = steady_second_moments(Phi, W);
-  if (!X) return add_error(findings, key_of(problem), "the second moments of the state are too near to having no bound");
+  if (!X)
+    return add_error(findings, key_of(problem), "the second moments of the state are too near to having no bound");
   for (const WhiteParameter& white : parameters) {
     W += congruence(white.A, *X);
     Swv += multiply(white.A, multiply_transpose(*X, white.C));

@@ -122,8 +122,8 @@ WhiteLoop white_loop(const OrderProblem& problem, const MeasuredPlant& plant, co
   for (const WhiteParameter& white : problem.white) {
     const RealMatrix of_B = multiply(white.B, beside(multiply(controller.D, plant.C), controller.C));
     const RealMatrix of_C = multiply(plant.B, multiply(controller.D, white.C));
-    result.Phi.push_back(above(beside(white.A + of_C, zeros(nx, ns)) + of_B,
-                               beside(multiply(controller.B, white.C), zeros(ns, ns))));
+    result.Phi.push_back(
+        above(beside(white.A + of_C, zeros(nx, ns)) + of_B, beside(multiply(controller.B, white.C), zeros(ns, ns))));
     result.V += padded(congruence(multiply(white.B, controller.D), problem.V), nx + ns, nx + ns);
   }
   return result;

@@ -81,8 +81,9 @@ void add_transfers(const Controller& controller, std::vector<Entry>& out) {
     out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "x̂ of the z that the filter keeps"});
   if (has_filter && controller.has.regulator && !controller.linear)
     out.push_back({"in manual mode", "{name}_predict(&loop, u)", "after update, with the manual u; no control"});
-  if (has_filter) out.push_back({"the state is known", "{name}_set_state(&loop, x)",
-                                  controller.linear ? "between advance and control" : "between predict and update"});
+  if (has_filter)
+    out.push_back({"the state is known", "{name}_set_state(&loop, x)",
+                   controller.linear ? "between advance and control" : "between predict and update"});
   if (!controller.linear && can_set_input(controller))
     out.push_back({controller.has.regulator ? "manual to automatic" : "the input is known",
                    has_filter ? "{name}_set_input(&loop, u)" : "{name}_set_input(&loop, x, u)",
@@ -103,7 +104,8 @@ std::string table_of_contents(const Controller& controller, const std::string& f
   add_transfers(controller, entries);
   if (functions.find("LQG_STATE_RESET") != std::string::npos)
     add({{"after LQG_STATE_RESET", "the same calls as before",
-          std::string(controller.solution.compensator ? "z is that of init" : "x̂ is that of init") + (controller.size.nr ? ", r is kept" : "")}});
+          std::string(controller.solution.compensator ? "z is that of init" : "x̂ is that of init") +
+              (controller.size.nr ? ", r is kept" : "")}});
   std::size_t when = 0, call = 0;
   for (Entry& entry : entries) {
     entry.call = fill(entry.call, common_words(controller));

@@ -15,11 +15,11 @@ bool is_steady(const Controller& controller) { return controller.filter == step:
 
 std::string init_function(const Controller& controller, const FunctionBodies& bodies) {
   std::string begin = controller.solution.compensator ? "z of x = x0"
-                      : controller.linear        ? "z of x̂ = x0"
-                      : !controller.has.filter ? ""
-                      : is_steady(controller)  ? "x̂ = x0"
-                      : controller.modal       ? "z and P of x̂ = x0, its covariance P0"
-                                               : "x̂ = x0, its covariance P = P0";
+                      : controller.linear             ? "z of x̂ = x0"
+                      : !controller.has.filter        ? ""
+                      : is_steady(controller)         ? "x̂ = x0"
+                      : controller.modal              ? "z and P of x̂ = x0, its covariance P0"
+                                                      : "x̂ = x0, its covariance P = P0";
   const auto add = [&](bool is_kept, const char* what) {
     if (is_kept) begin += (begin.empty() ? "" : ", ") + std::string(what);
   };

@@ -42,8 +42,8 @@ struct Beginning {
 
 bool is_known(const Controller& controller) {
   const auto& estimator = controller.problem.estimator;
-  return controller.has.filter && !controller.solution.compensator && design::has_noise(estimator) && controller.solution.noise &&
-         controller.problem.stages.empty() && estimator->P0.size() > 0;
+  return controller.has.filter && !controller.solution.compensator && design::has_noise(estimator) &&
+         controller.solution.noise && controller.problem.stages.empty() && estimator->P0.size() > 0;
 }
 
 const design::RealMatrix& row_of(const std::vector<design::RealMatrix>& table, const design::RealMatrix& last,

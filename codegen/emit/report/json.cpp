@@ -285,8 +285,7 @@ void add_optimum(const Controller& controller, Json& out) {
   out["poles"] = poles(own.poles);
   out["P"] = rows(own.P);
   if (own.A_continuous.size() > 0) {
-    out["continuous"] = {
-        {"A", rows(own.A_continuous)}, {"B", rows(own.B_continuous)}, {"C", rows(own.C_continuous)}};
+    out["continuous"] = {{"A", rows(own.A_continuous)}, {"B", rows(own.B_continuous)}, {"C", rows(own.C_continuous)}};
     add(out, "held_cost_per_second", own.held_cost_per_second);
   }
   out["starts"] = own.starts;

@@ -29,9 +29,7 @@ std::string poles_in_words(const design::Poles& poles) {
   return out;
 }
 
-bool is_continuous(const Controller& controller) {
-  return controller.solution.compensator->A_continuous.size() > 0;
-}
+bool is_continuous(const Controller& controller) { return controller.solution.compensator->A_continuous.size() > 0; }
 
 std::string count_of(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -97,20 +95,21 @@ Facts facts_of_white(const Controller& controller) {
   if (!controller.solution.white) return {};
   const design::WhiteReport& white = *controller.solution.white;
   Facts facts = {{"second moments", growth_in_words(white.growth)}};
-  if (white.cost_nominal) facts.push_back({"cost where nothing is random", decimal(*white.cost_nominal) + " per sample"});
+  if (white.cost_nominal)
+    facts.push_back({"cost where nothing is random", decimal(*white.cost_nominal) + " per sample"});
   facts.push_back({"margins", margins_in_words(controller.solution.loop.at_input)});
   facts.push_back({"unaware design, second moments", growth_in_words(white.growth_unaware)});
   if (controller.solution.compensator)
-    facts.push_back({"unaware design, cost",
-                     white.cost_unaware ? decimal(*white.cost_unaware) + " per sample" : "without bound"});
+    facts.push_back(
+        {"unaware design, cost", white.cost_unaware ? decimal(*white.cost_unaware) + " per sample" : "without bound"});
   facts.push_back({"unaware design, margins", margins_in_words(white.margins_unaware)});
   return facts;
 }
 
 std::string describe_optimum(const Controller& controller) {
   if (!controller.solution.compensator) return "";
-  return "\nCompensator of " + count_of(static_cast<int>(controller.solution.compensator->A.rows()), "state") + ":\n\n" +
-         lines_of(facts_of_optimum(controller));
+  return "\nCompensator of " + count_of(static_cast<int>(controller.solution.compensator->A.rows()), "state") +
+         ":\n\n" + lines_of(facts_of_optimum(controller));
 }
 
 std::string describe_white(const Controller& controller) {
@@ -131,8 +130,8 @@ std::string describe_compensator(const Controller& controller) {
   out += matrix_lines("A", form.A, is_double) + matrix_lines("B", form.B, is_double) +
          matrix_lines("C", form.C, is_double);
   if (!predicts) out += matrix_lines("D", form.D, is_double);
-  out += std::string("  x̂ = X z") + (predicts ? "" : " + Y y") +
-         ": the best linear estimate of the states that z " + (predicts ? "allows" : "and y allow") + "\n";
+  out += std::string("  x̂ = X z") + (predicts ? "" : " + Y y") + ": the best linear estimate of the states that z " +
+         (predicts ? "allows" : "and y allow") + "\n";
   out += matrix_lines("X", form.estimate, is_double);
   if (!predicts) out += matrix_lines("Y", form.heard, is_double);
   out += "\nIt is made for these covariances per sample:\n\n" +

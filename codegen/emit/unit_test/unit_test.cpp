@@ -50,8 +50,8 @@ std::string data(const Controller& controller, const Vectors& vectors) {
     out += std::string("\n/* What the reference says: the estimate ") +
            (controller.solution.compensator ? "that z and y allow"
             : controller.linear             ? "of which u is made"
-                                            : "after update") + " … */\n" +
-           table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
+                                            : "after update") +
+           " … */\n" + table("x_out", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.x; });
   } else {
     out +=
         "/* States. */\n" + table("x_in", vectors.samples, 1, is_double, [](const Sample& sample) { return sample.y; });
