@@ -44,10 +44,11 @@ void explain(const Problem& problem, const OrderProblem& order, int states, cons
     case OrderFailure::no_stabilising_compensator:
       return refuse("expected a plant that " + which + " stabilises" +
                     (order.white.empty() ? "" : " in the mean square") + ", and none was found: " +
-                    (order.is_continuous ? "the best one reached leaves the loop stable only with all poles moved by " +
-                                               decimal(std::abs(found.discount)) + " 1/s to the left"
-                                         : "the best one reached does so for second moments that are multiplied by " +
-                                               decimal(found.discount) + " in each sample") +
+                    (order.is_continuous
+                         ? "the best one reached leaves the loop stable only with all poles moved by " +
+                               decimal(std::abs(found.discount)) + " 1/s to the left"
+                         : "the best one reached does so where each sample multiplies second moments by " +
+                               decimal(found.discount)) +
                     (order.white.empty() ? "; a larger order may do" : "; less uncertainty may do"));
     case OrderFailure::not_converged:
       result.may_want_digits = true;

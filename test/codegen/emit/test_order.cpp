@@ -2,6 +2,7 @@
 // Compensators of a given order and designs under white parameters: what is emitted passes its own test, NAME.json says
 // what an independent text in double finds, and the emitted C costs what it says.
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -217,16 +218,50 @@ void test_a_lost_packet_in_ten_is_part_of_the_optimum() {
   }
 }
 
-const char* scalar_plant =
-    "name = \"gain\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [[2]]\nB = [[1]]\n[lqr]\nQ = [1]\nR = [1]\n"
-    "[[uncertain]]\nB = [[";
-
 lqg::design::Findings findings_of(const std::string& text) {
   lqg::input::DesignFile file = lqg::input::parse_design(text);
   lqg::design::Findings findings = file.findings;
   if (file.problem) (void)lqg::design::solve(*file.problem, findings);
   return findings;
 }
+
+// x⁺ = [1 T + δ; 0 1] x + [(T + δ)²/2; T + δ] u:  A₁ = σ [0 1; 0 0], B₁ = σ [T; 1].
+void test_jitter_moves_the_period_of_a_double_integrator() {
+  const std::string text =
+      "name = \"late\"\n[plant]\ndomain = \"continuous\"\nsample_time = 0.5\nA = [[0, 1], [0, 0]]\nB = [[0], [1]]\n"
+      "C = [[1, 0]]\njitter = 0.1\n[lqr]\nQ = [1, 1]\nR = [1]\n[kalman]\nprocess_noise = [0.1, 0.1]\n"
+      "measurement_noise = [0.1]\nform = \"filter\"\ngain = \"steady\"\n";
+  const json made = json_of(text);
+  Loop loop(made);
+  loop.white = {
+      {(MatrixXd(2, 2) << 0, 0.1, 0, 0).finished(), (MatrixXd(2, 1) << 0.05, 0.1).finished(), MatrixXd::Zero(1, 2)}};
+  expect_near(made["loop"]["cost_per_sample"], loop.cost(), 1e-12);
+  TEST_ASSERT_TRUE(made["uncertain"]["unaware"]["cost_per_sample"] > made["loop"]["cost_per_sample"]);
+}
+
+// One state for a plant with poles at −1.79, 1.60 and 0.22; the search finds an optimum whose own pole is at −2.37.
+void test_a_compensator_that_is_unstable_by_itself_is_emitted() {
+  DesignText design = two_springs("predictor");
+  design.name = "unstable";
+  design.A = (MatrixXd(3, 3) << -0.9430734009845374, -0.9185285446326413, 0.5355751315087757, -1.835128075705529,
+              -0.11470707064037514, -1.8048618139166934, 0.880777277059487, 0.16231848940201815, 1.0850527894392437)
+                 .finished();
+  design.B = (MatrixXd(3, 1) << -0.5041825699791492, 0.39819491214293934, -0.28587736278104525).finished();
+  design.C = (MatrixXd(1, 3) << -0.7383269512797096, 0.14532433504702602, -1.2572075323652374).finished();
+  design.Q = design.W = MatrixXd::Identity(3, 3);
+  design.R = design.V = MatrixXd::Identity(1, 1);
+  const Controller controller = controller_of(of_order(design, 1));
+  TEST_ASSERT_TRUE(std::abs(controller.solution.compensator->poles.front()) > 1);
+  expect_emitted_to_pass(controller, {Language::c});
+  const lqg::design::Findings notes = findings_of(of_order(design, 1));
+  TEST_ASSERT_TRUE(std::any_of(notes.begin(), notes.end(), [](const lqg::design::Finding& note) {
+    return strstr(note.message.c_str(), "the compensator by itself is unstable") != nullptr;
+  }));
+}
+
+const char* scalar_plant =
+    "name = \"gain\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [[2]]\nB = [[1]]\n[lqr]\nQ = [1]\nR = [1]\n"
+    "[[uncertain]]\nB = [[";
 
 // M. Athans, R. Ku, S. Gershwin, "The uncertainty threshold principle", IEEE Transactions on Automatic Control 22
 // (1977), 491-495: x⁺ = 2 x + (1 + σγ) u has an optimal law for ever where 4 σ²/(1 + σ²) < 1: σ < 1/√3.
@@ -353,6 +388,8 @@ int main(void) {
   RUN_TEST(test_cost_is_that_of_the_loop_and_falls_with_the_order);
   RUN_TEST(test_T_is_the_best_linear_estimate);
   RUN_TEST(test_a_lost_packet_in_ten_is_part_of_the_optimum);
+  RUN_TEST(test_jitter_moves_the_period_of_a_double_integrator);
+  RUN_TEST(test_a_compensator_that_is_unstable_by_itself_is_emitted);
   RUN_TEST(test_the_uncertainty_threshold_on_both_sides);
   RUN_TEST(test_a_filter_alone_takes_what_the_parameters_move_for_noise);
   RUN_TEST(test_the_full_order_of_a_continuous_cost_is_lqg);

@@ -8,10 +8,10 @@ class Kind:
     def __init__(self, result):
         plant = result.plant
         self.has_filter = "kalman" in result
-        self.is_estimator = "lqr" not in result
+        self.is_estimator = "lqr" not in result and "compensator" not in result
         self.is_predictor = self.has_filter and result.kalman.form == "predictor"
         self.states = len(plant.A)
         self.inputs = len(plant.inputs)
         self.measured = "y" if self.has_filter else "x"
         self.measured_size = len(plant.C) if self.has_filter else self.states
-        self.references = 0 if self.is_estimator else len(result.lqr.get("references", []))
+        self.references = len(result.lqr.get("references", [])) if "lqr" in result else 0

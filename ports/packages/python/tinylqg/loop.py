@@ -59,10 +59,13 @@ def controller(design, references):
         e = y − C x̂ − D u,  u = −K [x̂ + L e; ξ; u[k−1]] + Nbar r  (a Δu with input_rate),
         x̂ ← A x̂ + B u + L_predictor e,  ξ ← ξ + T (r − y)
 
-    In the predictor form u is made of x̂ alone and e of that u; in the filter form e is made of u[k−1].
+    In the predictor form u is made of x̂ alone and e of that u; in the filter form e is made of u[k−1]. Of a compensator
+    of a given order s is the z that it keeps.
     """
     import numpy
 
+    if "order" in design.get("compensator", {}):
+        return of_given_order(design)
     if "lqr" not in design:
         raise DesignError(f"{design.name}: expected a design with a control law, found an estimator alone")
     if "kalman" in design and "L" not in design.kalman:
@@ -76,6 +79,16 @@ def controller(design, references):
     if shape.estimates:
         rows.insert(0, plant.A @ shape.estimate + plant.B @ u + design.kalman.L_predictor @ e)
     return shape.system(numpy.vstack(rows), u), shape.names
+
+
+def of_given_order(design):
+    own, table = design.compensator, design.plant
+    names = {
+        "states": [f"z{i}" for i in range(len(own.A))],
+        "inputs": list(table.outputs),
+        "outputs": list(table.inputs),
+    }
+    return (own.A, own.B, own.C, own.D), names
 
 
 class Shape:

@@ -84,7 +84,7 @@ def draw_state(i, axes, run, design):
 def loops(design):
     """Frequencies, and for each input its name and its loop."""
     result = design.solve()
-    if "lqr" not in result:
+    if "lqr" not in result and "compensator" not in result:
         raise DesignError(f"{design.name}: expected a design with a control law, found an estimator alone")
     w = frequencies(result)
     return w, list(zip(result.plant.inputs, one_at_a_time(loop_gain(result, w)).T))
