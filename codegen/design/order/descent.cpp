@@ -159,8 +159,8 @@ Point descend(const Family& family, Point point, int most, double least_gain) {
 }
 
 Continued continued(const Family& family, const Matrix<double>& start) {
-  const int most_steps = 300, few_steps = 12, most_stages = 60;
-  const double settled = 1e-14, rough = 1e-5;
+  const int most_steps = 300, few_steps = 12, many_steps = 100, most_stages = 60;
+  const double settled = 1e-14, rough = 1e-5, fine = 1e-10;
   Continued result;
   result.Theta = start;
   const double unit = family.is_continuous ? 1e-3 * std::max(1e-12, family.terms.front().fixed.cwiseAbs().maxCoeff()) : 1e-3;
@@ -173,10 +173,12 @@ Continued continued(const Family& family, const Matrix<double>& start) {
   result.ease = ease;
   for (int stage = 0; point.is_stable && ease > 0 && stage < most_stages; ++stage) {
     const Family easier = eased(family, ease);
-    point = descend(easier, point, few_steps, rough);
-    result.ease = ease;
-    result.Theta = point.Theta;
-    point = less_eased(family, point.Theta, ease, ease);
+    const Point near = descend(easier, point, few_steps, rough);
+    const double reached = ease;
+    point = less_eased(family, near.Theta, reached, ease);
+    if (!point.is_stable) point = less_eased(family, descend(easier, near, many_steps, fine).Theta, reached, ease);
+    result.ease = reached;
+    result.Theta = near.Theta;
   }
   if (!point.is_stable || ease > 0) return result;
   result.point = descend(family, point, most_steps, settled);
