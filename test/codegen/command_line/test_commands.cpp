@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 #include <unity.h>
 
@@ -68,6 +69,32 @@ void test_new_is_the_shipped_design_but_for_its_name() {
   const std::size_t at = arm.find("\"arm\"");
   TEST_ASSERT_TRUE(at != std::string::npos);
   TEST_ASSERT_EQUAL_STRING(servo.c_str(), arm.replace(at, 5, "\"servo\"").c_str());
+}
+
+// A line for each order; the last one is LQG. Limits have no place there.
+void test_orders_prints_what_each_state_is_worth_and_writes_nothing() {
+  std::string text = read_file(folder / "base.toml");
+  text.erase(text.find("[limits]"), text.find("[code]") - text.find("[limits]"));
+  write_file(folder / "free.toml", text);
+  const Snapshot before = snapshot(folder);
+  const Outcome outcome = run_lqgen({"--orders", "free.toml"});
+  TEST_ASSERT_EQUAL_INT_MESSAGE(written, outcome.status, outcome.err.c_str());
+  TEST_ASSERT_TRUE(before == snapshot(folder));
+  std::istringstream lines(outcome.out);
+  std::string line, last;
+  TEST_ASSERT_TRUE(std::getline(lines, line) && line.rfind("order cost a sample    above full", 0) == 0);
+  double least = 1e300;
+  for (int order = 1; std::getline(lines, line); ++order) {
+    int found = 0;
+    double cost = 0;
+    TEST_ASSERT_TRUE(sscanf(line.c_str(), "%d %lf", &found, &cost) == 2 && found == order && cost < least);
+    least = cost, last = line;
+  }
+  TEST_ASSERT_TRUE_MESSAGE(last.rfind("    4", 0) == 0 && last.find(" 0.00 %") != last.npos, last.c_str());
+  expect_refusal(impossible,
+                 "base.toml:33:1: limits: does not go together with [compensator]: it does not hear of the "
+                 "input that was applied",
+                 {"--orders", "base.toml"});
 }
 
 void test_new_never_writes_over_a_file() {
@@ -193,6 +220,7 @@ int main(int, char** arguments) {
   RUN_TEST(test_new_alone_lists_what_there_is);
   RUN_TEST(test_what_every_starter_writes_designs_at_once);
   RUN_TEST(test_new_is_the_shipped_design_but_for_its_name);
+  RUN_TEST(test_orders_prints_what_each_state_is_worth_and_writes_nothing);
   RUN_TEST(test_new_never_writes_over_a_file);
   RUN_TEST(test_new_where_nothing_can_be_written);
   RUN_TEST(test_new_refuses_what_no_header_can_be_called);
