@@ -108,7 +108,7 @@ DesignRun run_design(const Problem& problem, const DesignRun* coarser) {
   if (has_error(result.findings)) return result;
   if (is_of_given_order(problem)) run_compensator(problem, stages.back().of_loop(), coarser, result);
   if (has_error(result.findings)) return result;
-  result.has_steady_loop = has_steady_loop(problem, result);
+  result.has_steady_loop = result.ordered || has_steady_loop(problem, result);
   take_loop_poles(problem, result);
   if (!result.has_steady_loop || !has_cost(problem.regulator) || !has_noise(problem.estimator)) return result;
   if (result.ordered) return result;

@@ -83,6 +83,13 @@ std::vector<BadDesign> impossible() {
       {"compensator of a continuous cost and of noise between samples",
        {{20, "cost = \"continuous\""}, {33, "[compensator]\norder = 2\n", 35}},
        {"26:9: kalman.noise: the continuous compensator counts with densities: expected \"continuous\""}},
+      {"continuous compensator that is too fast for the samples",
+       {{0,
+         "name = \"base\"\n[plant]\ndomain = \"continuous\"\nsample_time = 2\nA = [[0, 1], [2, 0]]\nB = [[0], [1]]\n"
+         "C = [[1, 0]]\n[lqr]\nQ = [1, 1]\nR = [1]\ncost = \"continuous\"\n[kalman]\nprocess_noise = [1, 1]\n"
+         "measurement_noise = [0.1]\ngain = \"steady\"\n[compensator]\norder = 2\n"}},
+       {"11:8: lqr.cost: the continuous compensator, sampled exactly, does not stabilise the sampled plant: expected a "
+        "shorter plant.sample_time, or \"sampled\""}},
       {"output that always drops out",
        {{14, "outputs = [\"y1 [m]\", \"y2 [m]\"]\ndropout = [1, 0]"}, {33, "", 35}},
        {"15:11: plant.dropout: expected a probability from 0 to below 1, found 1 for output 0"}},
