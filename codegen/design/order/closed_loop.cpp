@@ -219,8 +219,7 @@ Matrix<T> gradient_of(const LoopFamily<T>& family, const LoopTerms<T>& terms, co
   Matrix<T> sum = Matrix<T>::Zero(family.nu + family.order, family.ny + family.order);
   for (std::size_t t = 0; t < terms.tilde.size(); ++t) {
     const Matrix<T> middle = weights * terms.tilde[t] * moments;
-    for (const auto& product : family.terms[t].products)
-      sum += product.L.transpose() * middle * product.R.transpose();
+    for (const auto& product : family.terms[t].products) sum += product.L.transpose() * middle * product.R.transpose();
   }
   return packed<T>(family, T(2) * sum);
 }
@@ -355,17 +354,17 @@ Matrix<double> orbit_tangents(const LoopFamily<double>& family, const Matrix<dou
   return tangents;
 }
 
-#define LQG_ORDER_INSTANCES(T)                                                                                    \
-  template LoopFamily<T> loop_family(const OrderProblem&, Index);                                                 \
-  template Matrix<T> packed(const LoopFamily<T>&, const Matrix<T>&);                                              \
-  template Matrix<T> unpacked(const LoopFamily<T>&, const Matrix<T>&);                                            \
-  template LoopTerms<T> terms_at(const LoopFamily<T>&, const Matrix<T>&);                                         \
-  template Matrix<T> moments_added(const LoopFamily<T>&, const LoopTerms<T>&);                                    \
-  template Matrix<T> duals_added(const LoopFamily<T>&, const LoopTerms<T>&);                                      \
-  template T cost_of(const LoopFamily<T>&, const LoopTerms<T>&, const Matrix<T>&);                                \
+#define LQG_ORDER_INSTANCES(T)                                                                                   \
+  template LoopFamily<T> loop_family(const OrderProblem&, Index);                                                \
+  template Matrix<T> packed(const LoopFamily<T>&, const Matrix<T>&);                                             \
+  template Matrix<T> unpacked(const LoopFamily<T>&, const Matrix<T>&);                                           \
+  template LoopTerms<T> terms_at(const LoopFamily<T>&, const Matrix<T>&);                                        \
+  template Matrix<T> moments_added(const LoopFamily<T>&, const LoopTerms<T>&);                                   \
+  template Matrix<T> duals_added(const LoopFamily<T>&, const LoopTerms<T>&);                                     \
+  template T cost_of(const LoopFamily<T>&, const LoopTerms<T>&, const Matrix<T>&);                               \
   template Matrix<T> gradient_of(const LoopFamily<T>&, const LoopTerms<T>&, const Matrix<T>&, const Matrix<T>&); \
-  template LoopPoint<T> point_at(const LoopFamily<T>&, const Matrix<T>&);                                         \
-  template Matrix<T> gradient(const LoopFamily<T>&, const LoopPoint<T>&);                                         \
+  template LoopPoint<T> point_at(const LoopFamily<T>&, const Matrix<T>&);                                        \
+  template Matrix<T> gradient(const LoopFamily<T>&, const LoopPoint<T>&);                                        \
   template Matrix<T> hessian(const LoopFamily<T>&, const LoopPoint<T>&);
 
 LQG_ORDER_INSTANCES(double)

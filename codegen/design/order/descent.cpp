@@ -163,7 +163,8 @@ Continued continued(const Family& family, const Matrix<double>& start) {
   const double settled = 1e-14, rough = 1e-5, fine = 1e-10;
   Continued result;
   result.Theta = start;
-  const double unit = family.is_continuous ? 1e-3 * std::max(1e-12, family.terms.front().fixed.cwiseAbs().maxCoeff()) : 1e-3;
+  const double unit =
+      family.is_continuous ? 1e-3 * std::max(1e-12, family.terms.front().fixed.cwiseAbs().maxCoeff()) : 1e-3;
   double ease = 0;
   Point point = point_at(family, start);
   for (int k = 0; !point.is_stable && k < most_stages; ++k) {

@@ -24,8 +24,8 @@ Point descend(const Family& family, Point point, int most, double least_gain);
 
 // From any Θ: the problem made so easy that Θ is stable in it, then harder step by step, Θ following its minimum.
 struct Continued {
-  Point point;      // a minimum, where it is stable
-  double ease = 0;  // else: the least ease (see eased) at which there is a compensator
+  Point point;           // a minimum, where it is stable
+  double ease = 0;       // else: the least ease (see eased) at which there is a compensator
   Matrix<double> Theta;  // that one
 };
 Continued continued(const Family& family, const Matrix<double>& Theta);

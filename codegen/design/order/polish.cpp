@@ -39,6 +39,7 @@ struct Chart {
   MomentMap<double> map;
   RealMatrix inverse;
   double curvature = 0;
+  double cost = 0;
 };
 
 void set_inverse(const Matrix<double>& across, const RealMatrix& reduced, Chart& chart) {
@@ -53,6 +54,7 @@ Chart chart_in_doubles(const Family& family, const Matrix<double>& across, const
   const Point point = point_at(family, Theta);
   if (!point.is_stable) return chart;
   chart.map = point.map;
+  chart.cost = point.cost;
   const Digits scope(more_digits);
   set_inverse(across, real(across.transpose() * hessian(family, point) * across), chart);
   return chart;
@@ -73,9 +75,7 @@ Chart chart_in_more_digits(const OrderProblem& problem, const Matrix<double>& ac
 class Polishing {
  public:
   Polishing(const OrderProblem& problem, Index order, const RealMatrix& Theta)
-      : problem_(problem),
-        rough_(loop_family<double>(problem, order)),
-        fine_(loop_family<Real>(problem, order)),
+      : problem_(problem), rough_(loop_family<double>(problem, order)), fine_(loop_family<Real>(problem, order)),
         across_(across_orbit(rough_, to_doubles(Theta))) {
     result_.Theta = Theta;
   }
@@ -104,14 +104,15 @@ bool Polishing::take_chart(bool in_more_digits) {
   chart_ = chart_in_doubles(rough_, across_, to_doubles(result_.Theta));
   if (in_more_digits) chart_ = chart_in_more_digits(problem_, across_, result_.Theta, chart_);
   result_.curvature = chart_.curvature;
+  result_.cost = chart_.cost;  // until a step has a better one
   return chart_.is_usable;
 }
 
 // The largest change of an entry; empty where the moments cannot be solved for.
 std::optional<Real> Polishing::step() {
   const LoopTerms<Real> terms = terms_at(fine_, result_.Theta);
-  const std::optional<RealMatrix> P = refined_moments(chart_.map, terms.Phi, fine_.is_continuous, Side::moments,
-                                                      moments_added(fine_, terms), P_);
+  const std::optional<RealMatrix> P =
+      refined_moments(chart_.map, terms.Phi, fine_.is_continuous, Side::moments, moments_added(fine_, terms), P_);
   const std::optional<RealMatrix> S =
       refined_moments(chart_.map, terms.Phi, fine_.is_continuous, Side::duals, duals_added(fine_, terms), S_);
   if (!P || !S) return std::nullopt;

@@ -13,9 +13,8 @@ namespace {
 const unsigned few_digits = 40;
 
 Eigen::VectorXd powers_of_two(const Eigen::VectorXd& sizes) {
-  return sizes.unaryExpr([](double size) {
-    return size > 0 && std::isfinite(size) ? std::exp2(std::round(std::log2(size))) : 1.0;
-  });
+  return sizes.unaryExpr(
+      [](double size) { return size > 0 && std::isfinite(size) ? std::exp2(std::round(std::log2(size))) : 1.0; });
 }
 
 RealMatrix diagonal(const Eigen::VectorXd& entries) { return real(Eigen::MatrixXd(entries.asDiagonal())); }
@@ -70,8 +69,7 @@ RealMatrix compensator_of(const OrderProblem& problem, const FullOrder& law) {
     const RealMatrix known = *solve(law.innovation, beside(multiply(problem.C, law.filter.X), problem.Swv.transpose()));
     const Index nx = problem.A.rows();
     const RealMatrix force = multiply(law.control.X, known.rightCols(nx).transpose());
-    D = -multiply(K, known.leftCols(nx).transpose()) -
-        *solve(law.control_weight, transpose_multiply(problem.B, force));
+    D = -multiply(K, known.leftCols(nx).transpose()) - *solve(law.control_weight, transpose_multiply(problem.B, force));
   }
   const RealMatrix C = -K - multiply(D, problem.C);
   const RealMatrix A = problem.A - multiply(L, problem.C) + multiply(problem.B, C);
@@ -131,8 +129,8 @@ OrderProblem without_white(OrderProblem problem) {
 
 OrderProblem in_present_digits(const OrderProblem& problem) {
   OrderProblem result = problem;
-  for (RealMatrix* a : {&result.A, &result.B, &result.C, &result.Q, &result.N, &result.R, &result.W, &result.Swv,
-                        &result.V})
+  for (RealMatrix* a :
+       {&result.A, &result.B, &result.C, &result.Q, &result.N, &result.R, &result.W, &result.Swv, &result.V})
     *a = design::in_present_digits(*a);
   for (WhiteParameter& white : result.white)
     white = {design::in_present_digits(white.A), design::in_present_digits(white.B),

@@ -102,8 +102,7 @@ void OrderSearch::start_from_below(const Family& family, OrderMinima& found) {
   Draws draws(static_cast<std::uint64_t>(family.order));
   const int count = draws_for(family);
   for (int k = 0; k < count; ++k) {
-    const Matrix<double>& seed =
-        seeds == 0 ? less.easiest : less.minima[static_cast<std::size_t>(k) % seeds].Theta;
+    const Matrix<double>& seed = seeds == 0 ? less.easiest : less.minima[static_cast<std::size_t>(k) % seeds].Theta;
     try_start(family, with_weak_mode(family, seed, draws), found);
   }
   for (int k = 0; k < count / 2; ++k) try_start(family, drawn(family, draws), found);

@@ -79,8 +79,7 @@ LeastGrowth least_growth(const PlantTerms<double>& terms) {
     }
     std::vector<Matrix<double>> discounted = terms.closed(K);
     for (Matrix<double>& Phi : discounted) Phi *= std::sqrt((1 - margin) / best.growth);
-    const Matrix<double> X =
-        order::MomentMap<double>(discounted, false).solve_dual(Matrix<double>::Identity(nx, nx));
+    const Matrix<double> X = order::MomentMap<double>(discounted, false).solve_dual(Matrix<double>::Identity(nx, nx));
     K = terms.on_inputs(X).completeOrthogonalDecomposition().solve(terms.on_both(X));
   }
   return best;
@@ -106,7 +105,8 @@ WhiteRegulator newton(const OrderProblem& problem, const PlantTerms<Real>& terms
     const RealMatrix weight = problem.R + terms.on_inputs(*next);
     if (!positive_definite(weight)) return result;
     K = *solve(weight, terms.on_both(*next) + problem.N.transpose());
-    const Real change = X.size() > 0 ? Real(largest_entry(*next - X) / (largest_entry(*next) + negligible(1))) : Real(1);
+    const Real change =
+        X.size() > 0 ? Real(largest_entry(*next - X) / (largest_entry(*next) + negligible(1))) : Real(1);
     X = *next;
     if (change < negligible(0.45) || (change < negligible(0.3) && change > before / 2)) {
       result.exists = true;
