@@ -31,8 +31,8 @@ std::vector<WhiteParameter> white_parameters() {
 
 OrderProblem unit_problem(bool is_continuous, const RealMatrix& A, const RealMatrix& B, const RealMatrix& C) {
   const Index nx = A.rows(), nu = B.cols(), ny = C.rows();
-  return {is_continuous, false, A, B, C, identity(nx), zeros(nx, nu), identity(nu), identity(nx), zeros(nx, ny),
-          identity(ny), {}};
+  return {is_continuous, false,        A, B, C, identity(nx), zeros(nx, nu), identity(nu), identity(nx),
+          zeros(nx, ny), identity(ny), {}};
 }
 
 OrderProblem stable_plant(bool is_continuous, Index nx, Index nu, Index ny, std::uint64_t seed) {
@@ -68,16 +68,16 @@ OrderProblem third_order_reference(bool has_feedthrough) {
 }
 
 OrderProblem white_reference(bool has_feedthrough) {
-  OrderProblem problem = unit_problem(false, decimal(2, {"1.05", "0.2", "-0.1", "0.9"}), decimal(2, {"0.1", "1"}),
-                                      decimal(1, {"1", "0"}));
+  OrderProblem problem =
+      unit_problem(false, decimal(2, {"1.05", "0.2", "-0.1", "0.9"}), decimal(2, {"0.1", "1"}), decimal(1, {"1", "0"}));
   problem.has_feedthrough = has_feedthrough;
   problem.white = white_parameters();
   return problem;
 }
 
 OrderProblem moving_reference(bool is_white) {
-  OrderProblem problem = unit_problem(true, decimal(2, {"-0.1", "1", "-1", "0.05"}), decimal(2, {"0", "1"}),
-                                      decimal(1, {"1", "0"}));
+  OrderProblem problem =
+      unit_problem(true, decimal(2, {"-0.1", "1", "-1", "0.05"}), decimal(2, {"0", "1"}), decimal(1, {"1", "0"}));
   if (is_white) problem.white = white_parameters();
   return problem;
 }

@@ -81,14 +81,14 @@ void test_independent_minima_are_found() {
   const std::vector<Reference> references = {
       {"third order plant, order 1", third_order_reference(false), 1, "83.96084355357016684923543", "0",
        "0.08521941542764495054658636", "0.04569267159906815131367927"},
-      {"third order plant, order 2, feed-through", third_order_reference(true), 2, "41.58724338633374874865707", "-0.7954196961437797035575687",
-       "0.6444652998705458577922664", "0.4189161563450251422211464"},
-      {"white, order 1", white_reference(false), 1, "73.1540838622830525040466", "0",
-       "0.003110706375342202513746015", "0.002870658585909402509182155"},
-      {"white, order 1, feed-through", white_reference(true), 1, "21.41487450018938706502728", "-0.5997591879286665453672858",
-       "0.3263265409661512927991841", "0.1445511253643966319460778"},
-      {"white, order 2", white_reference(false), 2, "27.64828030013075486672998", "0",
-       "-0.5311397422060733105204311", "0.2118231127070041984258125"},
+      {"third order plant, order 2, feed-through", third_order_reference(true), 2, "41.58724338633374874865707",
+       "-0.7954196961437797035575687", "0.6444652998705458577922664", "0.4189161563450251422211464"},
+      {"white, order 1", white_reference(false), 1, "73.1540838622830525040466", "0", "0.003110706375342202513746015",
+       "0.002870658585909402509182155"},
+      {"white, order 1, feed-through", white_reference(true), 1, "21.41487450018938706502728",
+       "-0.5997591879286665453672858", "0.3263265409661512927991841", "0.1445511253643966319460778"},
+      {"white, order 2", white_reference(false), 2, "27.64828030013075486672998", "0", "-0.5311397422060733105204311",
+       "0.2118231127070041984258125"},
       {"continuous, order 1", moving_reference(false), 1, "8.286057615828520903496442", "0",
        "0.3970815305134444793458171", "-0.2602135195468177008975144"},
       {"continuous, white, order 2", moving_reference(true), 2, "7.429028169592464436556838", "0",
@@ -104,8 +104,7 @@ void test_full_order_is_the_law_of_separation() {
     const OrderProblem p = stable_plant(is_continuous, 3, 2, 1, 21);
     const auto riccati = is_continuous ? solve_continuous_riccati : solve_discrete_riccati;
     const RealMatrix K = riccati({p.A, p.B, p.Q, p.R, p.N}, RealMatrix()).K;
-    const RealMatrix L =
-        riccati({p.A.transpose(), p.C.transpose(), p.W, p.V, p.Swv}, RealMatrix()).K.transpose();
+    const RealMatrix L = riccati({p.A.transpose(), p.C.transpose(), p.W, p.V, p.Swv}, RealMatrix()).K.transpose();
     const OrderedCompensator found = best_compensator(p, 3);
     TEST_ASSERT_TRUE(found.failure == OrderFailure::none);
     const RealMatrix A = p.A - multiply(p.B, K) - multiply(L, p.C);
@@ -136,7 +135,8 @@ void expect_projection_equations(const OrderProblem& p, const OrderedCompensator
   const RealMatrix Z = congruence(p.A - multiply(p.B, K), Qhat) + gained;
   expect_small(distance(multiply(tau, tau), tau), 1e-33, "the projection");
   expect_small(distance(congruence(tau, Z), Qhat), 1e-33, "the equation of the estimate");
-  expect_small(distance(congruence(p.A, Q) + p.W - gained + congruence(rest, Z), Q), 1e-33, "the equation of the error");
+  expect_small(distance(congruence(p.A, Q) + p.W - gained + congruence(rest, Z), Q), 1e-33,
+               "the equation of the error");
   const RealMatrix paid = transpose_congruence(K, weight);
   const RealMatrix Zdual = transpose_congruence(p.A - multiply(L, p.C), Phat) + paid;
   expect_small(distance(transpose_congruence(tau, Zdual), Phat), 1e-33, "the dual equation of the estimate");

@@ -82,8 +82,7 @@ void test_without_white_parameters_it_is_the_riccati_equation() {
 void test_mode_without_input_grows_by_its_square() {
   const Digits scope(50);
   const RealMatrix A = real((Eigen::MatrixXd(2, 2) << 0.9, 1, 0, 1.2).finished());
-  const OrderProblem problem =
-      unit_problem(false, A, real((Eigen::MatrixXd(2, 1) << 1, 0).finished()), identity(2));
+  const OrderProblem problem = unit_problem(false, A, real((Eigen::MatrixXd(2, 1) << 1, 0).finished()), identity(2));
   const WhiteRegulator regulator = white_regulator(problem);
   TEST_ASSERT_FALSE(regulator.exists);
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.44, regulator.growth);
