@@ -71,9 +71,31 @@ Compensator over_outputs_of_samples(const OrderedCompensator& found, const Measu
   return controller;
 }
 
+bool is_flat(const OrderedCompensator& found) {
+  return found.failure == OrderFailure::not_strict || found.failure == OrderFailure::not_converged;
+}
+
+// Where nobody asked for that order: the largest one whose minimum is isolated, if states beyond it change nothing that
+// can be told.
+OrderedCompensator with_fewer_states(const OrderProblem& order, const OrderedCompensator& full) {
+  const int most = static_cast<int>(order.A.rows());
+  const std::vector<OrderedCompensator> found = best_compensators(order, 1, most - 1);
+  for (auto of = found.rbegin(); of != found.rend(); ++of)
+    if (of->failure == OrderFailure::none) return *of;
+  return full;
+}
+
 OrderedCompensator found_compensator(const Problem& problem, const OrderProblem& order, const DesignRun* coarser) {
   if (coarser && coarser->ordered) return polished_compensator(order, *coarser->ordered);
-  return best_compensator(order, order_of(problem, order));
+  const OrderedCompensator found = best_compensator(order, order_of(problem, order));
+  return !problem.compensator && is_flat(found) ? with_fewer_states(order, found) : found;
+}
+
+void note_fewer_states(const Problem& problem, const OrderProblem& order, Index states, Findings& findings) {
+  if (problem.compensator || states == order.A.rows()) return;
+  add_note(findings, key_of(problem),
+           "the compensator has " + std::to_string(states) + " states, not " + std::to_string(order.A.rows()) +
+               ": with more of them the cost is too flat for a minimum that can be told from its neighbours");
 }
 
 void note_unstable(const std::vector<ComplexReal>& poles, Findings& findings) {
@@ -190,6 +212,7 @@ void run_compensator(const Problem& problem, const Samples& samples, const Desig
   const OrderedCompensator found = found_compensator(problem, order, coarser);
   if (found.failure != OrderFailure::none) return explain(problem, order, order_of(problem, order), found, result);
   result.ordered = found;
+  note_fewer_states(problem, order, found.A.rows(), result.findings);
   if (is_continuous) return run_held(problem, samples, found, result);
   run_sampled(problem, samples, order, found, result);
 }
