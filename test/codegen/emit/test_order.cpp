@@ -259,6 +259,38 @@ void test_a_compensator_that_is_unstable_by_itself_is_emitted() {
   }));
 }
 
+// The fourth state changes the cost by less than 1e-10 of it: nobody asked for that many.
+void test_white_parameters_alone_call_for_no_state_whose_worth_cannot_be_told() {
+  const std::string text =
+      "name = \"flat\"\n"
+      "[plant]\n"
+      "domain = \"discrete\"\n"
+      "sample_time = 1\n"
+      "A = [[0.19789, -0.329221, 0.174551, -0.618156], [0.197491, -0.394227, 0.0792927, -0.115906], "
+      "[0.0981509, 0.15264, -0.0233913, -0.0229751], [-0.629526, -0.803596, 0.534169, 0.24303]]\n"
+      "B = [[0.438346], [1.9092], [-0.714396], [0.510963]]\n"
+      "C = [[0.425231, 0.108556, 0.60847, -1.37392], [-0.0361406, -0.254055, 0.0875632, -0.274177]]\n"
+      "[lqr]\n"
+      "Q = [1, 1, 1, 1]\n"
+      "R = [1]\n"
+      "[kalman]\n"
+      "noise = \"discrete\"\n"
+      "form = \"filter\"\n"
+      "process_noise = [1, 1, 1, 1]\n"
+      "measurement_noise = [0.1, 0.1]\n"
+      "[[uncertain]]\n"
+      "A = [[0.0884676, -0.0848002, 0.036246, 0.0349882], [-0.00978995, 0.042337, 0.0542088, -0.0532155], "
+      "[0.0336165, 0.190555, -0.107091, -0.0302409], [-0.076693, 0.198501, -0.140279, 0.000708364]]\n"
+      "[[uncertain]]\n"
+      "B = [[0.0929139], [-0.08682], [-0.0136012], [-0.0711969]]\n";
+  const json made = json_of(text);
+  TEST_ASSERT_EQUAL_INT(3, made["compensator"]["order"]);
+  const lqg::design::Findings notes = findings_of(text);
+  TEST_ASSERT_TRUE(std::any_of(notes.begin(), notes.end(), [](const lqg::design::Finding& note) {
+    return note.message.rfind("the compensator has 3 states, not 4: ", 0) == 0;
+  }));
+}
+
 const char* scalar_plant =
     "name = \"gain\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nA = [[2]]\nB = [[1]]\n[lqr]\nQ = [1]\nR = [1]\n"
     "[[uncertain]]\nB = [[";
@@ -390,6 +422,7 @@ int main(void) {
   RUN_TEST(test_a_lost_packet_in_ten_is_part_of_the_optimum);
   RUN_TEST(test_jitter_moves_the_period_of_a_double_integrator);
   RUN_TEST(test_a_compensator_that_is_unstable_by_itself_is_emitted);
+  RUN_TEST(test_white_parameters_alone_call_for_no_state_whose_worth_cannot_be_told);
   RUN_TEST(test_the_uncertainty_threshold_on_both_sides);
   RUN_TEST(test_a_filter_alone_takes_what_the_parameters_move_for_noise);
   RUN_TEST(test_the_full_order_of_a_continuous_cost_is_lqg);
