@@ -189,6 +189,25 @@ void test_six_masses_cost_less_with_every_state() {
   }
 }
 
+// x⁺ = (1.5 + 0.1γ)x + (1 + ση)u, y = (1 + 0.1γ)x has compensators of order 1 up to σ = 0.58764038697…. Close to that
+// the moments are 10^12 times those of the noise, and doubles are too coarse to refine them by.
+void test_brink_of_the_mean_square_keeps_its_digits() {
+  const Digits scope(60);
+  const auto number = [](const char* x) { return RealMatrix::Constant(1, 1, Real(x)); };
+  OrderProblem problem = unit_problem(false, number("1.5"), number("1"), number("1"));
+  problem.white = {{number("0.1"), number("0"), number("0.1")}, {number("0"), number("0.58764038697"), number("0")}};
+  const OrderedCompensator found = best_compensator(problem, 1);
+  TEST_ASSERT_TRUE(found.failure == OrderFailure::none && found.cost > 1e9);
+  {
+    const Digits more(90);
+    expect_small(markov_difference(found, polished_compensator(problem, found)), 1e-30, "what more digits change");
+  }
+  problem.white[1].B = number("0.5877");
+  const OrderedCompensator none = best_compensator(problem, 1);
+  TEST_ASSERT_TRUE(none.failure == OrderFailure::no_stabilising_compensator);
+  TEST_ASSERT_TRUE(none.discount > 0.9998 && none.discount < 1);
+}
+
 // k y of this plant moves only the trace of A + k B C, whose poles have the product −4: the least radius is 2, and the
 // moments can be discounted by 1/4 at most. A state of its own stabilises it.
 void test_hopeless_order_says_how_far_it_got() {
@@ -242,6 +261,7 @@ int main() {
   RUN_TEST(test_full_order_is_the_law_of_separation);
   RUN_TEST(test_optimal_projection_equations_hold);
   RUN_TEST(test_six_masses_cost_less_with_every_state);
+  RUN_TEST(test_brink_of_the_mean_square_keeps_its_digits);
   RUN_TEST(test_hopeless_order_says_how_far_it_got);
   RUN_TEST(test_order_that_is_not_needed_is_not_strict);
   RUN_TEST(test_random_plants_have_one_best_compensator);
