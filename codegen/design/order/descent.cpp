@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -77,6 +76,38 @@ double gain_of_step(const Model& model, const Column& step) {
   return -(model.slopes.dot(step) + step.cwiseAbs2().dot(model.curvatures) / 2);
 }
 
+enum class Outcome {
+  moved,
+  settled,  // moved, by so little that the cost no longer tells
+  stuck,
+};
+
+// One step down, within a radius that shrinks until there is one.
+Outcome moved_down(const Family& family, double least_gain, double& radius, Point& point) {
+  const Model model = model_of(family, point);
+  while (radius > 1e-12) {
+    const Column change = best_step(model, radius);
+    const double promised = gain_of_step(model, change), length = change.norm();
+    if (!(promised > 0)) return Outcome::stuck;
+    const Matrix<double> Theta = point.Theta + unpacked<double>(family, model.directions * change);
+    const Point next = point_at(family, Theta);
+    if (promised <= least_gain * point.cost) {
+      if (!next.is_stable || gradient(family, next).norm() >= model.slopes.norm()) return Outcome::stuck;
+      point = next;
+      return Outcome::settled;
+    }
+    const double gained = next.is_stable ? point.cost - next.cost : -1;
+    if (gained < 0.25 * promised)
+      radius = length / 4;
+    else if (gained > 0.75 * promised && length > 0.9 * radius)
+      radius = std::min(2 * radius, 1e3);
+    if (gained <= 1e-4 * promised) continue;
+    point = next;
+    return Outcome::moved;
+  }
+  return Outcome::stuck;
+}
+
 // The first stable one of the problems that are easier by less and less of `ease`, from 0 on.
 Point less_eased(const Family& family, const Matrix<double>& Theta, double ease, double& reached) {
   for (const double share : {0.0, 0.03, 0.1, 0.25, 0.5, 0.7, 0.85, 0.93, 0.97, 0.99, 0.997}) {
@@ -119,41 +150,16 @@ Matrix<double> balanced(const Family& family, const Point& point) {
 Point descend(const Family& family, Point point, int most, double least_gain) {
   if (family.free_entries() == 0) return point;
   double radius = 1;
-  bool is_final = false;
+  bool has_settled = false;
   for (int step = 0; step < most; ++step) {
     report_progress("Compensator of that order, Newton's method,", step);
     if (step % 8 == 0) {
       const Point again = point_at(family, balanced(family, point));
       if (again.is_stable) point = again;
     }
-    const Model model = model_of(family, point);
-    const double slope = model.slopes.norm();
-    bool moved = false;
-    while (!moved && radius > 1e-12) {
-      const Column change = best_step(model, radius);
-      const double promised = gain_of_step(model, change), length = change.norm();
-      if (!(promised > 0)) return point;
-      const Matrix<double> moved_to = point.Theta + unpacked<double>(family, model.directions * change);
-      const Point next = point_at(family, moved_to);
-      const double gained = next.is_stable ? point.cost - next.cost : -1;
-      if (promised <= least_gain * point.cost) {
-        // The cost no longer tells; the slope does.
-        if (next.is_stable && gradient(family, next).norm() < slope) {
-          point = next;
-          moved = true;
-        }
-        if (!moved || is_final) return point;
-        is_final = true;
-        break;
-      }
-      moved = next.is_stable && gained > 1e-4 * promised;
-      if (moved) point = next;
-      if (!moved || gained < 0.25 * promised)
-        radius = length / 4;
-      else if (gained > 0.75 * promised && length > 0.9 * radius)
-        radius = std::min(2 * radius, 1e3);
-    }
-    if (!moved) return point;
+    const Outcome outcome = moved_down(family, least_gain, radius, point);
+    if (outcome == Outcome::stuck || (outcome == Outcome::settled && has_settled)) return point;
+    has_settled = outcome == Outcome::settled;
   }
   return point;
 }
@@ -172,7 +178,8 @@ Continued continued(const Family& family, const Matrix<double>& start) {
     point = point_at(eased(family, ease), start);
   }
   result.ease = ease;
-  for (int stage = 0; point.is_stable && ease > 0 && stage < most_stages; ++stage) {
+  const double least = 1e-9 * unit;  // an ease that shrinks beyond it has 0 as its limit, not as its end
+  for (int stage = 0; point.is_stable && ease > least && stage < most_stages; ++stage) {
     const Family easier = eased(family, ease);
     const Point near = descend(easier, point, few_steps, rough);
     const double reached = ease;

@@ -2,7 +2,6 @@
 // The compensator of a given order with the least cost, also under white parameters.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "design/numeric/linear_algebra.hpp"
@@ -60,7 +59,9 @@ std::vector<OrderedCompensator> best_compensators(const OrderProblem& problem, i
 // u = −K x under white parameters: X = Q + E[AᵀXA] − (E[AᵀXB] + N)(R + E[BᵀXB])⁻¹(…)ᵀ (discrete only).
 struct WhiteRegulator {
   bool exists = false;  // the plant can be stabilised in the mean square
-  double growth = 0;  // not: by how much the second moments grow a sample under the best K, their map's spectral radius
+  // By how much the second moments grow a sample, the spectral radius of their map: the least over all K, or where that
+  // is below 1, of some K.
+  double growth = 0;
   RealMatrix X, K;
 };
 WhiteRegulator white_regulator(const OrderProblem& problem);
