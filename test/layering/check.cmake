@@ -57,7 +57,8 @@ set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
 # solves.
 set(room_folder codegen/design)
 set(design_words "^design/(problem|scenario|solution|solution_matrices|finding|real|rounding|progress)\\.hpp$")
-check_floors(design "${design_words}" "numeric;equations;order;limits;sampled;checks;loop;gains;run" ${any_room} ${digits})
+check_floors(design "${design_words}" "numeric;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
+             ${digits})
 check(codegen/design ${any_room} ${digits} "^design/")
 
 check(codegen/step  ${any_room} "^step/")

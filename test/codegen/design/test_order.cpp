@@ -114,8 +114,8 @@ void test_full_order_is_the_law_of_separation() {
 }
 
 // With Q = P₁ − Q̂, Q̂ = P₁₂P₂⁻¹P₁₂ᵀ, P = S₁ − P̂, P̂ = S₁₂S₂⁻¹S₁₂ᵀ and the projection τ = −P₁₂P₂⁻¹S₂⁻¹S₁₂ᵀ, without
-// cross terms:  Q = AQAᵀ + W − L(V + CQCᵀ)Lᵀ + (I − τ)Z(I − τ)ᵀ, Q̂ = τZτᵀ, Z = (A − BK)Q̂(A − BK)ᵀ + L(V + CQCᵀ)Lᵀ with
-// L = AQCᵀ(V + CQCᵀ)⁻¹, K = (R + BᵀPB)⁻¹BᵀPA: D. S. Bernstein, L. D. Davis, D. C. Hyland, "The optimal projection
+// cross terms:  Q = AQAᵀ + W − L(V + CQCᵀ)Lᵀ + (I − τ)Z(I − τ)ᵀ, Q̂ = τZτᵀ, Z = (A − BK)Q̂(A − BK)ᵀ + L(V + CQCᵀ)Lᵀ
+// with L = AQCᵀ(V + CQCᵀ)⁻¹, K = (R + BᵀPB)⁻¹BᵀPA: D. S. Bernstein, L. D. Davis, D. C. Hyland, "The optimal projection
 // equations for reduced-order, discrete-time modelling, estimation and control", Journal of Guidance, Control, and
 // Dynamics 9 (1986), 288–293.
 void expect_projection_equations(const OrderProblem& p, const OrderedCompensator& c) {
@@ -223,7 +223,8 @@ void test_hopeless_order_says_how_far_it_got() {
   TEST_ASSERT_TRUE(best_compensator(problem, 1).failure == OrderFailure::none);
 }
 
-// A second state is of no use to a plant with one: every compensator that contains the best one of order 1 is a minimum.
+// A second state is of no use to a plant with one: every compensator that contains the best one of order 1 costs as
+// little.
 void test_order_that_is_not_needed_is_not_strict() {
   const Digits scope(50);
   const OrderProblem problem = stable_plant(false, 1, 1, 1, 3);

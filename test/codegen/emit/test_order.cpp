@@ -373,7 +373,8 @@ static double uniform(void)
 static double normal(void) { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()); }
 int main(void)
 {
-    static const double A[4][4] = {{0.9, 0.1, 0.05, 0}, {-0.3, 0.8, 0, 0.1}, {0.05, 0, 0.85, 0.12}, {0, 0.1, -0.4, 0.7}};
+    static const double A[4][4] = {{0.9, 0.1, 0.05, 0}, {-0.3, 0.8, 0, 0.1},
+                                   {0.05, 0, 0.85, 0.12}, {0, 0.1, -0.4, 0.7}};
     static const double B[4] = {0.01, 0.2, 0, 0};
     double sum = 0, squares = 0;
     for (int run = 0; run < 64; run++) {
