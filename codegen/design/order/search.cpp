@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace lqg::design::order {
 
@@ -79,7 +80,7 @@ void try_start(const Family& family, const Matrix<double>& Theta, OrderMinima& f
 
 }  // namespace
 
-OrderSearch::OrderSearch(const OrderProblem& scaled_problem) : problem_(scaled_problem) {
+OrderSearch::OrderSearch(OrderProblem scaled_problem) : problem_(std::move(scaled_problem)) {
   for (const auto& [inputs, outputs] : {std::pair(1.0, 1.0), std::pair(100.0, 100.0), std::pair(0.01, 0.01)})
     if (const std::optional<Matrix<double>> law = full_order_law(problem_, inputs, outputs)) laws_.push_back(*law);
 }

@@ -20,7 +20,7 @@ struct OrderMinima {
 // Keeps what it has found, because the minimum of an order is a start for the next ones.
 class OrderSearch {
  public:
-  explicit OrderSearch(const OrderProblem& scaled_problem);
+  explicit OrderSearch(OrderProblem scaled_problem);
 
   // From laws of full order, truncated; from minima of order − 1 with a weak mode added; from draws; from minima of
   // order + 1, truncated.
