@@ -235,8 +235,8 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Number of its states, at most that of the plant with its inputs on their way."},
 
       {"uncertain", Type::tables, no, no, optional, {},
-       "A white parameter γ: in each sample the plant has A + γ `A`, B + γ `B` and C + γ `C`, with E γ = 0 and E γ² = 1, "
-       "independent from sample to sample and of other tables. Of a continuous plant these are the sampled matrices. "
+       "A white parameter γ: in each sample the plant has A + γ `A`, B + γ `B` and C + γ `C`, with E γ = 0 and "
+       "E γ² = 1, independent from sample to sample and of other tables. Of a continuous plant these are the sampled matrices. "
        "One of `A`, `B` and `C` is required.",
        "none", "README.md#white-parameters"},
       {"uncertain.A", Type::matrix, nx, nx, optional, {}, "What γ adds to A.", "0"},

@@ -41,8 +41,8 @@ void direction(const DirectionParts<T>& parts, Index row, Index column, Matrix<T
   }
 }
 
-// ∂²[E, F] = 2 Σ_t tr Ŝ T'_E P̂ T̃'_Fᵀ for entries E = (a, b), F = (c, d) is 2 Σ (LᵀŜL)(c, a) (RP̂Rᵀ)(b, d): the sums of
-// such pairs of matrices.
+// ∂²[E, F] = 2 Σ_t tr Ŝ T'_E P̂ T̃'_Fᵀ for entries E = (a, b), F = (c, d) is 2 Σ (LᵀŜL)(c, a) (RP̂Rᵀ)(b, d): the sums
+// of such pairs of matrices.
 template <class T>
 struct SecondPart {
   std::vector<Matrix<T>> left, right;

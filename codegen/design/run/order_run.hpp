@@ -10,8 +10,8 @@ namespace lqg::design {
 // K and X under white parameters, of a regulator alone; `unaware` is K without them. Or why there is none.
 void run_white_law(const Problem& problem, const Samples& samples, const RealMatrix& unaware, DesignRun& result);
 
-// What moves with x is noise to a filter alone: it is added to that of `samples`, whose G is the identity then. An error
-// where the plant's second moments have no bound.
+// What moves with x is noise to a filter alone: it is added to that of `samples`, whose G is the identity then. An
+// error where the plant's second moments have no bound.
 void add_noise_of_white_parameters(const Problem& problem, Samples& samples, Findings& findings);
 
 // The compensator, with its costs, beside the LQG design that `result` has.

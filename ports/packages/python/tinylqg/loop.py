@@ -59,8 +59,8 @@ def controller(design, references):
         e = y − C x̂ − D u,  u = −K [x̂ + L e; ξ; u[k−1]] + Nbar r  (a Δu with input_rate),
         x̂ ← A x̂ + B u + L_predictor e,  ξ ← ξ + T (r − y)
 
-    In the predictor form u is made of x̂ alone and e of that u; in the filter form e is made of u[k−1]. Of a compensator
-    of a given order s is the z that it keeps.
+    In the predictor form u is made of x̂ alone and e of that u; in the filter form e is made of u[k−1]. Of a
+    compensator of a given order s is the z that it keeps.
     """
     import numpy
 
