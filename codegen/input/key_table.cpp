@@ -236,8 +236,8 @@ std::vector<KeyRule> keys_of_the_loop() {
 
       {"uncertain", Type::tables, no, no, optional, {},
        "A white parameter γ: in each sample the plant has A + γ `A`, B + γ `B` and C + γ `C`, with E γ = 0 and "
-       "E γ² = 1, independent from sample to sample and of other tables. Of a continuous plant these are the sampled matrices. "
-       "One of `A`, `B` and `C` is required.",
+       "E γ² = 1, independent from sample to sample and of other tables. Of a continuous plant these are the sampled "
+       "matrices. One of `A`, `B` and `C` is required.",
        "none", "README.md#white-parameters"},
       {"uncertain.A", Type::matrix, nx, nx, optional, {}, "What γ adds to A.", "0"},
       {"uncertain.B", Type::matrix, nx, nu, optional, {}, "What γ adds to B.", "0"},
