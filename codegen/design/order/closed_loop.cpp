@@ -221,15 +221,16 @@ Matrix<T> gradient(const LoopFamily<T>& family, const LoopPoint<T>& point) {
   return gradient_of(family, point.terms, point.P, point.S);
 }
 
-Matrix<double> orbit_tangents(const LoopFamily<double>& family, const Matrix<double>& Theta) {
+template <class T>
+Matrix<T> orbit_tangents(const LoopFamily<T>& family, const Matrix<T>& Theta) {
   const Index order = family.order, nu = family.nu, ny = family.ny;
-  Matrix<double> tangents(family.free_entries(), order * order);
+  Matrix<T> tangents(family.free_entries(), order * order);
   for (Index i = 0; i < order; ++i)
     for (Index j = 0; j < order; ++j) {
-      Matrix<double> change = Matrix<double>::Zero(Theta.rows(), Theta.cols());
+      Matrix<T> change = Matrix<T>::Zero(Theta.rows(), Theta.cols());
       change.row(nu + i) += Theta.row(nu + j);
       change.col(ny + j) -= Theta.col(ny + i);
-      tangents.col(i * order + j) = packed<double>(family, change);
+      tangents.col(i * order + j) = packed<T>(family, change);
     }
   return tangents;
 }
@@ -244,7 +245,8 @@ Matrix<double> orbit_tangents(const LoopFamily<double>& family, const Matrix<dou
   template T cost_of(const LoopFamily<T>&, const LoopTerms<T>&, const Matrix<T>&);                               \
   template Matrix<T> gradient_of(const LoopFamily<T>&, const LoopTerms<T>&, const Matrix<T>&, const Matrix<T>&); \
   template LoopPoint<T> point_at(const LoopFamily<T>&, const Matrix<T>&);                                        \
-  template Matrix<T> gradient(const LoopFamily<T>&, const LoopPoint<T>&);
+  template Matrix<T> gradient(const LoopFamily<T>&, const LoopPoint<T>&);                                        \
+  template Matrix<T> orbit_tangents(const LoopFamily<T>&, const Matrix<T>&);
 
 LQG_ORDER_INSTANCES(double)
 LQG_ORDER_INSTANCES(Real)

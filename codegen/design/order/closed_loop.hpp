@@ -93,6 +93,7 @@ template <class T>
 Matrix<T> hessian(const LoopFamily<T>& family, const LoopPoint<T>& point);
 
 // The tangents of the orbit Θ → diag(I, X) Θ diag(I, X)⁻¹, along which J does not change: a column each.
-Matrix<double> orbit_tangents(const LoopFamily<double>& family, const Matrix<double>& Theta);
+template <class T>
+Matrix<T> orbit_tangents(const LoopFamily<T>& family, const Matrix<T>& Theta);
 
 }  // namespace lqg::design::order

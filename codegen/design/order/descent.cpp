@@ -122,7 +122,7 @@ Point less_eased(const Family& family, const Matrix<double>& Theta, double ease,
 }  // namespace
 
 Matrix<double> orbit_basis(const Family& family, const Matrix<double>& Theta) {
-  const Matrix<double> tangents = orbit_tangents(family, Theta);
+  const Matrix<double> tangents = orbit_tangents<double>(family, Theta);
   if (tangents.cols() == 0) return Matrix<double>::Zero(family.free_entries(), 0);
   Eigen::ColPivHouseholderQR<Matrix<double>> factors(tangents);
   factors.setThreshold(1e-10);

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "design/numeric/factor.hpp"
+#include "design/order/flat_descent.hpp"
 #include "design/order/refined_moments.hpp"
 #include "design/order/scaled_problem.hpp"
 #include "design/progress.hpp"
@@ -14,7 +16,7 @@ namespace lqg::design::order {
 namespace {
 
 const unsigned more_digits = 40;
-const double least_curvature = 1e-13;
+const double least_curvature = 1e-13, least_curvature_in_more_digits = 1e-26;
 
 // What is orthogonal to the orbit, an orthonormal column each.
 Matrix<double> across_orbit(const Family& family, const Matrix<double>& Theta) {
@@ -42,10 +44,15 @@ struct Chart {
   double cost = 0;
 };
 
-void set_inverse(const Matrix<double>& across, const RealMatrix& reduced, Chart& chart) {
+void set_inverse(const Matrix<double>& across, const RealMatrix& reduced, bool in_more_digits, Chart& chart) {
   chart.curvature = relative_curvature(to_doubles(reduced));
   const std::optional<RealMatrix> inverse = solve(reduced, identity(reduced.rows()));
-  chart.is_usable = chart.curvature > least_curvature && (inverse || reduced.size() == 0);
+  // Below what doubles tell the least one is the inverse of the largest of the inverse.
+  const bool is_definite = in_more_digits && inverse && positive_definite(reduced);
+  if (is_definite && chart.curvature <= least_curvature)
+    chart.curvature = to_double(Real(1 / (largest_entry(reduced) * largest_entry(*inverse))));
+  const double least = is_definite ? least_curvature_in_more_digits : least_curvature;
+  chart.is_usable = chart.curvature > least && (inverse || reduced.size() == 0);
   if (chart.is_usable && inverse) chart.inverse = multiply(real(across), multiply_transpose(*inverse, real(across)));
 }
 
@@ -56,7 +63,7 @@ Chart chart_in_doubles(const Family& family, const Matrix<double>& across, const
   chart.map = point.map;
   chart.cost = point.cost;
   const Digits scope(more_digits);
-  set_inverse(across, real(across.transpose() * hessian(family, point) * across), chart);
+  set_inverse(across, real(across.transpose() * hessian(family, point) * across), false, chart);
   return chart;
 }
 
@@ -68,7 +75,7 @@ Chart chart_in_more_digits(const OrderProblem& problem, const Matrix<double>& ac
   chart.is_usable = false;
   if (!point.is_stable) return chart;
   const RealMatrix basis = real(across);
-  set_inverse(across, transpose_multiply(basis, multiply(hessian(family, point), basis)), chart);
+  set_inverse(across, transpose_multiply(basis, multiply(hessian(family, point), basis)), true, chart);
   return chart;
 }
 
@@ -78,10 +85,15 @@ class Polishing {
       : problem_(problem), rough_(loop_family<double>(problem, order)), fine_(loop_family<Real>(problem, order)),
         across_(across_orbit(rough_, to_doubles(Theta))) {
     result_.Theta = Theta;
+    start_ = Theta;
   }
 
   Polished result() {
-    if (!run(false) && result_.failure != OrderFailure::none) run(true);
+    if (run(false)) return result_;
+    const Polished rough = result_;
+    result_.Theta = start_;
+    if (run(true) || !go_down_flat()) return result_;
+    if (!run(true)) result_ = rough;
     return result_;
   }
 
@@ -89,6 +101,7 @@ class Polishing {
   // True when it has settled.
   bool run(bool in_more_digits);
   bool take_chart(bool in_more_digits);
+  bool go_down_flat();
   std::optional<Real> step();
 
   const OrderProblem& problem_;
@@ -96,7 +109,7 @@ class Polishing {
   LoopFamily<Real> fine_;
   Matrix<double> across_;
   Chart chart_;
-  RealMatrix P_, S_;
+  RealMatrix start_, P_, S_;
   Polished result_;
 };
 
@@ -106,6 +119,23 @@ bool Polishing::take_chart(bool in_more_digits) {
   result_.curvature = chart_.curvature;
   result_.cost = chart_.cost;  // until a step has a better one
   return chart_.is_usable;
+}
+
+// To a minimum in more digits from which the others are found.
+bool Polishing::go_down_flat() {
+  const Index n = rough_.size();
+  if (n * (n + 1) / 2 > most_flat_unknowns) return false;
+  std::optional<RealMatrix> end;
+  {
+    const Digits scope(more_digits);
+    const LoopFamily<Real> family = loop_family<Real>(in_present_digits(problem_), rough_.order);
+    end = descend_flat(family, design::in_present_digits(start_));
+  }
+  if (!end) return false;
+  result_.Theta = design::in_present_digits(*end);
+  across_ = across_orbit(rough_, to_doubles(result_.Theta));
+  P_ = S_ = RealMatrix();
+  return true;
 }
 
 // The largest change of an entry; empty where the moments cannot be solved for.

@@ -208,6 +208,29 @@ void test_brink_of_the_mean_square_keeps_its_digits() {
   TEST_ASSERT_TRUE(none.discount > 0.9998 && none.discount < 1);
 }
 
+// White parameters leave compensators of full order with states that are hardly needed: of these plants the least
+// curvature is from 1e-5 down to 1e-17 of the largest one, which doubles do not tell from none.
+void test_full_order_is_found_where_the_cost_is_flat() {
+  const Digits scope(60);
+  int found = 0, flat = 0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    OrderProblem problem = stable_plant(false, 3, 1, 1, seed);
+    problem.has_feedthrough = true;
+    add_white_parameters(problem, seed);
+    for (WhiteParameter& white : problem.white) white.B = zeros(3, 1);
+    const OrderedCompensator best = best_compensator(problem, 3);
+    if (best.failure != OrderFailure::none) continue;
+    ++found;
+    flat += best.curvature < 1e-11;
+    const Digits more(90);
+    const OrderedCompensator again = polished_compensator(problem, best);
+    TEST_ASSERT_TRUE(again.failure == OrderFailure::none);
+    expect_small(markov_difference(best, again), 1e-25, "what more digits change");
+  }
+  TEST_ASSERT_GREATER_OR_EQUAL(15, found);
+  TEST_ASSERT_GREATER_OR_EQUAL(3, flat);
+}
+
 // k y of this plant moves only the trace of A + k B C, whose poles have the product −4: the least radius is 2, and the
 // moments can be discounted by 1/4 at most. A state of its own stabilises it.
 void test_hopeless_order_says_how_far_it_got() {
@@ -263,6 +286,7 @@ int main() {
   RUN_TEST(test_optimal_projection_equations_hold);
   RUN_TEST(test_six_masses_cost_less_with_every_state);
   RUN_TEST(test_brink_of_the_mean_square_keeps_its_digits);
+  RUN_TEST(test_full_order_is_found_where_the_cost_is_flat);
   RUN_TEST(test_hopeless_order_says_how_far_it_got);
   RUN_TEST(test_order_that_is_not_needed_is_not_strict);
   RUN_TEST(test_random_plants_have_one_best_compensator);
