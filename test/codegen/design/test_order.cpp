@@ -208,8 +208,8 @@ void test_brink_of_the_mean_square_keeps_its_digits() {
   TEST_ASSERT_TRUE(none.discount > 0.9998 && none.discount < 1);
 }
 
-// White parameters leave compensators of full order with states that are hardly needed: of these plants the least
-// curvature is from 1e-5 down to 1e-17 of the largest one, which doubles do not tell from none.
+// White parameters leave compensators of full order with states that are hardly needed: in some of these plants the
+// least curvature is below 1e-11 of the largest one, which doubles hardly tell from none.
 void test_full_order_is_found_where_the_cost_is_flat() {
   const Digits scope(60);
   int found = 0, flat = 0;
