@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "design/run/white_parameters.hpp"
 
-#include <Eigen/LU>
-
 #include "design/equations/refined_stein.hpp"
+#include "design/order/refined_moments.hpp"
 #include "design/rounding.hpp"
 
 namespace lqg::design {
@@ -28,56 +27,10 @@ WhiteParameter jitter_of(const Plant& plant, const SampledPlant& sampled) {
           zeros(sampled.C.rows(), sampled.A.rows())};
 }
 
-// The lower triangle of a symmetric matrix, column by column.
-Index place_of(Index i, Index j, Index n) { return j * n - j * (j + 1) / 2 + i; }
-
-// I − Σ Φ_j ⊗ Φ_j on lower triangles.
-Eigen::MatrixXd map_of(const std::vector<Eigen::MatrixXd>& Phi) {
-  const Index n = Phi.front().rows(), all = n * (n + 1) / 2;
-  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(all, all);
-  for (const Eigen::MatrixXd& F : Phi)
-    for (Index b = 0; b < n; ++b)
-      for (Index a = b; a < n; ++a)
-        for (Index j = 0; j < n; ++j)
-          for (Index i = j; i < n; ++i) {
-            double entry = F(i, a) * F(j, b);
-            if (a != b) entry += F(i, b) * F(j, a);
-            map(place_of(i, j, n), place_of(a, b, n)) -= entry;
-          }
-  return map;
-}
-
-RealMatrix one_step(const std::vector<RealMatrix>& Phi, const RealMatrix& P) {
-  RealMatrix sum = congruence(Phi.front(), P);
-  for (std::size_t i = 1; i < Phi.size(); ++i) sum += congruence(Phi[i], P);
-  return sum;
-}
-
-// Corrections in double, of residuals in all digits.
-std::optional<RealMatrix> refined(const std::vector<RealMatrix>& Phi, const RealMatrix& V) {
-  const Index n = V.rows(), all = n * (n + 1) / 2;
-  std::vector<Eigen::MatrixXd> rounded;
-  for (const RealMatrix& F : Phi) rounded.push_back(to_doubles(F));
-  const Eigen::PartialPivLU<Eigen::MatrixXd> map(map_of(rounded));
-  RealMatrix P = zeros(n, n), residual = V;
-  const Real enough = negligible(0.98);
-  Real before = largest_entry(residual);
-  while (true) {
-    const Real scale = largest_entry(residual);
-    if (scale.is_zero()) return P;
-    Eigen::VectorXd right(all);
-    for (Index j = 0; j < n; ++j)
-      for (Index i = j; i < n; ++i) right(place_of(i, j, n)) = to_double(Real(residual(i, j) / scale));
-    const Eigen::VectorXd step = map.solve(right);
-    if (!step.allFinite()) return std::nullopt;
-    for (Index j = 0; j < n; ++j)
-      for (Index i = j; i < n; ++i) P(i, j) = P(j, i) = P(i, j) + scale * Real(step(place_of(i, j, n)));
-    residual = V + one_step(Phi, P) - P;
-    const Real now = largest_entry(residual);
-    if (now <= enough * largest_entry(P)) return P;
-    if (!(now < before / 2)) return std::nullopt;
-    before = now;
-  }
+std::vector<Eigen::MatrixXd> rounded(const std::vector<RealMatrix>& Phi) {
+  std::vector<Eigen::MatrixXd> result;
+  for (const RealMatrix& F : Phi) result.push_back(to_doubles(F));
+  return result;
 }
 
 }  // namespace
@@ -112,7 +65,7 @@ OrderProblem order_problem(const Problem& problem, const Samples& samples) {
 std::optional<RealMatrix> steady_second_moments(const std::vector<RealMatrix>& Phi, const RealMatrix& V) {
   if (Phi.size() == 1) return refined_stein(Phi.front().transpose(), V);
   if (!(growth_of(Phi) < 1)) return std::nullopt;
-  return refined(Phi, V);
+  return order::refined_moments(order::MomentMap<double>(rounded(Phi), false), Phi, false, order::Side::moments, V, {});
 }
 
 WhiteLoop white_loop(const OrderProblem& problem, const MeasuredPlant& plant, const Compensator& controller) {
@@ -144,12 +97,6 @@ std::optional<Real> white_cost(const OrderProblem& problem, const MeasuredPlant&
   return cost;
 }
 
-double growth_of(const std::vector<RealMatrix>& Phi) {
-  OrderProblem loop;
-  const Index n = Phi.front().rows();
-  loop.A = Phi.front(), loop.B = zeros(n, 0), loop.C = zeros(0, n);
-  for (std::size_t i = 1; i < Phi.size(); ++i) loop.white.push_back({Phi[i], zeros(n, 0), zeros(0, n)});
-  return growth_of_second_moments(loop);
-}
+double growth_of(const std::vector<RealMatrix>& Phi) { return order::growth_of(rounded(Phi), false); }
 
 }  // namespace lqg::design
