@@ -111,7 +111,7 @@ struct Pair {
 struct Words {
   std::string key, none, weak, lost;
   bool every_mode = false;
-  std::string decay_key, slow;  // of a mode that is stable and slower than asked for
+  std::string decay_key = {}, slow = {};  // of a mode that is stable and slower than asked for
 };
 
 // Errors for unstable modes (or all) that B does not reach, or that it reaches no more by sampling. False when the

@@ -183,23 +183,23 @@ long filter_cost(const Controller& controller) {
 CodeCost cost_of_linear_form(const Controller& controller) {
   const TracedLinear traced = trace_linear(controller);
   const Beginning beginning = beginning_of(controller);
-  const long calls = controller.target.is_double ? stack_of_double + 32 : 0;
+  const bool is_small = controller.size.nz < 3;  // GCC has all of it in registers
+  const long calls = controller.target.is_double ? stack_of_double + (is_small ? 16 : 32) : 0;
   CodeCost cost, aside;  // aside: for the sample that is not as the others
   const long step = add_step(cost, controller, traced.step, {&traced.control, &traced.advance}).stack;
   const long advance = add_function(aside, controller, traced.advance).stack;
   const long control_fault = add_function(aside, controller, traced.control_fault).stack;
   long hear = add_function(aside, controller, traced.hear).stack;
-  if (controller.is_predictor) {
+  if (controller.is_predictor && !is_small)
     hear += 24 + bytes_of_real(controller) * controller.size.ny;  // heard[], return address
-  }
   cost.ram = state_bytes(controller);
   // NAME_step_fault, called last, keeps self and the status while it calls.
   constexpr long stack_of_fault = 36, flash_of_fault = 48;
   const long fault = stack_of_fault + std::max({advance, control_fault, hear, beginning.stack});
   cost.stack = controller.target.is_double ? step + calls : std::max(step, fault);
   aside.flash += flash_of_fault;
-  aside.flash -= aside.flash / 8;                   // for size: they are cold
-  if (controller.is_predictor) aside.flash += 160;  // control and advance_fault
+  aside.flash -= aside.flash / 8;                                   // for size: they are cold
+  if (controller.is_predictor) aside.flash += is_small ? 20 : 160;  // control and advance_fault
   cost.flash =
       with_margin(controller, cost.flash + aside.flash) + beginning.flash + bytes_of_software_floats(controller, false);
   return cost;
@@ -280,7 +280,8 @@ CodeCost cost_of_shared(const Controller& controller) {
                                       : add(trace_projection(controller), projected));
   if (takes_columns(controller)) cost.flash += bytes_of_column;
   add(trace_end_of_update(controller), 1);
-  const long update = aligned(bytes_of_real(controller) * (nx + 2)) + 8 + use + std::max(part, weigh);
+  const long update = aligned(bytes_of_real(controller) * (nx + 1)) + (controller.target.is_double ? 0 : 8) + use +
+                      std::max(part, weigh);
   const long control = controller.has.regulator ? add(trace_regulator(controller), 1) : 0;
   long predict = 0, tables = 0;
   if (loops_over_columns(controller)) {

@@ -119,9 +119,9 @@ std::optional<Controller> keeping(const design::LinearForm& form, Controller con
 // The modes take fewer multiply-adds and lose no more than they may.
 bool is_cheaper(const Controller& controller, const design::LinearForm& modal, const design::LinearForm& estimates) {
   const Controller in_modes = controller::with_form(controller, modal),
-                   plain = controller::with_form(controller, estimates);
-  return cost_of_linear_form(in_modes).multiply_adds < cost_of_linear_form(plain).multiply_adds &&
-         rounding_error(in_modes) <= most_loss * rounding_error(plain);
+                   in_estimates = controller::with_form(controller, estimates);
+  return cost_of_linear_form(in_modes).multiply_adds < cost_of_linear_form(in_estimates).multiply_adds &&
+         rounding_error(in_modes) <= most_loss * rounding_error(in_estimates);
 }
 
 // A compensator of a given order keeps its estimates of some states, or its modes.

@@ -11,11 +11,11 @@ namespace lqg::emit {
 namespace {
 
 std::string lines_of(const Facts& facts) {
-  std::size_t width = 0;
-  for (const auto& [name, value] : facts) width = std::max(width, columns(name));
+  std::size_t widest = 0;
+  for (const auto& [name, value] : facts) widest = std::max(widest, columns(name));
   std::string out;
   for (const auto& [name, value] : facts)
-    out += "  " + name + std::string(width + 3 - columns(name), ' ') + value + "\n";
+    out += "  " + name + std::string(widest + 3 - columns(name), ' ') + value + "\n";
   return out;
 }
 

@@ -56,9 +56,9 @@ class Design:
     Q : nx × nx.  R : nu × nu.  N : nx × nu.  The cost Σ xᵀQx + uᵀRu + 2xᵀNu, of a continuous plant ∫ … dt.
     W : nw × nw.  V : ny × ny.  Swv : nw × ny.  Of a continuous plant densities, unless kalman={"noise": "discrete"}.
         Q, R, W and V may be the list of their diagonal, and where 1 × 1 a number.
-    lqr, pole_placement, kalman, observer, limits, require, code : dictionaries with the keys of these sections of the
-        design file: lqr={"track": ["angle"]}.
-    stage, scenario : a list of such dictionaries; one scenario may be a dictionary alone.
+    lqr, pole_placement, kalman, observer, compensator, limits, require, code : dictionaries with the keys of these
+        sections of the design file: lqr={"track": ["angle"]}.
+    uncertain, stage, scenario : a list of such dictionaries; one of uncertain or scenario may be a dictionary alone.
 
     Raises
     ------
@@ -94,6 +94,8 @@ class Design:
         pole_placement: Optional[Words] = None,
         kalman: Optional[Words] = None,
         observer: Optional[Words] = None,
+        compensator: Optional[Words] = None,
+        uncertain: Union[Words, Sequence[Words], None] = None,
         limits: Optional[Words] = None,
         stage: Optional[Sequence[Words]] = None,
         require: Optional[Words] = None,
@@ -131,6 +133,8 @@ class Design:
                 pole_placement=pole_placement,
                 kalman=kalman,
                 observer=observer,
+                compensator=compensator,
+                uncertain=uncertain,
                 limits=limits,
                 stage=stage,
                 require=require,

@@ -9,8 +9,11 @@ from .names import design_name
 from .plant import plant_table, two_dimensional
 from .words import unknown
 
-SECTIONS = ("lqr", "pole_placement", "kalman", "observer", "limits", "stage", "require", "code", "scenario")
-SEVERAL = ("stage", "scenario")  # tables of this name
+SECTIONS = (
+    *("lqr", "pole_placement", "kalman", "observer", "compensator", "uncertain"),
+    *("limits", "stage", "require", "code", "scenario"),
+)
+SEVERAL = ("uncertain", "stage", "scenario")  # tables of this name
 
 
 def design_text(
@@ -72,8 +75,8 @@ def design_text(
 
 
 def table_of(section, value):
-    """A section as a table; `stage` and `scenario` are several."""
-    if section == "scenario" and isinstance(value, dict):
+    """A section as a table; `uncertain`, `stage` and `scenario` are several."""
+    if section in ("uncertain", "scenario") and isinstance(value, dict):
         return [value]
     if section in SEVERAL:
         if not isinstance(value, (list, tuple)) or not all(isinstance(item, dict) for item in value):
