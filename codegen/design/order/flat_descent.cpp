@@ -35,7 +35,8 @@ std::optional<RealMatrix> step_with(const Curvature& curvature, const RealMatrix
 }  // namespace
 
 std::optional<RealMatrix> descend_flat(const LoopFamily<Real>& family, RealMatrix Theta) {
-  const int most_steps = 200, most_shifts = 200;
+  const Index unknowns = family.size() * (family.size() + 1) / 2;
+  const int most_steps = unknowns < 60 ? 200 : 30, most_shifts = 200;  // some seconds
   LoopPoint<Real> point = point_at(family, Theta);
   if (!point.is_stable) return std::nullopt;
   const Real least_shift = negligible(0.8), settled = negligible(0.4);
