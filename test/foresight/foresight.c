@@ -6,29 +6,14 @@
  * answers: prints random states, u[k−1] and references, each with u. conditions: every answer is the optimum by the
  * conditions of Karush, Kuhn and Tucker, as the problem is convex; it counts how many changes of the set of active
  * limits were needed. starts: how many random starts the loop settles from, and how many with the law clipped. */
-#include <stdint.h>
 #include <stdlib.h>
 
+#include "draws.h"
 #include "watched.h"
 
 enum { LONGEST = 20000 }; /* samples of a loop */
 
 /* ---- random states ------------------------------------------------------------------------------------- */
-
-static double uniform(void)
-{
-    static uint64_t word = 1;
-
-    word = word * 6364136223846793005u + 1442695040888963407u;
-    return ((double)(word >> 11) + 0.5) / 9007199254740992.0;
-}
-
-static double normal(void)
-{
-    const double size = sqrt(-2 * log(uniform()));
-
-    return size * cos(6.283185307179586 * uniform());
-}
 
 struct start {
     double x[NX], r[NR + 1];

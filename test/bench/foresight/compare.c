@@ -3,9 +3,9 @@
  * limit is active. problem.h is of problem.py. Prints a row of the table for each method.
  *
  *     compare MODEL SAMPLES */
-#include <stdint.h>
 #include <stdio.h>
 
+#include "../../foresight/draws.h"
 #include "admm.h"
 #include "gradient.h"
 
@@ -19,21 +19,6 @@ struct sample {
     double x[NX], optimum[HORIZON * NU];
     unsigned long single_steps, in_blocks;
 };
-
-static double uniform(void)
-{
-    static uint64_t word = 1;
-
-    word = word * 6364136223846793005u + 1442695040888963407u;
-    return ((double)(word >> 11) + 0.5) / 9007199254740992.0;
-}
-
-static double normal(void)
-{
-    const double size = sqrt(-2 * log(uniform()));
-
-    return size * cos(6.283185307179586 * uniform());
-}
 
 /* Equally dear in all directions; in the median the law alone goes as far as a limit, up to four times as far. */
 static void draw(double x[NX])
