@@ -66,7 +66,4 @@ struct WhiteRegulator {
 };
 WhiteRegulator white_regulator(const OrderProblem& problem);
 
-// The spectral radius of the second moments' map of the plant alone, P → E[A P Aᵀ]; continuous: the spectral abscissa.
-double growth_of_second_moments(const OrderProblem& problem);
-
 }  // namespace lqg::design

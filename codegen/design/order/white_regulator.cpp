@@ -130,10 +130,4 @@ WhiteRegulator white_regulator(const OrderProblem& problem) {
   return result;
 }
 
-double growth_of_second_moments(const OrderProblem& problem) {
-  std::vector<Matrix<double>> Phi = {to_doubles(problem.A)};
-  for (const WhiteParameter& white : problem.white) Phi.push_back(to_doubles(white.A));
-  return order::growth_of(Phi, problem.is_continuous);
-}
-
 }  // namespace lqg::design

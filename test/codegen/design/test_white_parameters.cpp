@@ -4,6 +4,7 @@
 
 #include <unity.h>
 
+#include "design/order/moment_map.hpp"
 #include "design/rounding.hpp"
 #include "order_problems.hpp"
 
@@ -13,6 +14,13 @@ using namespace design_test;
 namespace {
 
 RealMatrix number(double x) { return real(Eigen::MatrixXd::Constant(1, 1, x)); }
+
+// Of the plant alone.
+double growth_of_second_moments(const OrderProblem& problem) {
+  std::vector<Eigen::MatrixXd> Phi = {to_doubles(problem.A)};
+  for (const WhiteParameter& white : problem.white) Phi.push_back(to_doubles(white.A));
+  return order::growth_of(Phi, problem.is_continuous);
+}
 
 // x⁺ = 2x + (1 + σγ)u
 OrderProblem scalar_plant(double sigma) {
