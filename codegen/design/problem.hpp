@@ -22,7 +22,14 @@ struct Signal {
 
 enum class Domain { continuous, discrete };
 
+// Where the linear plant is the plant: its x, u and y are deviations from these, in the plant's own units.
+struct OperatingPoint {
+  Eigen::VectorXd x, u, y;  // nx, nu, ny
+};
+
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
+// With an operating point the limits, the ranges of outputs, the initial state and the references of a Problem are in
+// the plant's own units, as the file states them.
 struct Plant {
   Domain domain = Domain::continuous;
   double sample_time = 0;        // s
@@ -37,6 +44,7 @@ struct Plant {
   Eigen::VectorXd dropout;       // ny, the probability that C x of an output is 0 in a sample; or empty: never
   double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
+  std::optional<OperatingPoint> operating_point = {};  // not given: x, u and y are what they are
 };
 
 // Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).
