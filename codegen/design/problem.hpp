@@ -22,14 +22,14 @@ struct Signal {
 
 enum class Domain { continuous, discrete };
 
-// Where the linear plant is the plant: its x, u and y are deviations from these, in the plant's own units.
+// Where the linear plant is the plant: its x, u and y are deviations from these. In the plant's own units, as is what
+// the file states beside it; when a Problem leaves `input`, its limits, ranges and initial state are deviations, too.
 struct OperatingPoint {
-  Eigen::VectorXd x, u, y;  // nx, nu, ny
+  Eigen::VectorXd x, u, y;                               // nx, nu, ny
+  Eigen::VectorXd u_min, u_max, output_min, output_max;  // of Limits and Estimator, as the file states them
 };
 
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
-// With an operating point the limits, the ranges of outputs, the initial state and the references of a Problem are in
-// the plant's own units, as the file states them.
 struct Plant {
   Domain domain = Domain::continuous;
   double sample_time = 0;        // s
@@ -44,7 +44,7 @@ struct Plant {
   Eigen::VectorXd dropout;       // ny, the probability that C x of an output is 0 in a sample; or empty: never
   double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
-  std::optional<OperatingPoint> operating_point = {};  // not given: x, u and y are what they are
+  std::optional<OperatingPoint> operating_point = {};  // not given: 0
 };
 
 // Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).
