@@ -56,7 +56,7 @@ set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
 # The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who
 # solves.
 set(room_folder codegen/design)
-set(design_words "^design/(problem|scenario|solution|solution_matrices|finding|real|rounding|progress)\\.hpp$")
+set(design_words "^design/(problem|equations_of_motion|scenario|solution|solution_matrices|finding|real|rounding|progress)\\.hpp$")
 check_floors(design "${design_words}" "numeric;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
              ${digits})
 check(codegen/design ${any_room} ${digits} "^design/")
