@@ -39,47 +39,71 @@ FormulaDual<S> value_of_formula(const Equations<S>& equations, const expression:
       [&](const expression::Node& node) -> FormulaDual<S> { return Scalar(equations.constants.at(&node)); });
 }
 
-template <class S>
-FormulaDuals<S> rates(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u) {
+// The names of state i and of its slopes.
+template <class S, class Listener>
+void name_duals(const FormulaDuals<S>& duals, const char* name, const char* slope, Listener& listener) {
+  for (int i = 0; i < static_cast<int>(duals.size()); ++i) {
+    const FormulaDual<S>& dual = duals[static_cast<std::size_t>(i)];
+    listener.name(S(OfFormula<S>::number(dual.value)), name, of_state(i));
+    for (int j = 0; j < dual.slopes.size(); ++j) listener.hint(S(OfFormula<S>::number(dual.slope(j))), slope, of_entry(i, j));
+  }
+}
+
+template <class S, class Listener>
+FormulaDuals<S> rates(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u, const char* name,
+                      const char* slope, Listener& listener) {
   FormulaDuals<S> out;
   for (const auto& formula : equations.f) out.push_back(value_of_formula(equations, *formula, x, u));
+  name_duals<S>(out, name, slope, listener);
   return out;
 }
 
 // x + c k
-template <class Scalar>
-std::vector<expression::Dual<Scalar>> moved(const std::vector<expression::Dual<Scalar>>& x, const Scalar& c,
-                                            const std::vector<expression::Dual<Scalar>>& k) {
-  std::vector<expression::Dual<Scalar>> out;
+template <class S>
+FormulaDuals<S> moved(const FormulaDuals<S>& x, const S& c, const FormulaDuals<S>& k) {
+  using Scalar = typename OfFormula<S>::Scalar;
+  const Scalar factor(c);
+  FormulaDuals<S> out;
   for (std::size_t i = 0; i < x.size(); ++i)
-    out.push_back(expression::joined(Scalar(multiply_add(c, k[i].value, x[i].value)), x[i], k[i],
-                                     [&](const Scalar& p, const Scalar& q) { return Scalar(multiply_add(c, q, p)); }));
+    out.push_back(
+        expression::joined(Scalar(multiply_add(factor, k[i].value, x[i].value)), x[i], k[i],
+                           [&](const Scalar& p, const Scalar& q) { return Scalar(multiply_add(factor, q, p)); }));
+  return out;
+}
+template <class S, class Listener>
+FormulaDuals<S> moved(const FormulaDuals<S>& x, const S& c, const FormulaDuals<S>& k, const char* name,
+                      const char* slope, Listener& listener) {
+  FormulaDuals<S> out = moved<S>(x, c, k);
+  name_duals<S>(out, name, slope, listener);
   return out;
 }
 
 // The classical step of fourth order: x + T/6 (k1 + k4) + T/3 (k2 + k3)
-template <class S>
-FormulaDuals<S> runge_kutta_step(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u) {
-  using Scalar = typename OfFormula<S>::Scalar;
-  const Scalar half(equations.T_half);
-  const FormulaDuals<S> k1 = rates(equations, x, u), k2 = rates(equations, moved(x, half, k1), u),
-                        k3 = rates(equations, moved(x, half, k2), u),
-                        k4 = rates(equations, moved(x, Scalar(equations.T), k3), u);
+template <class S, class Listener>
+FormulaDuals<S> runge_kutta_step(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u,
+                                 Listener& listener) {
+  const FormulaDuals<S> k1 = rates(equations, x, u, "k1", "J1", listener);
+  const FormulaDuals<S> x2 = moved<S>(x, equations.T_half, k1, "x2", "D2", listener);
+  const FormulaDuals<S> k2 = rates(equations, x2, u, "k2", "J2", listener);
+  const FormulaDuals<S> x3 = moved<S>(x, equations.T_half, k2, "x3", "D3", listener);
+  const FormulaDuals<S> k3 = rates(equations, x3, u, "k3", "J3", listener);
+  const FormulaDuals<S> x4 = moved<S>(x, equations.T, k3, "x4", "D4", listener);
+  const FormulaDuals<S> k4 = rates(equations, x4, u, "k4", "J4", listener);
   FormulaDuals<S> outer, inner;
   for (std::size_t i = 0; i < x.size(); ++i) {
     outer.push_back(k1[i] + k4[i]);
     inner.push_back(k2[i] + k3[i]);
   }
-  return moved(moved(x, Scalar(equations.T_sixth), outer), Scalar(equations.T_third), inner);
+  return moved<S>(moved<S>(x, equations.T_sixth, outer), equations.T_third, inner);
 }
 
-template <class S>
-FormulaDuals<S> next_state(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u) {
+template <class S, class Listener>
+FormulaDuals<S> next_state(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u,
+                           Listener& listener) {
   switch (equations.integration) {
-    case Integration::none: return rates(equations, x, u);
-    case Integration::euler:
-      return moved(x, typename OfFormula<S>::Scalar(equations.T), rates(equations, x, u));
-    default: return runge_kutta_step(equations, x, u);
+    case Integration::none: return rates(equations, x, u, "next", "A", listener);
+    case Integration::euler: return moved<S>(x, equations.T, rates(equations, x, u, "rate", "J", listener));
+    default: return runge_kutta_step(equations, x, u, listener);
   }
 }
 
@@ -105,7 +129,7 @@ template <class S, class Listener>
 auto predict_extended(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
   BoundsCheck<S> bounds;
   listener.section(equation_of_step(model.equations->integration), -1, and_check(model.x_bound));
-  const FormulaDuals<S> next = next_state(*model.equations, variables(state.x), u);
+  const FormulaDuals<S> next = next_state(*model.equations, variables(state.x), u, listener);
   Model<S> linear = model;
   linear.A_free.resize(model.nx, model.nx);
   for (int i = 0; i < model.nx; ++i) {

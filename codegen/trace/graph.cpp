@@ -150,7 +150,7 @@ int Graph::call(Op function, int a, int b) {
   if (is_constant(made) || !nodes_[made].hint.empty()) return made;
   const Node& argument = nodes_[a];
   const std::string of = !argument.name.empty() ? argument.name : argument.hint;
-  nodes_[made].hint = std::string(name_of_function(function)) + (of.empty() ? "" : "_" + of);
+  nodes_[made].hint = std::string(name_of_function(function)) + "_" + (of.empty() ? "value" : of);
   return made;
 }
 
