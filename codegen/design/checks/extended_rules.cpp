@@ -7,16 +7,16 @@ namespace lqg::design {
 
 namespace {
 
-struct Rule {
+struct ExtendedRule {
   const char* key;
   bool is_broken;
   const char* expected;
 };
 
-void check_plant(const Problem& problem, Findings& findings) {
+void check_plant_beside_extended(const Problem& problem, Findings& findings) {
   const Plant& plant = problem.plant;
   const bool is_late = plant.output_delay.size() > 0 && !plant.output_delay.isZero(0);
-  const Rule rules[] = {
+  const ExtendedRule rules[] = {
       {"plant.delay", plant.delay > 0, "expected none: inputs on their way are no states of plant.f"},
       {"plant.output_delay", is_late, "expected none: outputs on their way are no states of plant.f"},
       {"plant.dropout", (plant.dropout.array() > 0).any(),
@@ -26,13 +26,13 @@ void check_plant(const Problem& problem, Findings& findings) {
       {"uncertain", !problem.uncertain.empty(), "expected none: say it as process noise"},
       {"stage", !problem.stages.empty(), "expected none: what changes is in plant.f"},
       {"compensator.order", problem.compensator.has_value(), "expected none: the filter has the states of plant.f"}};
-  for (const Rule& rule : rules)
+  for (const ExtendedRule& rule : rules)
     if (rule.is_broken) add_error(findings, rule.key, std::string("with kalman.gain = \"extended\" ") + rule.expected);
 }
 
-void check_filter(const Problem& problem, Findings& findings) {
+void check_extended_filter(const Problem& problem, Findings& findings) {
   const Estimator& kalman = *problem.estimator;
-  const Rule rules[] = {
+  const ExtendedRule rules[] = {
       {"kalman.form", kalman.form == Form::predictor, "expected \"filter\""},
       {"kalman.cross_noise", !kalman.Swv.isZero(0), "expected zeros"},
       {"kalman.disturbance", !kalman.disturbance.empty(),
@@ -42,7 +42,7 @@ void check_filter(const Problem& problem, Findings& findings) {
       {"code.realisation",
        problem.code.realisation != Realisation::physical && problem.code.realisation != Realisation::cheapest,
        "expected \"physical\": the states are those of plant.f"}};
-  for (const Rule& rule : rules)
+  for (const ExtendedRule& rule : rules)
     if (rule.is_broken) add_error(findings, rule.key, std::string("with kalman.gain = \"extended\" ") + rule.expected);
   for (const int output : kalman.extended->wraps)
     if (output < 0 || output >= static_cast<int>(problem.plant.C.rows()))
@@ -50,15 +50,15 @@ void check_filter(const Problem& problem, Findings& findings) {
 }
 
 // The law is that of a constant K.
-void check_law(const Problem& problem, Findings& findings) {
+void check_law_beside_extended(const Problem& problem, Findings& findings) {
   if (!problem.regulator) return;
   const Regulator& law = *problem.regulator;
-  const Rule rules[] = {{"lqr.horizon", law.horizon > 0, "expected 0: the law is a constant K"},
+  const ExtendedRule rules[] = {{"lqr.horizon", law.horizon > 0, "expected 0: the law is a constant K"},
                         {"lqr.integral", law.integral.has_value(), "expected none: write ξ as a state of plant.f"},
                         {"lqr.track", !law.track.empty(), "expected none: the law holds the operating point"},
                         {"lqr.input_rate", law.input_rate.size() > 0, "expected none"},
                         {"limits.horizon", foresees(problem.limits), "expected 0: u is clipped"}};
-  for (const Rule& rule : rules)
+  for (const ExtendedRule& rule : rules)
     if (rule.is_broken) add_error(findings, rule.key, std::string("with kalman.gain = \"extended\" ") + rule.expected);
 }
 
@@ -68,9 +68,9 @@ void check_extended(const Problem& problem, Findings& findings) {
   if (!problem.estimator || !problem.estimator->extended) return;
   if (!problem.plant.equations)
     return add_error(findings, "kalman.gain", "\"extended\" needs plant.f and plant.h: the filter is of equations");
-  check_plant(problem, findings);
-  check_filter(problem, findings);
-  check_law(problem, findings);
+  check_plant_beside_extended(problem, findings);
+  check_extended_filter(problem, findings);
+  check_law_beside_extended(problem, findings);
 }
 
 }  // namespace lqg::design
