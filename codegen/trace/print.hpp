@@ -58,6 +58,8 @@ class Printer {
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
   // Whether it has a statement of its own; other operations are computed inside of the one that uses them.
   bool is_declared(int node) const;
+  // Whether a sine and a cosine of one value are both needed, which one call makes.
+  bool is_pair(int node) const { return partners_[static_cast<std::size_t>(node)] >= 0; }
   // Whether a resumed value needs no variable before the rest: it is read there first.
   bool is_read_late(int node) const;
   Operations operations() const;
