@@ -17,9 +17,9 @@ namespace lqg::design {
 
 namespace {
 
-constexpr unsigned search_digits = 50, coarse_digits = 430, fine_digits = 480;
+constexpr unsigned digits_of_search = 50, fewer_digits = 430, more_digits = 480;
 
-const char* const key = "plant.operating_point";
+const char* const point_key = "plant.operating_point";
 
 class Lineariser {
  public:
@@ -33,12 +33,12 @@ class Lineariser {
   std::optional<Linearisation> run() {
     const std::optional<RealVector> found = equilibrium();
     if (!found) return std::nullopt;
-    const std::optional<Linearisation> coarse = linearised(*found, coarse_digits);
+    const std::optional<Linearisation> coarse = linearised(*found, fewer_digits);
     if (!coarse) return std::nullopt;
-    std::optional<Linearisation> fine = linearised(*found, fine_digits);
-    const Digits scope(fine_digits);
+    std::optional<Linearisation> fine = linearised(*found, more_digits);
+    const Digits scope(more_digits);
     if (!fine || !settled(*coarse, *fine)) {
-      add_error(findings_, key, std::to_string(fine_digits) + " digits do not settle the slopes at this point");
+      add_error(findings_, point_key, std::to_string(more_digits) + " digits do not settle the slopes at this point");
       return std::nullopt;
     }
     return are_doubles(*fine) ? fine : std::nullopt;
@@ -83,12 +83,12 @@ class Lineariser {
   }
 
   std::optional<RealVector> equilibrium() {
-    const Digits scope(search_digits);
+    const Digits scope(digits_of_search);
     const Rest equations = rest();
     const RealVector given = point_of({});
     for (Index i = 0; i < count_; ++i)
       if (!isfinite(given(i))) {
-        add_error(findings_, key, "the value of " + name(i) + " is not a finite number");
+        add_error(findings_, point_key, "the value of " + name(i) + " is not a finite number");
         return std::nullopt;
       }
     if (unknown_.empty()) {
@@ -126,14 +126,14 @@ class Lineariser {
   void report_none(const Rest& equations, const std::vector<RealVector>& loose,
                    const std::optional<RealVector>& nearest) {
     if (!loose.empty())
-      return add_error(findings_, key,
+      return add_error(findings_, point_key,
                        "\"?\" of " + names_of(undetermined(equations, loose.front(), unknown_)) +
                            ": not determined by f = 0 (it holds at " + listed(loose.front()) +
                            ", and moving them changes nothing there); give a number");
     if (!nearest)
-      return add_error(findings_, key,
+      return add_error(findings_, point_key,
                        "f has no finite value where the search for \"?\" begins; say where to begin: \"? 0.5\"");
-    add_error(findings_, key,
+    add_error(findings_, point_key,
               "nothing was found for \"?\" at which f is 0; nearest is " + listed(*nearest) + ", where " +
                   rates_at(equations, *nearest) +
                   "; give other numbers, say where to begin (\"? 0.5\"), or name in `steady` the states that have to "
@@ -154,7 +154,7 @@ class Lineariser {
   }
 
   void report_rates(const Rest& equations, const RealVector& point) {
-    add_error(findings_, key,
+    add_error(findings_, point_key,
               "expected a point at rest, found " + rates_at(equations, point) +
                   "; write \"?\" for what is to be found, or name in `steady` the states that have to be at rest");
   }
@@ -166,7 +166,7 @@ class Lineariser {
         return abs(other(i) - first(i)) > 1e-6 * (abs(other(i)) + abs(first(i))) + negligible(0.3);
       });
       if (!is_other) continue;
-      return add_note(findings_, key,
+      return add_note(findings_, point_key,
                       "f is 0 at " + listed(first) + ", which is taken, and also at " + listed(other) +
                           "; \"? 0.5\" says where the search begins");
     }
@@ -196,7 +196,16 @@ class Lineariser {
   std::optional<Linearisation> linearised(const RealVector& found, unsigned digits) {
     const Digits scope(digits);
     RealVector point = point_of(found);
-    if (!unknown_.empty()) point = polished(rest(), point, unknown_);
+    if (!unknown_.empty()) {
+      const std::optional<RealVector> polished_point = polished(rest(), point, unknown_);
+      if (!polished_point) {
+        add_error(findings_, point_key,
+                  "\"?\" of " + names_of(unknown_) + ": not determined by f = 0, which touches 0 at " + listed(point) +
+                      " and does not pass through it; give a number");
+        return std::nullopt;
+      }
+      point = *polished_point;
+    }
     Linearisation result;
     RealVector f;
     if (!fill("f", plant_.equations->f, point, result.A, result.B, f)) return std::nullopt;
@@ -207,18 +216,23 @@ class Lineariser {
 
   static bool settled(const Linearisation& coarse, Linearisation& fine) {
     bool good = true;
+    const auto settle = [&](const auto& before, auto& after) {
+      for (Index i = 0; i < after.size(); ++i) {
+        Real& value = after.data()[i];
+        good = passes_ziv_test(before.data()[i], value, Real(1), fewer_digits) && good;
+        if (to_double(value) == 0) value = 0;  // nothing but what so many digits leave of 0
+      }
+    };
     for (const auto part : {&Linearisation::A, &Linearisation::B, &Linearisation::C, &Linearisation::D})
-      good = passes_ziv_test(coarse.*part, fine.*part, coarse_digits) && good;
-    for (const auto part : {&Linearisation::x, &Linearisation::u, &Linearisation::y})
-      for (Index i = 0; i < (fine.*part).size(); ++i)  // beside 1: at rest all may be 0
-        good = passes_ziv_test((coarse.*part)(i), (fine.*part)(i), Real(1), coarse_digits) && good;
+      settle(coarse.*part, fine.*part);
+    for (const auto part : {&Linearisation::x, &Linearisation::u, &Linearisation::y}) settle(coarse.*part, fine.*part);
     return good;
   }
 
   bool are_doubles(const Linearisation& result) {
     for (const RealMatrix* part : {&result.A, &result.B, &result.C, &result.D})
       if (!to_doubles(*part).allFinite()) {
-        add_error(findings_, key, "a slope at this point is beyond what a double can be");
+        add_error(findings_, point_key, "a slope at this point is beyond what a double can be");
         return false;
       }
     return true;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "design/rounding.hpp"
 #include "input/disturbances.hpp"
 #include "input/scenarios.hpp"
 
@@ -39,6 +40,21 @@ std::vector<design::Signal> signals(const Values& values, const std::string& key
   return result;
 }
 
+// With all digits; the point in those of a double.
+void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
+  plant.A = design::ExactMatrix::of(linearisation.A);
+  plant.B = design::ExactMatrix::of(linearisation.B);
+  plant.C = design::ExactMatrix::of(linearisation.C);
+  plant.D = design::ExactMatrix::of(linearisation.D);
+  plant.operating_point = design::OperatingPoint{design::to_doubles(linearisation.x),
+                                                 design::to_doubles(linearisation.u),
+                                                 design::to_doubles(linearisation.y),
+                                                 {},
+                                                 {},
+                                                 {},
+                                                 {}};
+}
+
 design::Plant plant(const Values& values) {
   const int nx = values.sizes.at(Size::nx);
   const int nu = values.sizes.at(Size::nu);
@@ -47,10 +63,15 @@ design::Plant plant(const Values& values) {
   const bool discrete = values.text("plant.domain") == "discrete";
   result.domain = discrete ? design::Domain::discrete : design::Domain::continuous;
   result.sample_time = values.numbers.at("plant.sample_time");
-  result.A = *values.matrix("plant.A");
-  result.B = zero_or(values, "plant.B", nx, nu);
-  result.C = zero_or(values, "plant.C", ny, nx);
-  result.D = zero_or(values, "plant.D", ny, nu);
+  result.equations = values.equations;
+  if (values.linearisation) {
+    linearise(*values.linearisation, result);
+  } else {
+    result.A = zero_or(values, "plant.A", nx, nx);  // of equations without a linearisation 0
+    result.B = zero_or(values, "plant.B", nx, nu);
+    result.C = zero_or(values, "plant.C", ny, nx);
+    result.D = zero_or(values, "plant.D", ny, nu);
+  }
   result.G = identity_or(values, "plant.G", nx);
   result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
   result.delay = values.number("plant.delay", 0);

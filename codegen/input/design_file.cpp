@@ -14,6 +14,7 @@
 #include "input/assemble.hpp"
 #include "input/consistency.hpp"
 #include "input/document.hpp"
+#include "input/equations.hpp"
 #include "input/names.hpp"
 #include "input/report.hpp"
 #include "input/scenarios.hpp"
@@ -87,6 +88,7 @@ DesignFile parse_design(const std::string& text, const std::optional<std::filesy
   file.text = text;
   Report report(file);
   Values values = read_values(std::get<Node>(document), report);
+  read_equations(std::get<Node>(document), values, report);
   check_consistency(values, report);
   if (!design::has_error(file.findings)) {
     design::Problem problem = assemble(values);

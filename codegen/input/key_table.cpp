@@ -30,7 +30,22 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`continuous`: the matrices are those of ẋ; lqgen samples them. `discrete`: they are those of x⁺.",
        "`\"continuous\"`, with a note"},
       {"plant.sample_time", Type::positive, no, no, required, {}, "Sampling period of the loop, in s."},
-      {"plant.A", Type::matrix, nx, nx, required, {}, "System matrix."},
+      {"plant.f", Type::formulas, nx, no, optional, {},
+       "The plant as equations, in place of `A`, `B`, `C` and `D`: of each state its derivative, or its value in the next "
+       "sample with a discrete plant, as a formula over states, inputs and parameters.",
+       "the plant is linear", "README.md#plants-as-equations"},
+      {"plant.h", Type::formulas, ny, no, optional, {},
+       "Of each output its formula. Without it lqgen designs a regulator alone.", "no outputs",
+       "README.md#plants-as-equations"},
+      {"plant.operating_point", Type::table, no, no, optional, {},
+       "Where `f` and `h` are linearised."},
+      {"plant.operating_point.states", Type::point, nx, no, optional, {},
+       "The states there: numbers, formulas, or `\"?\"` for what is found so that f = 0; `\"? 0.5\"` says where the "
+       "search begins.", "0"},
+      {"plant.operating_point.inputs", Type::point, nu, no, optional, {}, "The inputs there, likewise.", "0"},
+      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
+       "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
+      {"plant.A", Type::matrix, nx, nx, optional, {}, "System matrix. One of `A` and `f` is required."},
       {"plant.B", Type::matrix, nx, nu, optional, {},
        "Input matrix. Without it lqgen designs an estimator alone.", "no inputs"},
       {"plant.C", Type::matrix, ny, nx, optional, {},
@@ -319,6 +334,7 @@ const std::vector<KeyRule>& key_rules() {
 
 const std::vector<Alternatives>& alternatives() {
   static const std::vector<Alternatives> all = {
+      {"plant", {"A", "f"}, Need::required},
       {"lqr", {"Q", "Q_output", "bryson"}, Need::required},
       {"lqr.bryson", {"states", "outputs"}, Need::required},
       {"lqr", {"decay", "settling_time"}, Need::optional},

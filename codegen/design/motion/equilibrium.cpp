@@ -106,17 +106,17 @@ std::optional<RealVector> descended(const Rest& rest, RealVector point, const st
   return point;
 }
 
-RealVector polished(const Rest& rest, RealVector point, const std::vector<Index>& unknown) {
+std::optional<RealVector> polished(const Rest& rest, RealVector point, const std::vector<Index>& unknown) {
   constexpr int most_corrections = 60;
   const RealVector sizes = rest.sizes(point);
   for (int k = 0; k < most_corrections; ++k) {
     const std::optional<Scaled> here = scaled_at(rest, point, sizes, unknown);
     const std::optional<RealMatrix> step = here ? step_of(*here, Real(0)) : std::nullopt;
-    if (!step) break;
+    if (!step) return std::nullopt;
     point = moved(point, *step, unknown);
-    if (largest_entry(*step) <= negligible(0.9) * largest_entry(point)) break;
+    if (largest_entry(*step) <= negligible(0.9) * largest_entry(point)) return point;
   }
-  return point;
+  return std::nullopt;
 }
 
 bool is_at_rest(const Rest& rest, const RealVector& point) {
