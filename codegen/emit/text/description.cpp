@@ -54,7 +54,7 @@ std::string poles_line(const std::string& matrix, const design::Poles& of) {
 }  // namespace
 
 std::string describe_plant(const Controller& controller) {
-  if (controller::is_extended(controller)) return describe_equations(controller);
+  if (controller::is_extended(controller)) return describe_extended_plant(controller);
   const design::SampledPlant& plant = controller.solution.plant;
   const bool is_double = controller.target.is_double;
   std::string out = "\nPlant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +

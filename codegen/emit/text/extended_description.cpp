@@ -8,14 +8,6 @@ namespace lqg::emit {
 
 namespace {
 
-std::string formula_lines(const std::vector<design::Signal>& signals, const char* mark,
-                          const std::vector<std::string>& formulas) {
-  std::string out;
-  for (std::size_t i = 0; i < formulas.size(); ++i)
-    out += "  " + trace::wrap(signals[i].name + mark + formulas[i], 6, 96) + "\n";
-  return out;
-}
-
 std::string signal_lines(const char* what, const std::string& array, const std::vector<design::Signal>& signals) {
   std::string line;
   for (std::size_t i = 0; i < signals.size(); ++i)
@@ -39,15 +31,13 @@ std::string wraps_in_words(const Controller& controller) {
 
 }  // namespace
 
-std::string describe_equations(const Controller& controller) {
+std::string describe_extended_plant(const Controller& controller) {
   const design::Plant& plant = controller.problem.plant;
   const bool is_discrete = plant.domain == design::Domain::discrete;
-  std::string out = "\nPlant, sampled every " + number(design::Real(plant.sample_time), true) + " s:  " +
+  const std::string out = "\nPlant, sampled every " + number(design::Real(plant.sample_time), true) + " s:  " +
                     (is_discrete ? "x⁺ = f(x, u) + G w" : "ẋ = f(x, u)") + ",  y = h(x, u) + v\n\n";
-  out += signal_lines("states   ", "x", plant.states) + signal_lines("inputs   ", "u", plant.inputs) +
+  return out + signal_lines("states   ", "x", plant.states) + signal_lines("inputs   ", "u", plant.inputs) +
          signal_lines("outputs  ", "y", plant.outputs);
-  return out + "\n" + formula_lines(plant.states, is_discrete ? "⁺ = " : "' = ", plant.equations->f_text) +
-         formula_lines(plant.outputs, " = ", plant.equations->h_text);
 }
 
 std::string describe_extended_filter(const Controller& controller) {

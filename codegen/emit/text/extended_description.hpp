@@ -8,8 +8,8 @@
 
 namespace lqg::emit {
 
-// In place of the matrices of a linear plant: the equations as the file has them.
-std::string describe_equations(const Controller& controller);
+// In place of the matrices of a linear plant: its signals. The equations are in emit/text/equations.
+std::string describe_extended_plant(const Controller& controller);
 
 // In place of a gain: what the filter does, and with which noises.
 std::string describe_extended_filter(const Controller& controller);
