@@ -12,7 +12,7 @@ namespace lqg::emit {
 // bits on every host.
 class ExtendedPlant {
  public:
-  ExtendedPlant(const Controller& controller, std::uint64_t seed);
+  ExtendedPlant(const Controller& controller, std::uint64_t seed_of_noise);
 
   // y while u acts.
   Eigen::VectorXd measure(const Eigen::VectorXd& u);
