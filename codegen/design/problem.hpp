@@ -23,6 +23,15 @@ struct Signal {
 
 enum class Domain { continuous, discrete };
 
+// Where the linear plant is the plant: its x, u and y are deviations from these. In the plant's own units, as is what
+// the file states beside it; when a Problem leaves `input`, its limits, ranges and initial state are deviations, too.
+struct OperatingPoint {
+  Eigen::VectorXd x, u, y;  // nx, nu, ny
+  // Of Limits and Estimator, as the file states them.
+  Eigen::VectorXd u_min, u_max, output_min, output_max;
+  Eigen::MatrixXd states_range, outputs_range;
+};
+
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
 struct Plant {
   Domain domain = Domain::continuous;
@@ -38,6 +47,7 @@ struct Plant {
   Eigen::VectorXd dropout;       // ny, the probability that C x of an output is 0 in a sample; or empty: never
   double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
+  std::optional<OperatingPoint> operating_point = {};  // not given: 0
 };
 
 // Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).

@@ -60,6 +60,16 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`x0`, `x1`, …"},
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
+      {"plant.operating_point", Type::table, no, no, optional, {},
+       "Where the matrices are the linearisation of the plant: x, u and y of the design are deviations from this point. "
+       "All the rest of the file, and all that firmware hands over and gets, is in the plant's own units: limits, ranges, "
+       "initial states, references, y, u and x. Weights, noises and what [lqr.bryson] accepts are of deviations.",
+       "x, u and y are those of the matrices", "README.md#operating-point"},
+      {"plant.operating_point.states", Type::vector, nx, no, optional, {}, "The states there.", "0"},
+      {"plant.operating_point.inputs", Type::vector, nu, no, optional, {},
+       "The inputs that keep the plant there.", "0"},
+      {"plant.operating_point.outputs", Type::vector, ny, no, optional, {},
+       "The outputs there. References begin with them.", "0"},
 
       {"lqr", Type::table, no, no, optional, {},
        "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
@@ -137,7 +147,8 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Form of P with `gain = \"online\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
        "`plain`: P itself, which is cheaper."},
       {"kalman.initial_state", Type::vector, nx, no, optional, {},
-       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.", "0"},
+       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.",
+       "0, or `plant.operating_point`"},
       {"kalman.initial_covariance", Type::weight, nx, nx, optional, {},
        "P0 = P(0|−1), the covariance of that x̂.", "identity"},
       {"kalman.process_correlation_time", Type::positives, nw, no, optional, {},

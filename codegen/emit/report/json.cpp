@@ -62,6 +62,10 @@ Json plant(const Controller& controller) {
   return out;
 }
 
+Json operating_point(const design::OperatingPoint& point) {
+  return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
+}
+
 Json schedule(const std::vector<design::RealMatrix>& gains) {
   Json out = Json::array();
   for (const design::RealMatrix& gain : gains) out.push_back(rows(gain));
@@ -355,6 +359,7 @@ std::string json(const Controller& controller) {
               {"lqgen", version()},
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
+  if (const auto& point = controller.problem.plant.operating_point) out["operating_point"] = operating_point(*point);
   if (solution.estimator && solution.estimator->noise.V.size() > 0)
     out["noise"] = noise(solution.estimator->noise);
   else if (solution.noise)
