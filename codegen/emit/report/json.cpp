@@ -66,6 +66,24 @@ Json operating_point(const design::OperatingPoint& point) {
   return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
 }
 
+Json parameters(const std::vector<design::Parameter>& all) {
+  Json out = Json::object();
+  for (const design::Parameter& parameter : all) {
+    Json& one = out[parameter.name] = {{"value", parameter.value}};
+    if (!parameter.unit.empty()) one["unit"] = parameter.unit;
+    if (!parameter.formula.empty()) one["expression"] = parameter.formula;
+    if (parameter.is_set) one["is_set"] = true;
+  }
+  return out;
+}
+
+Json expressions(const std::vector<design::Formula>& all) {
+  Json out = Json::object();
+  for (const design::Formula& formula : all)
+    out[formula.key] = {{"value", formula.value}, {"expression", formula.text}};
+  return out;
+}
+
 Json schedule(const std::vector<design::RealMatrix>& gains) {
   Json out = Json::array();
   for (const design::RealMatrix& gain : gains) out.push_back(rows(gain));
@@ -360,6 +378,8 @@ std::string json(const Controller& controller) {
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
   if (const auto& point = controller.problem.plant.operating_point) out["operating_point"] = operating_point(*point);
+  if (!controller.problem.parameters.empty()) out["parameters"] = parameters(controller.problem.parameters);
+  if (!controller.problem.formulas.empty()) out["expressions"] = expressions(controller.problem.formulas);
   if (solution.estimator && solution.estimator->noise.V.size() > 0)
     out["noise"] = noise(solution.estimator->noise);
   else if (solution.noise)
