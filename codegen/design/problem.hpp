@@ -207,6 +207,21 @@ struct Code {
   long flash = 16384;  // bytes
 };
 
+// A name of the file for a number, and a formula where it has one.
+struct Parameter {
+  std::string name;
+  double value = 0;
+  std::string unit, formula;  // as they are written, or empty
+  bool is_set = false;        // on the command line, in place of what the file says
+};
+
+// A number of the file that is written as a formula.
+struct Formula {
+  std::string key;  // "plant.A[1][0]"
+  std::string text;
+  double value = 0;
+};
+
 struct Problem {
   std::string name;
   std::string brief;
@@ -220,6 +235,8 @@ struct Problem {
   std::vector<Scenario> scenarios;
   Requirements requirements;
   Code code;
+  std::vector<Parameter> parameters;
+  std::vector<Formula> formulas;
 };
 
 // The plant has parameters that are random from sample to sample.

@@ -10,15 +10,17 @@
 namespace lqg::input {
 namespace {
 
-Eigen::MatrixXd zero_or(const Values& values, const std::string& key, int rows, int columns) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd::Zero(rows, columns);
+using design::ExactMatrix;
+
+ExactMatrix zero_or(const Values& values, const std::string& key, int rows, int columns) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix(Eigen::MatrixXd::Zero(rows, columns));
 }
 
 // 0 × 0 when there is none.
-Eigen::MatrixXd empty_or(const Values& values, const std::string& key) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd();
+ExactMatrix empty_or(const Values& values, const std::string& key) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix();
 }
 
 Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
@@ -26,9 +28,9 @@ Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
   return matrix != nullptr ? Eigen::VectorXd(matrix->col(0)) : Eigen::VectorXd();
 }
 
-Eigen::MatrixXd identity_or(const Values& values, const std::string& key, int size) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd::Identity(size, size);
+ExactMatrix identity_or(const Values& values, const std::string& key, int size) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix(Eigen::MatrixXd::Identity(size, size));
 }
 
 // Names of the file, or "x0", "x1" …

@@ -23,6 +23,12 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"brief", Type::line, no, no, optional, {},
        "One line that says what the controller is. It is repeated in the emitted files.", "empty"},
 
+      {"parameters", Type::parameters, no, no, optional, {},
+       "Names for numbers, which expressions are over: each a number, an expression in quotes, or "
+       "`{ value = 2.32, unit = \"ohm\" }`. Wherever a key takes a number it takes an expression in quotes, too: "
+       "`A = [[0, 1], [0, \"-Kt*Ke/(R*J)\"]]`.",
+       "none", "README.md#parameters-and-expressions"},
+
       {"plant", Type::table, no, no, required, {},
        "The plant: ẋ = A x + B u + G w (continuous) or x⁺ = A x + B u + G w (discrete), with y = C x + D u + H w + v. "
        "w is the process noise, v the measurement noise."},
