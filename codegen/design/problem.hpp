@@ -7,10 +7,12 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "design/equations_of_motion.hpp"
 #include "design/exact_matrix.hpp"
 #include "design/scenario.hpp"
 
@@ -48,6 +50,7 @@ struct Plant {
   double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
   std::optional<OperatingPoint> operating_point = {};  // not given: 0
+  std::shared_ptr<const Equations> equations = {};     // of a plant that is stated so; A, B, C, D are its linearisation
 };
 
 // Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "design/rounding.hpp"
 #include "input/disturbances.hpp"
 #include "input/scenarios.hpp"
 
@@ -55,6 +56,19 @@ std::optional<design::OperatingPoint> operating_point(const Values& values, cons
   return point;
 }
 
+// With all digits; the point in those of a double.
+void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
+  plant.A = design::ExactMatrix::of(linearisation.A);
+  plant.B = design::ExactMatrix::of(linearisation.B);
+  plant.C = design::ExactMatrix::of(linearisation.C);
+  plant.D = design::ExactMatrix::of(linearisation.D);
+  design::OperatingPoint point;
+  point.x = design::to_doubles(linearisation.x);
+  point.u = design::to_doubles(linearisation.u);
+  point.y = design::to_doubles(linearisation.y);
+  plant.operating_point = point;
+}
+
 design::Plant plant(const Values& values) {
   const int nx = values.sizes.at(Size::nx);
   const int nu = values.sizes.at(Size::nu);
@@ -63,10 +77,15 @@ design::Plant plant(const Values& values) {
   const bool discrete = values.text("plant.domain") == "discrete";
   result.domain = discrete ? design::Domain::discrete : design::Domain::continuous;
   result.sample_time = values.numbers.at("plant.sample_time");
-  result.A = *values.matrix("plant.A");
-  result.B = zero_or(values, "plant.B", nx, nu);
-  result.C = zero_or(values, "plant.C", ny, nx);
-  result.D = zero_or(values, "plant.D", ny, nu);
+  result.equations = values.equations;
+  if (values.linearisation) {
+    linearise(*values.linearisation, result);
+  } else {
+    result.A = zero_or(values, "plant.A", nx, nx);  // of equations without a linearisation 0
+    result.B = zero_or(values, "plant.B", nx, nu);
+    result.C = zero_or(values, "plant.C", ny, nx);
+    result.D = zero_or(values, "plant.D", ny, nu);
+  }
   result.G = identity_or(values, "plant.G", nx);
   result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
   result.delay = values.number("plant.delay", 0);
@@ -76,7 +95,7 @@ design::Plant plant(const Values& values) {
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
-  result.operating_point = operating_point(values, result);
+  if (!result.equations) result.operating_point = operating_point(values, result);
   return result;
 }
 

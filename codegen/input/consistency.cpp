@@ -37,9 +37,11 @@ void check_tables(const Values& values, Report& report) {
     report.error("limits", "expected u_min, u_max or another limit, found none");
   if (values.tables.count("plant") == 0) return;
   for (const char* key : {"lqr", "pole_placement", "kalman.disturbance"})
-    if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
+    if (values.has(key) && !values.has_inputs())
+      report.error(key, values.has("plant.f") ? "needs plant.inputs" : "needs plant.B");
   for (const char* key : {"kalman", "observer", "lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"})
-    if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
+    if (values.has(key) && !values.has_outputs())
+      report.error(key, values.has("plant.f") ? "needs plant.h" : "needs plant.C");
 }
 
 // Nothing is said of a table that is not there.

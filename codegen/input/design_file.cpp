@@ -15,6 +15,7 @@
 #include "input/assemble.hpp"
 #include "input/consistency.hpp"
 #include "input/document.hpp"
+#include "input/equations.hpp"
 #include "input/formulas.hpp"
 #include "input/names.hpp"
 #include "input/parameters.hpp"
@@ -128,6 +129,7 @@ DesignFile parse_design(const std::string& text, const std::optional<std::filesy
   const Parameters parameters = read_parameters(std::get<Node>(document), settings, places, exact, report);
   const Formulas formulas = read_formulas(std::get<Node>(document), parameters, places, exact, report);
   Values values = read_values(std::get<Node>(document), formulas.wrong, report);
+  read_equations(std::get<Node>(document), parameters, places, exact, values, report);
   check_consistency(values, report);
   check_units(formulas, parameters, values, places, report);
   if (!design::has_error(file.findings)) {

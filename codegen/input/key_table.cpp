@@ -36,7 +36,14 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`continuous`: the matrices are those of ẋ; lqgen samples them. `discrete`: they are those of x⁺.",
        "`\"continuous\"`, with a note"},
       {"plant.sample_time", Type::positive, no, no, required, {}, "Sampling period of the loop, in s."},
-      {"plant.A", Type::matrix, nx, nx, required, {}, "System matrix."},
+      {"plant.f", Type::formulas, nx, no, optional, {},
+       "The plant as equations, in place of `A`, `B`, `C` and `D`: of each state its derivative, or its value in the next "
+       "sample with a discrete plant, as a formula over states, inputs and parameters.",
+       "the plant is linear", "README.md#plants-as-equations"},
+      {"plant.h", Type::formulas, ny, no, optional, {},
+       "Of each output its formula. Without it lqgen designs a regulator alone.", "no outputs",
+       "README.md#plants-as-equations"},
+      {"plant.A", Type::matrix, nx, nx, optional, {}, "System matrix. One of `A` and `f` is required."},
       {"plant.B", Type::matrix, nx, nu, optional, {},
        "Input matrix. Without it lqgen designs an estimator alone.", "no inputs"},
       {"plant.C", Type::matrix, ny, nx, optional, {},
@@ -67,15 +74,20 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
       {"plant.operating_point", Type::table, no, no, optional, {},
-       "Where the matrices are the linearisation of the plant: x, u and y of the design are deviations from this point. "
-       "All the rest of the file, and all that firmware hands over and gets, is in the plant's own units: limits, ranges, "
-       "initial states, references, y, u and x. Weights, noises and what [lqr.bryson] accepts are of deviations.",
+       "Where `f` and `h` are linearised, or where the matrices are the linearisation of the plant: x, u and y of the "
+       "design are deviations from this point. All the rest of the file, and all that firmware hands over and gets, is "
+       "in the plant's own units: limits, ranges, initial states, references, y, u and x. Weights, noises and what "
+       "[lqr.bryson] accepts are of deviations.",
        "x, u and y are those of the matrices", "README.md#operating-point"},
-      {"plant.operating_point.states", Type::vector, nx, no, optional, {}, "The states there.", "0"},
-      {"plant.operating_point.inputs", Type::vector, nu, no, optional, {},
-       "The inputs that keep the plant there.", "0"},
+      {"plant.operating_point.states", Type::point, nx, no, optional, {},
+       "The states there. With `f` also `\"?\"` for what is found so that f = 0; `\"? 0.5\"` says where the search begins.",
+       "0"},
+      {"plant.operating_point.inputs", Type::point, nu, no, optional, {},
+       "The inputs that keep the plant there, likewise.", "0"},
       {"plant.operating_point.outputs", Type::vector, ny, no, optional, {},
-       "The outputs there. References begin with them.", "0"},
+       "The outputs there, of a plant of matrices. References begin with them.", "0"},
+      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
+       "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
 
       {"lqr", Type::table, no, no, optional, {},
        "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
@@ -325,6 +337,7 @@ const std::vector<KeyRule>& key_rules() {
 
 const std::vector<Alternatives>& alternatives() {
   static const std::vector<Alternatives> all = {
+      {"plant", {"A", "f"}, Need::required},
       {"lqr", {"Q", "Q_output", "bryson"}, Need::required},
       {"lqr.bryson", {"states", "outputs"}, Need::required},
       {"lqr", {"decay", "settling_time"}, Need::optional},

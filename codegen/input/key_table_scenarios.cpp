@@ -102,6 +102,8 @@ std::vector<KeyRule> scenario_keys() {
       {"scenario.plant.A", Type::matrix, nx, nx, optional, {}, "In place of `plant.A`.", "unchanged"},
       {"scenario.plant.B", Type::matrix, nx, nu, optional, {}, "In place of `plant.B`.", "unchanged"},
       {"scenario.plant.C", Type::matrix, ny, nx, optional, {}, "In place of `plant.C`.", "unchanged"},
+      {"scenario.plant.parameters", Type::parameters, no, no, optional, {},
+       "Parameters that are others in the equations of this plant: `{ mass = 0.7 }`.", "those of the design"},
       {"scenario.plant.delay", Type::not_negative, no, no, optional, {},
        "In s, in place of `plant.delay`; with a discrete plant it is a whole number of periods.", "unchanged"},
       {"scenario.plant.continuous", Type::flag, no, no, optional, {},

@@ -97,6 +97,9 @@ Json value_schema(const KeyRule& rule) {
     case Type::entry: return {{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}};
     case Type::poles: return array_of(pole());
     case Type::signals: return array_of(text(R"(^ *[A-Za-z][A-Za-z0-9_]* *(\[[^\[\]\\]*\] *)?$)"));
+    case Type::formulas: return array_of({{"anyOf", {{{"type", "string"}}, number}}});
+    case Type::point: return array_of({{"anyOf", {number, {{"type", "string"}}}}});
+    case Type::states: return array_of({{"type", "string"}});
     case Type::table:
     case Type::tables: break;
   }

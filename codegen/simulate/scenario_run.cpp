@@ -153,6 +153,12 @@ void keep_instants(const ScenarioSurroundings& around, ScenarioRun& run) {
   }
 }
 
+// What is shown of the sample before `k` is not all there.
+bool ends_within_sample(const ScenarioRun& run, Index k) {
+  const Index instants = run.fine_times.size() / run.times.size();
+  return k > 0 && instants > 0 && !run.fine_x.middleCols((k - 1) * instants, instants).allFinite();
+}
+
 bool is_lost(const VectorXd& x) { return !(x.cwiseAbs().maxCoeff() < far_away); }
 
 template <class TakeSample>
@@ -162,7 +168,7 @@ void run_samples(ScenarioSurroundings& around, ScenarioRun& run, TakeSample take
     run.x.col(around.k) = in_own_units(around.truth.state(), around.point.x);
     if (is_lost(around.truth.state())) {
       run.numbers.has_diverged = true;
-      return cut(run, around.k);
+      return cut(run, around.k - (ends_within_sample(run, around.k) ? 1 : 0));
     }
     const Sample sample = take_sample_of();
     if (!around.controller.is_predictor && around.controller.has.filter) around.ask(sample.u);

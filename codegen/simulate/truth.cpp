@@ -63,8 +63,19 @@ void Truth::ask(const VectorXd& u) {
   }
 }
 
+Held Truth::held_of(int asked, int period) const {
+  Held held;
+  held.command = VectorXd(model_.nu);
+  for (Index i = 0; i < model_.nu; ++i) held.command(i) = asked_for(static_cast<int>(i), asked);
+  if (!model_.has_loads) return held;
+  held.load = model_.courses->load.col(period);
+  held.state_load = model_.courses->state_load.col(period);
+  return held;
+}
+
 // x ← x `time` s later, while the actuators do what sample `asked` wanted and the loads are those of `period`.
 void Truth::move(const TruthModel::Stage& stage, int asked, int period, double time, VectorXd& x) const {
+  if (model_.motion) return model_.motion->move(held_of(asked, period), time, x);
   const auto found = std::find_if(stage.moves.begin(), stage.moves.end(),
                                   [time](const TruthModel::Move& move) { return move.time == time; });
   VectorXd held = VectorXd::Zero(found->period.B.cols());
@@ -99,6 +110,7 @@ VectorXd Truth::outputs_of(const VectorXd& x, int asked, int period) const {
   for (std::size_t i = 0; i < model_.lagged.size(); ++i)
     acting(model_.lagged[i]) = x(model_.nx + static_cast<Index>(i));
   if (model_.has_loads) acting += model_.courses->load.col(period);
+  if (model_.motion) return model_.motion->outputs(x, acting);
   VectorXd y = ordered_image(stage.C, x.head(model_.nx));
   add_product(stage.D, acting, y);
   return y;

@@ -34,6 +34,7 @@ class Truth {
 
  private:
   Eigen::VectorXd moved(int period, double time) const;
+  Held held_of(int asked, int period) const;
   void move(const TruthModel::Stage& stage, int asked, int period, double time, Eigen::VectorXd& x) const;
   Eigen::VectorXd outputs_in(int period, double time) const;
   Eigen::VectorXd outputs_at(int sample) const;

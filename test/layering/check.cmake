@@ -56,9 +56,9 @@ set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
 # The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who
 # solves.
 set(room_folder codegen/design)
-string(CONCAT design_words "^design/(problem|scenario|exact_matrix|solution|solution_matrices|finding|real|rounding|"
-                           "progress)\\.hpp$")
-check_floors(design "${design_words}" "numeric;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
+string(CONCAT design_words "^design/(problem|equations_of_motion|linearise|scenario|exact_matrix|solution|"
+                            "solution_matrices|finding|real|rounding|progress)\\.hpp$")
+check_floors(design "${design_words}" "numeric;motion;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
              ${digits} "^expression/")
 check(codegen/design "^expression/" ${any_room} ${digits} "^design/")
 

@@ -42,6 +42,30 @@ Json names(const std::vector<design::Signal>& signals) {
   return out;
 }
 
+Json rows_of_doubles(const Eigen::MatrixXd& matrix) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const Eigen::VectorXd row = matrix.row(i);
+    out.push_back(numbers(row));
+  }
+  return out;
+}
+
+// The equations as they are written, and their linearisation before it is sampled.
+void add_equations(const design::Plant& plant, Json& out) {
+  out["f"] = plant.equations->f_text;
+  out["h"] = plant.equations->h_text;
+  if (plant.domain != design::Domain::continuous || !plant.operating_point) return;
+  out["continuous"] = {{"A", rows_of_doubles(plant.A)},
+                       {"B", rows_of_doubles(plant.B)},
+                       {"C", rows_of_doubles(plant.C)},
+                       {"D", rows_of_doubles(plant.D)}};
+}
+
+Json operating_point(const design::OperatingPoint& point) {
+  return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
+}
+
 Json plant(const Controller& controller) {
   const design::SampledPlant& sampled = controller.solution.plant;
   const design::Plant& stated = controller.problem.plant;
@@ -55,15 +79,12 @@ Json plant(const Controller& controller) {
               {"states", names(stated.states)},
               {"inputs", names(stated.inputs)},
               {"outputs", names(stated.outputs)}};
+  if (stated.equations) add_equations(stated, out);
   if (!design::has_added_states(controller.problem)) return out;
   const std::vector<design::Signal> all = state_signals(controller);
   const auto first = all.begin() + stated.A.rows();
   out["added_states"] = names({first, first + design::added_states(controller.problem)});
   return out;
-}
-
-Json operating_point(const design::OperatingPoint& point) {
-  return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
 }
 
 Json parameters(const std::vector<design::Parameter>& all) {
