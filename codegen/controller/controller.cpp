@@ -15,6 +15,7 @@
 #include "design/rounding.hpp"
 #include "design/sampled/added_states.hpp"
 #include "design/sampled/reference.hpp"
+#include "expression/bind.hpp"
 
 namespace lqg::controller {
 
@@ -70,7 +71,17 @@ std::vector<std::size_t> stage_starts_of(const Controller& controller) {
   return starts;
 }
 
+// h has an input in it.
+bool has_input_in_outputs(const Controller& controller) {
+  const auto& formulas = controller.problem.plant.equations->h;
+  return std::any_of(formulas.begin(), formulas.end(), [&](const expression::Tree& formula) {
+    const std::vector<int> variables = expression::variables_in(formula);
+    return !variables.empty() && variables.back() >= controller.size.nx;
+  });
+}
+
 bool has_feedthrough(const Controller& controller) {
+  if (is_extended(controller)) return has_input_in_outputs(controller);
   return controller.has.filter &&
          in_any_stage(controller, [&](std::size_t at) { return !is_zero(plant_at(controller, at).D); });
 }

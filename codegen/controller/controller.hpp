@@ -176,6 +176,11 @@ inline bool carries_covariance(const Controller& controller) {
   return controller.filter == step::Filter::plain || controller.filter == step::Filter::ud;
 }
 
+// It is of the plant's equations, linearised at the estimate.
+inline bool is_extended(const Controller& controller) {
+  return controller.problem.estimator && controller.problem.estimator->extended;
+}
+
 // "x", or "z" of a filter that keeps that in its place: the name of it in the header.
 inline const char* kept_name(const Controller& controller) { return controller.modal ? "z" : "x"; }
 

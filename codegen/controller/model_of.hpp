@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "controller/controller.hpp"
+#include "controller/equations_of.hpp"
 #include "controller/limit_of_target.hpp"
 #include "controller/operating_point.hpp"
 #include "controller/stage_in_force.hpp"
@@ -31,6 +32,7 @@ void convert_online(const Controller& controller, Round round, std::size_t sampl
   model.E = convert<S>(online.E, round);
   model.C = convert<S>(online.C, round);
   if (controller.has.feedthrough) model.D = convert<S>(online.D, round);
+  if (controller.problem.estimator->extended) model.equations = equations_of<S>(controller, round);
   if (controller.keeps.innovation) model.M = convert<S>(online.M, round);
   model.V = convert<S>(online.V, round);
   model.A_free = convert<S>(online.A_free, round);

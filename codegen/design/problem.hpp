@@ -117,6 +117,15 @@ struct TransferRecovery {
   bool is_automatic = false;  // instead of q: the smallest one with which the loop has what is required of it
 };
 
+// How the filter goes over the equations of a continuous plant from one sample to the next, with u held.
+enum class Integrator { rk4, euler };
+
+// An extended filter: with Gain::online, over the equations of the plant, linearised at its own estimate.
+struct Extended {
+  Integrator integrator = Integrator::rk4;
+  std::vector<int> wraps;  // outputs that are angles, in rad: their innovations lie in [−π, π)
+};
+
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.
 struct Estimator {
   ExactMatrix W, V, Swv;
@@ -135,6 +144,7 @@ struct Estimator {
   std::optional<WantedPoles> poles;  // [observer]: L has these poles; no noise is there then
   std::vector<InputDisturbance> disturbance;  // estimated, too, and by the regulator cancelled; each input once
   std::optional<TransferRecovery> recovery;
+  std::optional<Extended> extended;  // with a plant that has equations
 };
 
 // Placed poles need no noise.

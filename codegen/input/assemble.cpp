@@ -181,9 +181,14 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   const bool discrete = noise.empty() ? plant.domain == design::Domain::discrete : noise == "discrete";
   result.noise = discrete ? design::Noise::discrete : design::Noise::continuous;
   const auto says = [&](const char* key, const char* word) { return values.text(key) == word; };
-  result.gain = says("kalman.gain", "online")     ? design::Gain::online
-                : says("kalman.gain", "schedule") ? design::Gain::schedule
-                                                  : design::Gain::steady;
+  const bool is_extended = says("kalman.gain", "extended");
+  result.gain = is_extended || says("kalman.gain", "online") ? design::Gain::online
+                : says("kalman.gain", "schedule")            ? design::Gain::schedule
+                                                             : design::Gain::steady;
+  if (is_extended)
+    result.extended = design::Extended{
+        says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
+        values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
   result.horizon = whole(values, "kalman.horizon");
   result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
   result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");

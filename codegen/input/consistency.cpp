@@ -88,7 +88,9 @@ void check_companions(const Values& values, Report& report) {
   needs("kalman.structure", gain.empty() || gain == "steady", "kalman.gain = \"steady\"");
   needs("kalman.recovery", has_any(values, {"lqr", "pole_placement"}),
         "[lqr] or [pole_placement]: without a regulator there is no loop");
-  needs("kalman.recovery", gain != "online",
+  for (const char* key : {"kalman.integrator", "kalman.wraps"})
+    needs(key, gain == "extended", "kalman.gain = \"extended\"");
+  needs("kalman.recovery", gain != "online" && gain != "extended",
         "kalman.gain = \"steady\" or \"schedule\": a covariance that is carried with noise that is not there would not "
         "be that of the error");
   needs("kalman.recovery", !values.has("kalman.structure"),
@@ -205,8 +207,9 @@ void note_unused(const Values& values, Report& report) {
     report.note("plant.C", "not used without [kalman]: u = −K x of the measured states");
   for (const char* key : {"plant.G", "plant.H"})
     if (values.has(key) && !values.has("kalman")) report.note(key, "not used without [kalman]");
-  if (values.text("kalman.covariance") == "plain" && values.text("kalman.gain") != "online")
-    report.note("kalman.covariance", "not used without gain = \"online\"");
+  const std::string gain = values.text("kalman.gain");
+  if (values.text("kalman.covariance") == "plain" && gain != "online" && gain != "extended")
+    report.note("kalman.covariance", "not used without gain = \"online\" or \"extended\"");
 }
 
 // With all digits that its entries have.

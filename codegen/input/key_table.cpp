@@ -156,13 +156,24 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`discrete`: the covariances are those of samples, w is held between samples. "
        "`continuous`: they are power spectral densities.",
        "the plant's domain"},
-      {"kalman.gain", Type::word, no, no, optional, {"steady", "schedule", "online"},
+      {"kalman.gain", Type::word, no, no, optional, {"steady", "schedule", "online", "extended"},
        "`steady`: the constant gain of the steady filter. `schedule`: a table of gains for the transient from P0, then "
-       "the steady gain. `online`: the covariance is updated on the target in every sample."},
+       "the steady gain. `online`: the covariance is updated on the target in every sample. `extended`: likewise, over "
+       "the equations `plant.f` and `plant.h`, linearised at the estimate.",
+       "", "README.md#extended-kalman-filters"},
+      {"kalman.integrator", Type::word, no, no, optional, {"rk4", "euler"},
+       "How an extended filter goes over `plant.f` of a continuous plant from one sample to the next, with u held. "
+       "`rk4`: one classical step of fourth order. `euler`: one step of first order. A takes the Jacobian of that "
+       "very step.",
+       "", "README.md#extended-kalman-filters"},
+      {"kalman.wraps", Type::indices, ny, no, optional, {},
+       "Outputs of an extended filter that are angles in rad, by name or by number from 0: y − h(x̂) is taken in "
+       "[−π, π).",
+       "none", "README.md#extended-kalman-filters"},
       {"kalman.form", Type::word, no, no, optional, {"filter", "predictor"},
        "`filter`: u[k] uses y[k]. `predictor`: u[k] uses y[k−1], which leaves one sample for the computation."},
       {"kalman.covariance", Type::word, no, no, optional, {"ud", "plain"},
-       "Form of P with `gain = \"online\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
+       "Form of P with `gain = \"online\"` or `\"extended\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
        "`plain`: P itself, which is cheaper."},
       {"kalman.initial_state", Type::vector, nx, no, optional, {},
        "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.",

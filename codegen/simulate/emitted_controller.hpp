@@ -76,8 +76,9 @@ class EmittedController {
       if (!is_used(i)) there(i) = S(std::numeric_limits<double>::infinity());
     there = output_deviations(there);
     step::Listener listener;
+    step::Model<S> as_they_are = outputs();
     const auto lost =
-        step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), there, listener);
+        step::lost_outputs(model_, step::innovations(as_they_are, state_, there, listener), there, listener);
     const unsigned events = update_by(there) & ~step::all_rejections();
     for (Eigen::Index i = 0; i < there.size(); ++i)
       listener.reject(static_cast<int>(i), is_used(i) && lost[static_cast<std::size_t>(i)]);
@@ -85,7 +86,7 @@ class EmittedController {
   }
   // The variances are empty where the header has none.
   void innovation(const Vector<S>& y, Vector<S>& nu, Vector<S>& variances) const {
-    const step::Model<S> as_they_are = outputs();
+    step::Model<S> as_they_are = outputs();
     step::Listener listener;
     nu = step::innovations(as_they_are, state_, output_deviations(y), listener);
     variances.resize(controller_.has.variance ? nu.size() : 0);

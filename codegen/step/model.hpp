@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "step/equations.hpp"
 #include "step/scalar.hpp"
 
 namespace lqg::step {
@@ -82,6 +83,10 @@ struct Model {
   Matrix<S> H_input;          // nxi × nu: ξ + H_input (u − v) makes the law give u, or nearly, where it gave v
   S T = S(0);                 // s, the sample time, of ξ⁺ = ξ + T (r − y)
   OperatingPoint<S> point;    // of x, u and y, which are deviations; only r of the state is in the plant's own units
+  // An extended filter: A, C and what follows of them are made in each sample, of its equations. D says whether h needs
+  // an input.
+  std::shared_ptr<const Equations<S>> equations;
+  Vector<S> linearised_at;  // nx: the outputs are y − h there, and C the Jacobian; or empty: they are C x + D u
 };
 
 // No gate is wider, squared: then it lets everything in that is believable.

@@ -158,7 +158,7 @@ TracedFunction trace_innovation(const Controller& controller) {
   TracedFunction function = new_function(controller);
   function.is_void = true;
   const trace::Recording recording(*function.graph);
-  const Model model = model_of_outputs(controller);
+  Model model = model_of_outputs(controller);
   const State state = load_state(controller, model, covariance_pattern(controller));
   TraceListener listener(controller, function);
   const Symbols innovations =

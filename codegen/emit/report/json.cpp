@@ -210,9 +210,22 @@ Json observer(const Controller& controller) {
           {"D", rows(design::beside(design::zeros(nx, nu), told))}};
 }
 
+// Over the equations of the plant.
+Json extended(const Controller& controller) {
+  const design::Plant& plant = controller.problem.plant;
+  const design::Extended& filter = *controller.problem.estimator->extended;
+  Json wraps = Json::array();
+  for (const int output : filter.wraps) wraps.push_back(plant.outputs[static_cast<std::size_t>(output)].name);
+  Json out = {{"wraps", wraps}};
+  if (plant.domain == design::Domain::continuous)
+    out["integrator"] = filter.integrator == design::Integrator::euler ? "euler" : "rk4";
+  return out;
+}
+
 // A filter that never becomes steady has its form alone.
 Json kalman(const Controller& controller) {
   Json out = {{"form", controller.is_predictor ? "predictor" : "filter"}};
+  if (controller::is_extended(controller)) out["extended"] = extended(controller);
   if (!controller.solution.estimator || controller.solution.compensator) return out;
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   out["L"] = rows(estimator.L);
@@ -423,7 +436,7 @@ std::string json(const Controller& controller) {
   out["loop"] = loop(solution.loop, controller.problem.plant.sample_time);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
   if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller);
-  if (controller.has.filter) out["recovery"] = recovery(controller.recovery);
+  if (controller.has.filter && !controller::is_extended(controller)) out["recovery"] = recovery(controller.recovery);
   out["code"] = code(controller);
   return out.dump(2) + "\n";
 }

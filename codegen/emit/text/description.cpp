@@ -5,6 +5,7 @@
 
 #include "controller/operating_point.hpp"
 #include "emit/text/continuous_pole.hpp"
+#include "emit/text/extended_description.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 #include "trace/wrap.hpp"
@@ -71,6 +72,7 @@ std::string describe_point(const Controller& controller) {
 }
 
 std::string describe_plant(const Controller& controller) {
+  if (controller::is_extended(controller)) return describe_extended_plant(controller);
   const design::SampledPlant& plant = controller.solution.plant;
   const bool is_double = controller.target.is_double;
   std::string out = describe_point(controller) + "\nPlant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +
@@ -223,6 +225,7 @@ std::string bounds(const Controller& controller) {
 
 std::string describe_estimator(const Controller& controller) {
   if (!controller.has.filter || controller.solution.compensator) return "";
+  if (controller::is_extended(controller)) return describe_extended_filter(controller) + bounds(controller);
   const bool is_double = controller.target.is_double, is_observer = controller.problem.estimator->poles.has_value();
   std::string out = is_observer ? "\nObserver, " : "\nKalman filter, ";
   out += controller.is_predictor ? "predictor form (u[k] depends on the outputs up to y[k−1])"

@@ -7,6 +7,7 @@
 #include "controller/operating_point.hpp"
 #include "design/numeric/digits.hpp"
 #include "emit/vectors/comparison.hpp"
+#include "emit/vectors/extended_plant.hpp"
 #include "emit/vectors/linear_vectors.hpp"
 #include "simulate/emitted_controller.hpp"
 #include "simulate/plant.hpp"
@@ -103,9 +104,8 @@ bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
 }
 
 // The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
-template <class S>
-std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted) {
-  simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
+template <class S, class AnyPlant>
+std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted, AnyPlant plant) {
   Noise excitation(seed + 1);
   const Eigen::VectorXd at_rest = controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller.point.u);
   Eigen::VectorXd applied = at_rest;
@@ -133,6 +133,13 @@ std::vector<Sample> closed_loop(const Controller& controller, EmittedController<
     plant.advance(applied);
   }
   return samples;
+}
+
+template <class S>
+std::vector<Sample> samples_of_filter(const Controller& controller, const EmittedController<S>& emitted) {
+  if (controller::is_extended(controller)) return closed_loop(controller, emitted, ExtendedPlant(controller, seed));
+  return closed_loop(controller, emitted,
+                     simulate::Plant(controller, controller.x0, simulate::PlantNoise::assumed, seed));
 }
 
 template <class S>
@@ -202,7 +209,7 @@ struct Recorded {
 template <class Reference>
 Recorded recorded_by(const Controller& controller, const EmittedController<Reference>& reference) {
   Recorded recorded;
-  recorded.samples = controller.has.filter ? closed_loop(controller, reference) : random_states(controller);
+  recorded.samples = controller.has.filter ? samples_of_filter(controller, reference) : random_states(controller);
   record_reference(reference, recorded.samples, recorded.u);
   return recorded;
 }
