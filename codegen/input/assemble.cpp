@@ -186,9 +186,9 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
                 : says("kalman.gain", "schedule")            ? design::Gain::schedule
                                                              : design::Gain::steady;
   if (is_extended)
-    result.extended = design::Extended{
-        says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
-        values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
+    result.extended =
+        design::Extended{says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
+                         values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
   result.horizon = whole(values, "kalman.horizon");
   result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
   result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");

@@ -47,8 +47,10 @@ std::vector<double> share_at_limits(const Controller& controller, const MatrixXd
     return controller::limit_of_target(from(i), inward, is_double);
   };
   for (Index i = 0; i < u.rows(); ++i) {
-    const double least = limits.u_min.size() ? target_limit(controller::own_input_limits(controller, +1), i, +1) : -design::forever;
-    const double most = limits.u_max.size() ? target_limit(controller::own_input_limits(controller, -1), i, -1) : design::forever;
+    const double least =
+        limits.u_min.size() ? target_limit(controller::own_input_limits(controller, +1), i, +1) : -design::forever;
+    const double most =
+        limits.u_max.size() ? target_limit(controller::own_input_limits(controller, -1), i, -1) : design::forever;
     const double step =
         limits.u_rate.size() ? limits.u_rate(i) * controller.problem.plant.sample_time : design::forever;
     Index count = 0;

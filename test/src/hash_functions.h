@@ -32,7 +32,7 @@ static unsigned long long hash_float(unsigned long long hash, float value)
 
 static unsigned long long hash_float_functions(void)
 {
-    static float (*const functions[])(float) = {lqg_sinf,  lqg_cosf,  lqg_tanf, lqg_asinf, lqg_acosf, lqg_atanf,
+    static float (*const functions[])(float) = {lqg_sinf,  lqg_cosf, lqg_tanf, lqg_asinf, lqg_acosf, lqg_atanf,
                                                 lqg_sqrtf, lqg_expf, lqg_logf, lqg_tanhf, lqg_wrapf};
     unsigned long long hash = NOTHING_HASHED;
     uint32_t seed = 1;

@@ -25,8 +25,8 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
   };
   add(controller.size.nxi > 0, "ξ = 0");
   add(controller.size.nr > 0, controller.point.r.size() ? "r = the outputs of the operating point" : "r = 0");
-  add(controller.keeps.input, controller.point.u.size() ? "last input = that of the operating point"
-                                                        : "last input = 0");
+  add(controller.keeps.input,
+      controller.point.u.size() ? "last input = that of the operating point" : "last input = 0");
   add(controller.keeps.sample, "sample 0");
   add(controller.has.filter, "counters = 0");
   return write_function(templates::init, controller, {{"begin", begin}, {"body", bodies.init}});

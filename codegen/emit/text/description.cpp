@@ -75,7 +75,8 @@ std::string describe_plant(const Controller& controller) {
   if (controller::is_extended(controller)) return describe_extended_plant(controller);
   const design::SampledPlant& plant = controller.solution.plant;
   const bool is_double = controller.target.is_double;
-  std::string out = describe_point(controller) + "\nPlant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +
+  std::string out = describe_point(controller) + "\nPlant, sampled every " +
+                    number(design::Real(controller.problem.plant.sample_time), true) +
                     " s:  x⁺ = A x + B u + G w,  y = C x + D u + v\n\n";
   out += indented(signals("states   ", "x", state_signals(controller)));
   out += indented(signals("inputs   ", "u", controller.problem.plant.inputs));

@@ -107,7 +107,8 @@ bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
 template <class S, class AnyPlant>
 std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted, AnyPlant plant) {
   Noise excitation(seed + 1);
-  const Eigen::VectorXd at_rest = controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller.point.u);
+  const Eigen::VectorXd at_rest =
+      controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller.point.u);
   Eigen::VectorXd applied = at_rest;
   std::vector<Sample> samples;
   while (samples.size() < sample_count && is_near(controller, plant.deviation())) {

@@ -119,14 +119,15 @@ void test_no_text_exhausts_the_stack() {
 void test_formulas_within_formulas_have_an_end() {
   Tree tree = std::get<Tree>(parse("x"));
   for (int i = 0; i < deepest_tree; ++i) tree = operation(Operation::negate, {tree});
-  const auto bound = lqg::expression::bind(tree, [](const std::string& name, std::size_t at) { return variable(name, 0, at); });
+  const auto bound =
+      lqg::expression::bind(tree, [](const std::string& name, std::size_t at) { return variable(name, 0, at); });
   TEST_ASSERT_TRUE(std::holds_alternative<Fault>(bound));
 }
 
 void test_a_name_without_meaning_is_told_at_its_place() {
-  const auto bound = lqg::expression::bind(std::get<Tree>(parse("2*a + b*c")), [](const std::string& name, std::size_t) -> Tree {
-    return name == "a" ? number(1) : nullptr;
-  });
+  const auto bound = lqg::expression::bind(
+      std::get<Tree>(parse("2*a + b*c")),
+      [](const std::string& name, std::size_t) -> Tree { return name == "a" ? number(1) : nullptr; });
   TEST_ASSERT_EQUAL_UINT(6, std::get<Fault>(bound).at);
   TEST_ASSERT_EQUAL_STRING("unknown name b", std::get<Fault>(bound).message.c_str());
 }
@@ -136,9 +137,8 @@ void test_names_and_variables_of_a_formula_are_each_found_once() {
   const std::vector<std::string> names = names_in(tree);
   TEST_ASSERT_EQUAL_UINT(2, names.size());
   TEST_ASSERT_EQUAL_STRING("b", names[0].c_str());
-  const auto bound = lqg::expression::bind(tree, [](const std::string& name, std::size_t at) {
-    return variable(name, name == "a" ? 3 : 1, at);
-  });
+  const auto bound = lqg::expression::bind(
+      tree, [](const std::string& name, std::size_t at) { return variable(name, name == "a" ? 3 : 1, at); });
   const std::vector<int> variables = variables_in(std::get<Tree>(bound));
   TEST_ASSERT_EQUAL_UINT(2, variables.size());
   TEST_ASSERT_EQUAL_INT(1, variables[0]);

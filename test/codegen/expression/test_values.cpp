@@ -44,8 +44,7 @@ void test_values_and_slopes_are_those_of_mpmath_in_60_digits() {
   for (const reference::Formula& formula : reference::formulas) {
     const Tree tree = bound_over_x_and_y(formula.text);
     expect_digits(formula.text, formula.value, value<Real>(tree, [&](int i) { return at[i]; }), 1e-60);
-    const Dual<Real> dual =
-        value<Dual<Real>>(tree, [&](int i) { return Dual<Real>::variable(at[i], i, 2); });
+    const Dual<Real> dual = value<Dual<Real>>(tree, [&](int i) { return Dual<Real>::variable(at[i], i, 2); });
     expect_digits(formula.text, formula.value, dual.value, 1e-60);
     expect_digits(formula.text, formula.by_x, dual.slope(0), 1e-60);
     expect_digits(formula.text, formula.by_y, dual.slope(1), 1e-60);
@@ -56,8 +55,7 @@ void test_the_same_formula_over_doubles_is_right_to_their_rounding() {
   const double at[] = {reference::x, reference::y};
   Constants<double> constants;
   for (const reference::Formula& formula : reference::formulas) {
-    const double found = evaluate<double>(
-        *bound_over_x_and_y(formula.text), [&](int i) { return at[i]; }, constants);
+    const double found = evaluate<double>(*bound_over_x_and_y(formula.text), [&](int i) { return at[i]; }, constants);
     TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-14 * (1 + std::abs(found)), std::stod(formula.value), found, formula.text);
   }
 }
