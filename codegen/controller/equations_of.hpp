@@ -33,9 +33,9 @@ std::shared_ptr<const step::Equations<S>> equations_of(const Controller& control
   expression::Constants<design::Real> value_of;
   for (const auto* formulas : {&out.f, &out.h})
     for (const auto& formula : *formulas) add_constants(*formula, value_of, round, out.constants);
-  out.integration = plant.domain == design::Domain::discrete              ? step::Integration::none
-                    : extended.integrator == design::Integrator::euler    ? step::Integration::euler
-                                                                          : step::Integration::rk4;
+  out.integration = plant.domain == design::Domain::discrete           ? step::Integration::none
+                    : extended.integrator == design::Integrator::euler ? step::Integration::euler
+                                                                       : step::Integration::rk4;
   const design::Real T = plant.sample_time;
   out.T = round(T);
   out.T_half = round(T / 2);

@@ -28,8 +28,10 @@ enum class Domain { continuous, discrete };
 // Where the linear plant is the plant: its x, u and y are deviations from these. In the plant's own units, as is what
 // the file states beside it; when a Problem leaves `input`, its limits, ranges and initial state are deviations, too.
 struct OperatingPoint {
-  Eigen::VectorXd x, u, y;                               // nx, nu, ny
-  Eigen::VectorXd u_min, u_max, output_min, output_max;  // of Limits and Estimator, as the file states them
+  Eigen::VectorXd x, u, y;  // nx, nu, ny
+  // Of Limits and Estimator, as the file states them.
+  Eigen::VectorXd u_min, u_max, output_min, output_max;
+  Eigen::MatrixXd states_range, outputs_range;
 };
 
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
@@ -217,6 +219,21 @@ struct Code {
   long flash = 16384;  // bytes
 };
 
+// A name of the file for a number, and a formula where it has one.
+struct Parameter {
+  std::string name;
+  double value = 0;
+  std::string unit, formula;  // as they are written, or empty
+  bool is_set = false;        // on the command line, in place of what the file says
+};
+
+// A number of the file that is written as a formula.
+struct Formula {
+  std::string key;  // "plant.A[1][0]"
+  std::string text;
+  double value = 0;
+};
+
 struct Problem {
   std::string name;
   std::string brief;
@@ -230,6 +247,8 @@ struct Problem {
   std::vector<Scenario> scenarios;
   Requirements requirements;
   Code code;
+  std::vector<Parameter> parameters;
+  std::vector<Formula> formulas;
 };
 
 // The plant has parameters that are random from sample to sample.

@@ -10,15 +10,17 @@
 namespace lqg::input {
 namespace {
 
-Eigen::MatrixXd zero_or(const Values& values, const std::string& key, int rows, int columns) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd::Zero(rows, columns);
+using design::ExactMatrix;
+
+ExactMatrix zero_or(const Values& values, const std::string& key, int rows, int columns) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix(Eigen::MatrixXd::Zero(rows, columns));
 }
 
 // 0 × 0 when there is none.
-Eigen::MatrixXd empty_or(const Values& values, const std::string& key) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd();
+ExactMatrix empty_or(const Values& values, const std::string& key) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix();
 }
 
 Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
@@ -26,9 +28,9 @@ Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
   return matrix != nullptr ? Eigen::VectorXd(matrix->col(0)) : Eigen::VectorXd();
 }
 
-Eigen::MatrixXd identity_or(const Values& values, const std::string& key, int size) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd::Identity(size, size);
+ExactMatrix identity_or(const Values& values, const std::string& key, int size) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix(Eigen::MatrixXd::Identity(size, size));
 }
 
 // Names of the file, or "x0", "x1" …
@@ -40,19 +42,31 @@ std::vector<design::Signal> signals(const Values& values, const std::string& key
   return result;
 }
 
+// What is left out is 0.
+std::optional<design::OperatingPoint> operating_point(const Values& values, const design::Plant& plant) {
+  const std::string table = "plant.operating_point";
+  if (!values.has(table)) return std::nullopt;
+  const auto part = [&](const char* key, Eigen::Index size) {
+    return Eigen::VectorXd(zero_or(values, table + key, static_cast<int>(size), 1).col(0));
+  };
+  design::OperatingPoint point;
+  point.x = part(".states", plant.A.rows());
+  point.u = part(".inputs", plant.B.cols());
+  point.y = part(".outputs", plant.C.rows());
+  return point;
+}
+
 // With all digits; the point in those of a double.
 void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
   plant.A = design::ExactMatrix::of(linearisation.A);
   plant.B = design::ExactMatrix::of(linearisation.B);
   plant.C = design::ExactMatrix::of(linearisation.C);
   plant.D = design::ExactMatrix::of(linearisation.D);
-  plant.operating_point = design::OperatingPoint{design::to_doubles(linearisation.x),
-                                                 design::to_doubles(linearisation.u),
-                                                 design::to_doubles(linearisation.y),
-                                                 {},
-                                                 {},
-                                                 {},
-                                                 {}};
+  design::OperatingPoint point;
+  point.x = design::to_doubles(linearisation.x);
+  point.u = design::to_doubles(linearisation.u);
+  point.y = design::to_doubles(linearisation.y);
+  plant.operating_point = point;
 }
 
 design::Plant plant(const Values& values) {
@@ -81,6 +95,7 @@ design::Plant plant(const Values& values) {
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
+  if (!result.equations) result.operating_point = operating_point(values, result);
   return result;
 }
 
@@ -171,9 +186,9 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
                 : says("kalman.gain", "schedule")            ? design::Gain::schedule
                                                              : design::Gain::steady;
   if (is_extended)
-    result.extended = design::Extended{
-        says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
-        values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
+    result.extended =
+        design::Extended{says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
+                         values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
   result.horizon = whole(values, "kalman.horizon");
   result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
   result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");
@@ -327,6 +342,11 @@ design::Problem assemble(const Values& values) {
   problem.requirements = requirements(values);
   problem.code = code(values);
   return problem;
+}
+
+void begin_at_operating_point(const Values& values, design::Problem& problem) {
+  const auto& point = problem.plant.operating_point;
+  if (point && problem.estimator && !values.has("kalman.initial_state")) problem.estimator->x0 = point->x;
 }
 
 }  // namespace lqg::input

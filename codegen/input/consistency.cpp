@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "design/numeric/digits.hpp"
 #include "input/definite.hpp"
 #include "input/disturbances.hpp"
 #include "input/matrices.hpp"
@@ -211,6 +212,14 @@ void note_unused(const Values& values, Report& report) {
     report.note("kalman.covariance", "not used without gain = \"online\" or \"extended\"");
 }
 
+// With all digits that its entries have.
+design::ExactMatrix symmetric(const design::ExactMatrix& Q) {
+  const design::RealMatrix* exact = Q.exact();
+  if (exact == nullptr) return symmetrised(Q);
+  const design::Digits scope(design::exact_digits);
+  return design::ExactMatrix::of(*exact + (exact->transpose() - *exact) / design::Real(2));
+}
+
 // False, and nothing reported, when there is no such matrix.
 bool make_symmetric(Values& values, const std::string& key, Report& report) {
   const auto found = values.matrices.find(key);
@@ -225,7 +234,7 @@ bool make_symmetric(Values& values, const std::string& key, Report& report) {
     return false;
   }
   if (worst.size > 0) report.note(key, "symmetrised: found " + entry + " and " + mirror);
-  found->second = symmetrised(found->second);
+  found->second = symmetric(found->second);
   return true;
 }
 

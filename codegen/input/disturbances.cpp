@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/rounding.hpp"
 #include "input/matrices.hpp"
 #include "input/text.hpp"
 
@@ -18,8 +19,22 @@ double entry_of(const Values& values, const char* key, int i) {
   return std::isfinite(value) ? value : 0;
 }
 
+double input_at_point(const Values& values, int input) {
+  if (values.linearisation) return design::to_double(values.linearisation->u(input));
+  const Eigen::MatrixXd* point = values.matrix("plant.operating_point.inputs");
+  return point != nullptr && input < point->rows() ? (*point)(input, 0) : 0;
+}
+
+// Of a limit its distance from the operating point.
+double reach_of(const Values& values, const char* key, int input) {
+  const Eigen::MatrixXd* limits = values.matrix(key);
+  if (limits == nullptr || input >= limits->rows()) return 0;
+  const double reach = std::abs((*limits)(input, 0) - input_at_point(values, input));
+  return std::isfinite(reach) ? reach : 0;
+}
+
 double size_of_input(const Values& values, int input) {
-  const double limit = std::max(entry_of(values, "limits.u_min", input), entry_of(values, "limits.u_max", input));
+  const double limit = std::max(reach_of(values, "limits.u_min", input), reach_of(values, "limits.u_max", input));
   return limit > 0 ? limit : entry_of(values, "lqr.bryson.inputs", input);
 }
 

@@ -6,22 +6,19 @@
 #include <optional>
 #include <variant>
 
+#include "design/rounding.hpp"
 #include "expression/parse.hpp"
+#include "input/equation_units.hpp"
 #include "input/text.hpp"
 
 namespace lqg::input {
 namespace {
 
 using expression::Tree;
-using Formulas = std::vector<design::WantedPoint::Formula>;
+using Trees = std::vector<design::WantedPoint::Formula>;
+using Names = std::vector<std::string>;
 
 const char* const point_key = "plant.operating_point";
-
-const Node* item(const Node* table, const std::string& name) {
-  for (std::size_t i = 0; table != nullptr && table->kind == Kind::table && i < table->keys.size(); ++i)
-    if (table->keys[i].name == name) return &table->items[i];
-  return nullptr;
-}
 
 std::string indexed(const std::string& key, std::size_t i) { return key + "[" + std::to_string(i) + "]"; }
 
@@ -35,9 +32,26 @@ std::string in_one_line(std::string text) {
 // Equations and operating point of one file.
 class EquationsReader {
  public:
-  EquationsReader(const Node& document, Values& values, Report& report)
-      : plant_(item(&document, "plant")), values_(values), report_(report), states_(signal_names(values, Size::nx)),
-        inputs_(signal_names(values, Size::nu)) {}
+  EquationsReader(const Node& document, const Parameters& parameters, const FormulaPlaces& places, ExactValues& exact,
+                  Values& values, Report& report)
+      : plant_(item(&document, "plant")), parameters_(parameters), places_(places), exact_(exact), values_(values),
+        report_(report), states_(signal_names(values, Size::nx)), inputs_(signal_names(values, Size::nu)) {}
+
+  // What the plants of scenarios have in place of the design's parameters.
+  void read_changes(const Node& document) {
+    const Node* scenarios = item(&document, "scenario");
+    for (std::size_t i = 0; scenarios != nullptr && i < scenarios->items.size(); ++i) {
+      const std::string key = indexed("scenario", i) + ".plant.parameters";
+      const Node* changes = item(item(&scenarios->items[i], "plant"), "parameters");
+      if (changes == nullptr) continue;
+      if (!values_.has("plant.f"))
+        report_.error(key, "needs plant.f: parameters of matrices are those of the design");
+      else if (changes->kind != Kind::table)
+        report_.error(key, "expected a table of parameters, found " + describe(*changes));
+      else
+        for (std::size_t j = 0; j < changes->keys.size(); ++j) read_change(key, changes->keys[j], changes->items[j]);
+    }
+  }
 
   void read() {
     if (!values_.has("plant.f")) return refuse_without_f();
@@ -48,10 +62,37 @@ class EquationsReader {
     const bool is_good = read_formulas("plant.f", equations->f, equations->f_text);
     if (!read_formulas("plant.h", equations->h, equations->h_text) || !is_good) return;
     values_.equations = equations;
-    linearise();
+    const EquationUnits units(item(plant_, "f"), item(plant_, "h"), parameters_, places_, values_, report_);
+    if (units.check()) linearise();
   }
 
  private:
+  void read_change(const std::string& key, const Key& name, const Node& node) {
+    Names known;
+    for (const Parameter& parameter : parameters_.all) known.push_back(parameter.name);
+    if (std::find(known.begin(), known.end(), name.name) == known.end()) {
+      if (parameters_.wrong.count(name.name) != 0) return;  // that has been said
+      const std::string near = nearest_word(known, name.name);
+      return report_.error(key, name.where,
+                           "expected the name of a parameter, found " + in_quotes(name.name) +
+                               (near.empty() ? "" : "; did you mean `" + near + "`?"));
+    }
+    const std::string one = key + "." + name.name;
+    report_.place(one, node.where);
+    const bool is_number = node.kind == Kind::number && std::isfinite(node.number);
+    const Tree tree = is_number                 ? expression::number(node.number)
+                      : node.kind == Kind::text ? formula(one, node, 0, false)
+                                                : nullptr;
+    if (!is_number && node.kind != Kind::text)
+      report_.error(one, "expected a number or a formula, found " +
+                             (node.kind == Kind::number ? shown(node.number) : describe(node)));
+    if (!tree) return;
+    const auto value = exact_(*tree);
+    if (const auto* fault = std::get_if<expression::Fault>(&value))
+      return report_.error(one, places_.of(node, fault->at), fault->message);
+    values_.named[key][name.name] = design::to_double(std::get<design::Real>(value));
+  }
+
   void refuse_without_f() {
     if (values_.has("plant.h")) report_.error("plant.h", "needs plant.f");
     if (values_.has("plant.operating_point.steady")) report_.error("plant.operating_point.steady", "needs plant.f");
@@ -72,6 +113,7 @@ class EquationsReader {
         std::string other;
         if (expression::function_of(name) || name == "pi") other = "a function or pi";
         if (names == &inputs_ && std::find(states_.begin(), states_.end(), name) != states_.end()) other = "a state";
+        if (parameters_.find(name) != nullptr || parameters_.wrong.count(name) != 0) other = "a parameter";
         if (other.empty()) continue;
         good = false;
         report_.error(indexed(key, i),
@@ -81,7 +123,7 @@ class EquationsReader {
   }
 
   // One a state, or one an output.
-  bool read_formulas(const std::string& key, Formulas& formulas, std::vector<std::string>& texts) {
+  bool read_formulas(const std::string& key, Trees& formulas, Names& texts) {
     const Node* list = item(plant_, key.substr(key.find('.') + 1));
     if (list == nullptr) return true;
     if (list->kind != Kind::array || list->items.empty()) {
@@ -98,33 +140,62 @@ class EquationsReader {
         continue;
       }
       formulas.push_back(node.kind == Kind::number ? expression::number(node.number)
-                                                   : formula(indexed(key, i), node, node.text, true));
+                                                   : formula(indexed(key, i), node, 0, true));
       texts.push_back(node.kind == Kind::number ? shown(node.number) : in_one_line(node.text));
       good = good && formulas.back();
     }
     return good;
   }
 
-  // nullptr, and what is wrong reported, where `text` is none. Names of signals are known where they are `allowed`.
-  Tree formula(const std::string& key, const Node& node, const std::string& text, bool allowed) {
-    const auto parsed = expression::parse(text);
-    if (const auto* fault = std::get_if<expression::Fault>(&parsed)) return refuse(key, node, *fault);
-    const auto meaning = [&](const std::string& name, std::size_t at) -> Tree {
-      if (!allowed) return nullptr;
-      for (std::size_t i = 0; i < states_.size(); ++i)
-        if (states_[i] == name) return expression::variable(name, static_cast<int>(i), at);
-      for (std::size_t i = 0; i < inputs_.size(); ++i)
-        if (inputs_[i] == name) return expression::variable(name, static_cast<int>(states_.size() + i), at);
-      return nullptr;
+  // The end of the text from byte `begin` on; nullptr, and what is wrong reported, where that is no formula. The names
+  // of signals are known where they are `allowed`.
+  Tree formula(const std::string& key, const Node& node, std::size_t begin, bool allowed) {
+    const auto refuse = [&](const expression::Fault& fault) {
+      report_.error(key, places_.of(node, begin + fault.at), fault.message);
+      return Tree();
     };
-    const auto bound = expression::bind(std::get<Tree>(parsed), meaning);
-    if (const auto* fault = std::get_if<expression::Fault>(&bound)) return refuse(key, node, *fault);
-    return std::get<Tree>(bound);
+    const auto parsed = expression::parse(node.text.substr(begin));
+    if (const auto* fault = std::get_if<expression::Fault>(&parsed))
+      return refuse({fault->at, not_a_formula(node.text, *fault)});
+    std::string unknown;
+    const auto bound = expression::bind(std::get<Tree>(parsed), [&](const std::string& name, std::size_t at) {
+      Tree tree = allowed ? signal(name, at) : nullptr;
+      if (!tree) tree = meaning(parameters_)(name, at);
+      if (!tree) unknown = name;
+      return tree;
+    });
+    if (const auto* fault = std::get_if<expression::Fault>(&bound)) {
+      if (parameters_.wrong.count(unknown) != 0) return nullptr;  // that has been said
+      return refuse({fault->at, unknown.empty() ? fault->message
+                                                : unknown_name(unknown, parameters_, allowed ? signals() : Names())});
+    }
+    const Tree tree = std::get<Tree>(bound);
+    if (const auto fault = fault_of_constants(*tree)) return refuse(*fault);
+    return tree;
   }
 
-  Tree refuse(const std::string& key, const Node& node, const expression::Fault& fault) {
-    report_.error(key, node.where, fault.message + " (character " + std::to_string(fault.at + 1) + ")");
-    return nullptr;
+  Tree signal(const std::string& name, std::size_t at) const {
+    const Names all = signals();
+    const auto found = std::find(all.begin(), all.end(), name);
+    return found == all.end() ? nullptr : expression::variable(name, static_cast<int>(found - all.begin()), at);
+  }
+
+  Names signals() const {
+    Names all = states_;
+    all.insert(all.end(), inputs_.begin(), inputs_.end());
+    return all;
+  }
+
+  // Of the largest parts without a signal: one that has no value.
+  std::optional<expression::Fault> fault_of_constants(const expression::Node& node) {
+    if (node.is_constant) {
+      const auto value = exact_(node);
+      const auto* fault = std::get_if<expression::Fault>(&value);
+      return fault == nullptr ? std::nullopt : std::optional(*fault);
+    }
+    for (const Tree& operand : node.operands)
+      if (const auto fault = fault_of_constants(*operand)) return fault;
+    return std::nullopt;
   }
 
   void linearise() {
@@ -159,8 +230,7 @@ class EquationsReader {
   }
 
   // What is left out is 0.
-  bool read_values_of(const std::string& part, const std::vector<std::string>& names, const char* size,
-                      design::WantedPoint& point) {
+  bool read_values_of(const std::string& part, const Names& names, const char* size, design::WantedPoint& point) {
     const std::string key = std::string(point_key) + "." + part;
     const Node* list = item(item(plant_, "operating_point"), part);
     const std::string expected =
@@ -193,10 +263,10 @@ class EquationsReader {
     }
     const std::size_t mark = node.text.find_first_not_of(' ');
     const bool is_open = mark != node.text.npos && node.text[mark] == '?';
-    const std::string rest = is_open ? node.text.substr(mark + 1) : node.text;
-    if (is_open && rest.find_first_not_of(' ') == rest.npos) return true;
+    const std::size_t begin = is_open ? mark + 1 : 0;
+    if (is_open && node.text.find_first_not_of(' ', begin) == node.text.npos) return true;
     Tree& read = is_open ? start : value;
-    read = formula(key, node, rest, false);
+    read = formula(key, node, begin, false);
     return read != nullptr;
   }
 
@@ -227,15 +297,21 @@ class EquationsReader {
   }
 
   const Node* plant_;
+  const Parameters& parameters_;
+  const FormulaPlaces& places_;
+  ExactValues& exact_;
   Values& values_;
   Report& report_;
-  std::vector<std::string> states_, inputs_;
+  Names states_, inputs_;
 };
 
 }  // namespace
 
-void read_equations(const Node& document, Values& values, Report& report) {
-  EquationsReader(document, values, report).read();
+void read_equations(const Node& document, const Parameters& parameters, const FormulaPlaces& places, ExactValues& exact,
+                    Values& values, Report& report) {
+  EquationsReader reader(document, parameters, places, exact, values, report);
+  reader.read();
+  reader.read_changes(document);
 }
 
 }  // namespace lqg::input

@@ -23,6 +23,12 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"brief", Type::line, no, no, optional, {},
        "One line that says what the controller is. It is repeated in the emitted files.", "empty"},
 
+      {"parameters", Type::parameters, no, no, optional, {},
+       "Names for numbers, which expressions are over: each a number, an expression in quotes, or "
+       "`{ value = 2.32, unit = \"ohm\" }`. Wherever a key takes a number it takes an expression in quotes, too: "
+       "`A = [[0, 1], [0, \"-Kt*Ke/(R*J)\"]]`.",
+       "none", "README.md#parameters-and-expressions"},
+
       {"plant", Type::table, no, no, required, {},
        "The plant: ẋ = A x + B u + G w (continuous) or x⁺ = A x + B u + G w (discrete), with y = C x + D u + H w + v. "
        "w is the process noise, v the measurement noise."},
@@ -37,14 +43,6 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"plant.h", Type::formulas, ny, no, optional, {},
        "Of each output its formula. Without it lqgen designs a regulator alone.", "no outputs",
        "README.md#plants-as-equations"},
-      {"plant.operating_point", Type::table, no, no, optional, {},
-       "Where `f` and `h` are linearised."},
-      {"plant.operating_point.states", Type::point, nx, no, optional, {},
-       "The states there: numbers, formulas, or `\"?\"` for what is found so that f = 0; `\"? 0.5\"` says where the "
-       "search begins.", "0"},
-      {"plant.operating_point.inputs", Type::point, nu, no, optional, {}, "The inputs there, likewise.", "0"},
-      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
-       "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
       {"plant.A", Type::matrix, nx, nx, optional, {}, "System matrix. One of `A` and `f` is required."},
       {"plant.B", Type::matrix, nx, nu, optional, {},
        "Input matrix. Without it lqgen designs an estimator alone.", "no inputs"},
@@ -75,6 +73,21 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`x0`, `x1`, …"},
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
+      {"plant.operating_point", Type::table, no, no, optional, {},
+       "Where `f` and `h` are linearised, or where the matrices are the linearisation of the plant: x, u and y of the "
+       "design are deviations from this point. All the rest of the file, and all that firmware hands over and gets, is "
+       "in the plant's own units: limits, ranges, initial states, references, y, u and x. Weights, noises and what "
+       "[lqr.bryson] accepts are of deviations.",
+       "x, u and y are those of the matrices", "README.md#operating-point"},
+      {"plant.operating_point.states", Type::point, nx, no, optional, {},
+       "The states there. With `f` also `\"?\"` for what is found so that f = 0; `\"? 0.5\"` says where the search begins.",
+       "0"},
+      {"plant.operating_point.inputs", Type::point, nu, no, optional, {},
+       "The inputs that keep the plant there, likewise.", "0"},
+      {"plant.operating_point.outputs", Type::vector, ny, no, optional, {},
+       "The outputs there, of a plant of matrices. References begin with them.", "0"},
+      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
+       "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
 
       {"lqr", Type::table, no, no, optional, {},
        "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
@@ -163,7 +176,8 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Form of P with `gain = \"online\"` or `\"extended\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
        "`plain`: P itself, which is cheaper."},
       {"kalman.initial_state", Type::vector, nx, no, optional, {},
-       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.", "0"},
+       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.",
+       "0, or `plant.operating_point`"},
       {"kalman.initial_covariance", Type::weight, nx, nx, optional, {},
        "P0 = P(0|−1), the covariance of that x̂.", "identity"},
       {"kalman.process_correlation_time", Type::positives, nw, no, optional, {},

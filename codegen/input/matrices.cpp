@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "input/formulas.hpp"
 #include "input/values.hpp"
 
 namespace lqg::input {
@@ -50,7 +51,8 @@ class MatrixReader {
 
  private:
   bool is_list() const {
-    return rule_.type == Type::vector || rule_.type == Type::positives || rule_.type == Type::bounds;
+    return rule_.type == Type::vector || rule_.type == Type::positives || rule_.type == Type::bounds ||
+           rule_.type == Type::point;
   }
 
   std::nullopt_t fail(const std::string& found) const {
@@ -160,6 +162,24 @@ class MatrixReader {
   Report& report_;
 };
 
+bool has_formulas(const Node& node) {
+  return node.formula || std::any_of(node.items.begin(), node.items.end(), has_formulas);
+}
+
+// The matrix that was read as `doubles`, its formulas with all of their digits.
+design::RealMatrix with_formulas(const Node& node, const Eigen::MatrixXd& doubles) {
+  const bool is_list = !is_array(node.items[0]);
+  const bool is_diagonal = is_list && doubles.cols() > 1;
+  design::RealMatrix exact = doubles.cast<design::Real>();
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (is_list) exact(row, is_diagonal ? row : 0) = exact_value(node.items[i]);
+    for (std::size_t j = 0; !is_list && j < node.items[i].items.size(); ++j)
+      exact(row, static_cast<Eigen::Index>(j)) = exact_value(node.items[i].items[j]);
+  }
+  return exact;
+}
+
 }  // namespace
 
 std::string name_of(Size size) {
@@ -205,9 +225,11 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
   return sizes;
 }
 
-std::optional<Eigen::MatrixXd> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
-                                           Report& report) {
-  return MatrixReader(rule, sizes, report).read(node);
+std::optional<design::ExactMatrix> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                               Report& report) {
+  const std::optional<Eigen::MatrixXd> doubles = MatrixReader(rule, sizes, report).read(node);
+  if (!doubles) return {};
+  return has_formulas(node) ? design::ExactMatrix::of(with_formulas(node, *doubles)) : design::ExactMatrix(*doubles);
 }
 
 }  // namespace lqg::input

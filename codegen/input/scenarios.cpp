@@ -224,6 +224,8 @@ design::PlantChange plant_change(const Values& values, const std::string& plant)
   result.A = given_matrix(values, plant + ".A");
   result.B = given_matrix(values, plant + ".B");
   result.C = given_matrix(values, plant + ".C");
+  if (const auto changed = values.named.find(plant + ".parameters"); changed != values.named.end())
+    result.parameters = changed->second;
   if (values.has(plant + ".delay")) result.delay = values.number(plant + ".delay", 0);
   for (const std::string& table : tables_in(values, plant, "scale"))
     result.scale.push_back({values.text(table + ".matrix")[0], entry_of(values, table, true),

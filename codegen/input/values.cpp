@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "input/formulas.hpp"
 #include "input/lists.hpp"
 #include "input/matrices.hpp"
 #include "input/named.hpp"
@@ -19,17 +20,6 @@ namespace lqg::input {
 namespace {
 
 using Nodes = std::map<std::string, const Node*>;
-
-bool is_bare_key(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
-
-std::string joined(const std::string& parent, const std::string& name) {
-  const std::string segment = is_bare_key(name) && name.size() <= 60 ? name : in_quotes(name);
-  return parent.empty() ? segment : parent + "." + segment;
-}
 
 // "Q" of "lqr.Q"
 std::string name_in_table(const std::string& path) { return path.substr(path.rfind('.') + 1); }
@@ -49,7 +39,7 @@ class Collector {
     values_.tables.insert(parent);
     values_.instances[rule_path(parent)].push_back(parent);
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
-      const std::string path = joined(parent, table.keys[i].name);
+      const std::string path = path_of(parent, table.keys[i].name);
       const KeyRule* rule = find_rule(rule_path(path));
       report_.place(path, table.items[i].where);
       values_.present.insert(path);
@@ -68,7 +58,7 @@ class Collector {
   void report_unknown(const Key& key, const Node& node, const std::string& parent, const std::string& path) {
     const Suggestion suggestion = suggest(rule_path(parent), key.name);
     const bool is_here = parent_of(suggestion.path) == rule_path(parent);
-    values_.present.insert(is_here ? joined(parent, name_in_table(suggestion.path)) : suggestion.path);
+    values_.present.insert(is_here ? path_of(parent, name_in_table(suggestion.path)) : suggestion.path);
     report_.error(path, start_of(key, node), suggestion.message);
   }
 
@@ -167,6 +157,9 @@ class ValueReader {
           if (auto matrix = read_matrix(rule, *mask, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         }
         break;
+      case Type::point:
+        if (values_.has("plant.f")) break;  // by read_equations
+        [[fallthrough]];
       case Type::matrix:
       case Type::weight:
       case Type::vector:
@@ -175,10 +168,10 @@ class ValueReader {
         if (auto matrix = read_matrix(rule, node, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         break;
       case Type::formulas:  // by read_equations
-      case Type::point:
       case Type::states:
       case Type::table:
-      case Type::tables: break;
+      case Type::tables:
+      case Type::parameters: break;
     }
   }
 
@@ -289,8 +282,7 @@ class ValueReader {
   void read_whole(const KeyRule& rule, const Node& node, int least, int most) {
     const std::string wanted = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
-    const bool good = node.number >= least && node.number <= most && node.number == std::floor(node.number);
-    if (!good) return expected(rule, wanted, shown(node.number));
+    if (!is_whole(node) || node.number < least || node.number > most) return expected(rule, wanted, shown(node));
     values_.numbers[rule.path] = node.number;
   }
 
@@ -353,7 +345,7 @@ std::string decimal(std::to_chars_result (*print)(char*, char*, double, int), do
 
 }  // namespace
 
-const Eigen::MatrixXd* Values::matrix(const std::string& key) const {
+const design::ExactMatrix* Values::matrix(const std::string& key) const {
   const auto found = matrices.find(key);
   return found == matrices.end() ? nullptr : &found->second;
 }
@@ -397,7 +389,7 @@ std::vector<std::string> signal_names(const Values& values, Size size) {
   return names;
 }
 
-Values read_values(const Node& document, Report& report) {
+Values read_values(const Node& document, const std::set<std::string>& wrong, Report& report) {
   Values values;
   Nodes nodes;
   Collector(nodes, values, report).walk(document, "");
@@ -407,7 +399,8 @@ Values read_values(const Node& document, Report& report) {
     for (const std::string& table : values.tables_like(parent_of(rule.path))) {
       KeyRule instance = rule;
       instance.path = joined_rule(table, rule);
-      if (const auto node = nodes.find(instance.path); node != nodes.end()) reader.read(instance, *node->second);
+      const auto node = nodes.find(instance.path);
+      if (node != nodes.end() && wrong.count(instance.path) == 0) reader.read(instance, *node->second);
     }
   }
   report_missing(values, report);
@@ -420,6 +413,12 @@ std::string counted(long count, const std::string& noun) {
 
 std::string shown(double number) {
   return decimal([](char* first, char* last, double x, int) { return std::to_chars(first, last, x); }, number, 0);
+}
+
+std::string shown(const Node& number) {
+  constexpr int enough_digits = 25;
+  const design::Real exact = exact_value(number);
+  return exact == number.number ? shown(number.number) : exact.str(enough_digits);
 }
 
 std::string shown(double number, int digits) {

@@ -23,7 +23,8 @@ template <class S>
 FormulaDuals<S> variables(const Vector<S>& x) {
   FormulaDuals<S> out;
   const auto count = static_cast<int>(x.size());
-  for (int i = 0; i < count; ++i) out.push_back(FormulaDual<S>::variable(typename OfFormula<S>::Scalar(x(i)), i, count));
+  for (int i = 0; i < count; ++i)
+    out.push_back(FormulaDual<S>::variable(typename OfFormula<S>::Scalar(x(i)), i, count));
   return out;
 }
 
@@ -34,8 +35,7 @@ FormulaDual<S> value_of_formula(const Equations<S>& equations, const expression:
   using Scalar = typename OfFormula<S>::Scalar;
   const int nx = static_cast<int>(x.size());
   return expression::evaluate<FormulaDual<S>>(
-      formula,
-      [&](int i) -> FormulaDual<S> { return i < nx ? x[static_cast<std::size_t>(i)] : Scalar(u(i - nx)); },
+      formula, [&](int i) -> FormulaDual<S> { return i < nx ? x[static_cast<std::size_t>(i)] : Scalar(u(i - nx)); },
       [&](const expression::Node& node) -> FormulaDual<S> { return Scalar(equations.constants.at(&node)); });
 }
 
@@ -45,7 +45,8 @@ void name_duals(const FormulaDuals<S>& duals, const char* name, const char* slop
   for (int i = 0; i < static_cast<int>(duals.size()); ++i) {
     const FormulaDual<S>& dual = duals[static_cast<std::size_t>(i)];
     listener.name(S(OfFormula<S>::number(dual.value)), name, of_state(i));
-    for (int j = 0; j < dual.slopes.size(); ++j) listener.hint(S(OfFormula<S>::number(dual.slope(j))), slope, of_entry(i, j));
+    for (int j = 0; j < dual.slopes.size(); ++j)
+      listener.hint(S(OfFormula<S>::number(dual.slope(j))), slope, of_entry(i, j));
   }
 }
 
@@ -163,8 +164,7 @@ void take_output(const Model<S>& model, const State<S>& state, const FormulaDual
   listener.section(wraps ? "y − h(x̂, u) in [−π, π), and C, the Jacobian of h; NaN where that is not finite"
                          : "y − h(x̂, u), and C, the Jacobian of h; NaN where that is not finite",
                    i);
-  const FormulaDual<S> h =
-      value_of_formula(equations, *equations.h[static_cast<std::size_t>(i)], x, state.u);
+  const FormulaDual<S> h = value_of_formula(equations, *equations.h[static_cast<std::size_t>(i)], x, state.u);
   const S expected(OfFormula<S>::number(h.value));
   listener.name(expected, "expected");
   take_slopes<S>(h, out.C, i, "C", listener);

@@ -15,19 +15,18 @@ struct Function {
   int multiply_adds;
 };
 
-constexpr Function functions[] = {
-    {Op::square_root, "sqrt", 1},
-    {Op::sine, "sin", 13},
-    {Op::cosine, "cos", 13},
-    {Op::tangent, "tan", 22},
-    {Op::arcsine, "asin", 16},
-    {Op::arccosine, "acos", 16},
-    {Op::arctangent, "atan", 14},
-    {Op::arctangent_of_two, "atan2", 16},
-    {Op::exponential, "exp", 12},
-    {Op::logarithm, "log", 14},
-    {Op::hyperbolic_tangent, "tanh", 16},
-    {Op::wrapped, "wrap", 4}};
+constexpr Function functions[] = {{Op::square_root, "sqrt", 1},
+                                  {Op::sine, "sin", 13},
+                                  {Op::cosine, "cos", 13},
+                                  {Op::tangent, "tan", 22},
+                                  {Op::arcsine, "asin", 16},
+                                  {Op::arccosine, "acos", 16},
+                                  {Op::arctangent, "atan", 14},
+                                  {Op::arctangent_of_two, "atan2", 16},
+                                  {Op::exponential, "exp", 12},
+                                  {Op::logarithm, "log", 14},
+                                  {Op::hyperbolic_tangent, "tanh", 16},
+                                  {Op::wrapped, "wrap", 4}};
 
 const Function* find(Op op) {
   for (const Function& function : functions)

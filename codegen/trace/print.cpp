@@ -44,8 +44,8 @@ std::string literal(double value, bool is_double) {
 }
 
 Printer::Printer(const Graph& graph, const std::vector<int>& results, const std::vector<int>& results_of_rest)
-    : graph_(graph), uses_(graph.nodes().size(), 0), partners_(graph.nodes().size(), -1), is_variable_(graph.nodes().size(), false),
-      has_variable_of_before_(graph.nodes().size(), false) {
+    : graph_(graph), uses_(graph.nodes().size(), 0), partners_(graph.nodes().size(), -1),
+      is_variable_(graph.nodes().size(), false), has_variable_of_before_(graph.nodes().size(), false) {
   std::vector<int> all = results;
   all.insert(all.end(), results_of_rest.begin(), results_of_rest.end());
   count_uses(all);
@@ -319,7 +319,8 @@ std::string Printer::declaration(int node) const {
 std::string Printer::pair_declaration(int node) const {
   const int partner = partners_[static_cast<std::size_t>(node)];
   if (partner < node) return "";
-  const bool is_sine = graph_.nodes()[static_cast<std::size_t>(node)].op == Op::sine, is_double = graph_.target().is_double;
+  const bool is_sine = graph_.nodes()[static_cast<std::size_t>(node)].op == Op::sine,
+             is_double = graph_.target().is_double;
   const std::string sine = name_of(is_sine ? node : partner), cosine = name_of(is_sine ? partner : node);
   const std::string type = is_double ? "    double " : "    float ";
   const std::string argument = print(graph_.nodes()[static_cast<std::size_t>(node)].a, any);

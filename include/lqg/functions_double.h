@@ -15,27 +15,25 @@
 #if LQG_HAS_DOUBLE
 LQG_STRICT_BEGIN
 
-/* r = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAX: |r| ≤ 0.7855. The last bits of *n are those of
- * n. π/2 is the sum of four parts. Products with the first three are exact, as n < 2²⁰ and these have 33 bits, and so
- * are the first two differences. */
-static inline double lqg_reduce(double a, uint32_t *n)
+/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAX: |r| ≤ 0.7855. *n is n modulo 4, in its last
+ * bits. π/2 is the sum of four parts. n has at most 20 bits, the first three parts 33 or fewer: their products are exact,
+ * and so are the first two differences. r is rounded once; where that is not exact, rest is far below it. */
+static inline double lqg_reduce(double a, double *rest, uint32_t *n)
 {
     LQG_STRICT_BODY
     const double shifted = a * 0.63661977236758138 + 4503599627370496.0; /* 2⁵²: integers only */
     const double quarters = shifted - 4503599627370496.0;
 
     *n = (uint32_t)lqg_bits(shifted);
-    a = a - quarters * 1.5707963267341256;
-    a = a - quarters * 6.0771054855024431e-11;
-    a = a + quarters * 4.9789962502207207e-17;
-    return a + quarters * 2.9407886703873282e-27;
+    *rest = quarters * 2.9407886703873282e-27;
+    return ((a - quarters * 1.5707963267341256) - quarters * 6.0771054855024431e-11) + quarters * 4.9789962502207207e-17;
 }
 
-/* sin r, cos r of a reduced r, z = r². */
-static inline double lqg_sin_reduced(double r, double z)
+/* sin, cos of the reduced angle r + rest, z = r². */
+static inline double lqg_sin_reduced(double r, double rest, double z)
 {
     LQG_STRICT_BODY
-    return r + r * (z * lqg_sin_polynomial(z));
+    return r + (r * (z * lqg_sin_polynomial(z)) + rest);
 }
 
 static inline double lqg_cos_reduced(double z)
@@ -50,15 +48,15 @@ static inline void lqg_sin_cos(double x, double *sine, double *cosine)
     LQG_STRICT_BODY
     const uint64_t bits = lqg_bits(x), a = bits & 0x7fffffffffffffffu;
     uint32_t n;
-    double r, z, s, c;
+    double r, rest, z, s, c;
 
     if (a > 0x4130000000000000u) { /* LQG_ANGLE_MAX */
         *sine = *cosine = lqg_of_bits(LQG_NAN);
         return;
     }
-    r = lqg_reduce(lqg_of_bits(a), &n);
+    r = lqg_reduce(lqg_of_bits(a), &rest, &n);
     z = r * r;
-    s = lqg_sin_reduced(r, z);
+    s = lqg_sin_reduced(r, rest, z);
     c = lqg_cos_reduced(z);
     *sine = lqg_change_sign(n & 1u ? c : s, bits ^ (uint64_t)n << 62);
     *cosine = lqg_change_sign(n & 1u ? s : c, (uint64_t)(n + 1u) << 62);
@@ -69,13 +67,13 @@ static inline double lqg_sin(double x)
     LQG_STRICT_BODY
     const uint64_t bits = lqg_bits(x), a = bits & 0x7fffffffffffffffu;
     uint32_t n;
-    double r, z;
+    double r, rest, z;
 
     if (a > 0x4130000000000000u)
         return lqg_of_bits(LQG_NAN);
-    r = lqg_reduce(lqg_of_bits(a), &n);
+    r = lqg_reduce(lqg_of_bits(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_cos_reduced(z) : lqg_sin_reduced(r, z);
+    r = n & 1u ? lqg_cos_reduced(z) : lqg_sin_reduced(r, rest, z);
     return lqg_change_sign(r, bits ^ (uint64_t)n << 62);
 }
 
@@ -84,38 +82,34 @@ static inline double lqg_cos(double x)
     LQG_STRICT_BODY
     const uint64_t a = lqg_bits(x) & 0x7fffffffffffffffu;
     uint32_t n;
-    double r, z;
+    double r, rest, z;
 
     if (a > 0x4130000000000000u)
         return lqg_of_bits(LQG_NAN);
-    r = lqg_reduce(lqg_of_bits(a), &n);
+    r = lqg_reduce(lqg_of_bits(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_sin_reduced(r, z) : lqg_cos_reduced(z);
+    r = n & 1u ? lqg_sin_reduced(r, rest, z) : lqg_cos_reduced(z);
     return lqg_change_sign(r, (uint64_t)(n + 1u) << 62);
 }
 
-/* The reduction as above, but r and what its rounding leaves. */
+/* As lqg_reduce, but with a rest that includes what the rounding of r has left: tan is steeper than sin. */
 static inline double lqg_tan(double x)
 {
     LQG_STRICT_BODY
     const uint64_t bits = lqg_bits(x), a = bits & 0x7fffffffffffffffu;
-    double shifted, quarters, exact, part, near, rest, r, z, t;
+    double t = lqg_of_bits(a), shifted, quarters, exact, part, r, rest, z;
 
     if (a > 0x4130000000000000u)
         return lqg_of_bits(LQG_NAN);
-    r = lqg_of_bits(a);
-    shifted = r * 0.63661977236758138 + 4503599627370496.0;
+    shifted = t * 0.63661977236758138 + 4503599627370496.0;
     quarters = shifted - 4503599627370496.0;
-    exact = (r - quarters * 1.5707963267341256) - quarters * 6.0771054855024431e-11;
+    exact = (t - quarters * 1.5707963267341256) - quarters * 6.0771054855024431e-11;
     part = quarters * 4.9789962502207207e-17;
-    near = exact + part;
-    rest = ((exact - near) + part) + quarters * 2.9407886703873282e-27;
-    r = near + rest;
-    rest = rest - (r - near);
+    r = exact + part;
+    rest = ((exact - r) + part) + quarters * 2.9407886703873282e-27;
     z = r * r;
     t = r + (r * (z * lqg_tan_polynomial(z)) + rest);
-    t = lqg_bits(shifted) & 1u ? -1.0 / t : t;
-    return lqg_change_sign(t, bits);
+    return lqg_change_sign(lqg_bits(shifted) & 1u ? -1.0 / t : t, bits);
 }
 
 /* The angle of ]−π, π[ that is x but for whole turns. */
@@ -308,11 +302,15 @@ static inline double lqg_tanh(double x)
 
     if (a > 0x7ff0000000000000u)
         return lqg_of_bits(LQG_NAN);
+    t = lqg_of_bits(a);
     if (a <= 0x3fe199999999999au) { /* 0.55 */
-        t = x * x;
-        return x + x * (t * lqg_tanh_polynomial(t));
+        const double z = t * t;
+        t = t + t * (z * lqg_tanh_polynomial(z));
+    } else if (a <= 0x4036000000000000u) { /* 22 */
+        t = 1.0 - 2.0 / (lqg_exp_within(2.0 * t) + 1.0); /* e²ˣ */
+    } else {
+        t = 1.0;
     }
-    t = a > 0x4036000000000000u ? 1.0 : 1.0 - 2.0 / (lqg_exp_within(2.0 * lqg_of_bits(a)) + 1.0); /* 10 */
     return lqg_change_sign(t, bits);
 }
 

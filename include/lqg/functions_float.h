@@ -14,27 +14,25 @@
 
 LQG_STRICT_BEGIN
 
-/* r = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAXF: |r| ≤ 0.7855. The last bits of *n are those of
- * n. π/2 is the sum of four parts. Products with the first three are exact, as n < 2¹³ and these have 11 bits, and so
- * are the first two differences. */
-static inline float lqg_reducef(float a, uint32_t *n)
+/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAXF: |r| ≤ 0.7855. *n is n modulo 4, in its last
+ * bits. π/2 is the sum of four parts. n has at most 13 bits, the first three parts 11 or fewer: their products are exact,
+ * and so are the first two differences. r is rounded once; where that is not exact, rest is far below it. */
+static inline float lqg_reducef(float a, float *rest, uint32_t *n)
 {
     LQG_STRICT_BODY
     const float shifted = a * 0.636619772f + 8388608.0f; /* 2²³: integers only */
     const float quarters = shifted - 8388608.0f;
 
     *n = lqg_bitsf(shifted);
-    a = a - quarters * 1.5703125f;
-    a = a - quarters * 0.000483751297f;
-    a = a - quarters * 7.54953362e-08f;
-    return a - quarters * 2.56334407e-12f;
+    *rest = quarters * -2.56334407e-12f;
+    return ((a - quarters * 1.5703125f) - quarters * 0.000483751297f) - quarters * 7.54953362e-08f;
 }
 
-/* sin r, cos r of a reduced r, z = r². */
-static inline float lqg_sin_reducedf(float r, float z)
+/* sin, cos of the reduced angle r + rest, z = r². */
+static inline float lqg_sin_reducedf(float r, float rest, float z)
 {
     LQG_STRICT_BODY
-    return r + r * (z * lqg_sin_polynomialf(z));
+    return r + (r * (z * lqg_sin_polynomialf(z)) + rest);
 }
 
 static inline float lqg_cos_reducedf(float z)
@@ -49,15 +47,15 @@ static inline void lqg_sin_cosf(float x, float *sine, float *cosine)
     LQG_STRICT_BODY
     const uint32_t bits = lqg_bitsf(x), a = bits & 0x7fffffffu;
     uint32_t n;
-    float r, z, s, c;
+    float r, rest, z, s, c;
 
     if (a > 0x46000000u) { /* LQG_ANGLE_MAXF */
         *sine = *cosine = lqg_of_bitsf(LQG_NANF);
         return;
     }
-    r = lqg_reducef(lqg_of_bitsf(a), &n);
+    r = lqg_reducef(lqg_of_bitsf(a), &rest, &n);
     z = r * r;
-    s = lqg_sin_reducedf(r, z);
+    s = lqg_sin_reducedf(r, rest, z);
     c = lqg_cos_reducedf(z);
     *sine = lqg_change_signf(n & 1u ? c : s, bits ^ n << 30);
     *cosine = lqg_change_signf(n & 1u ? s : c, (n + 1u) << 30);
@@ -68,13 +66,13 @@ static inline float lqg_sinf(float x)
     LQG_STRICT_BODY
     const uint32_t bits = lqg_bitsf(x), a = bits & 0x7fffffffu;
     uint32_t n;
-    float r, z;
+    float r, rest, z;
 
     if (a > 0x46000000u)
         return lqg_of_bitsf(LQG_NANF);
-    r = lqg_reducef(lqg_of_bitsf(a), &n);
+    r = lqg_reducef(lqg_of_bitsf(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_cos_reducedf(z) : lqg_sin_reducedf(r, z);
+    r = n & 1u ? lqg_cos_reducedf(z) : lqg_sin_reducedf(r, rest, z);
     return lqg_change_signf(r, bits ^ n << 30);
 }
 
@@ -83,38 +81,34 @@ static inline float lqg_cosf(float x)
     LQG_STRICT_BODY
     const uint32_t a = lqg_bitsf(x) & 0x7fffffffu;
     uint32_t n;
-    float r, z;
+    float r, rest, z;
 
     if (a > 0x46000000u)
         return lqg_of_bitsf(LQG_NANF);
-    r = lqg_reducef(lqg_of_bitsf(a), &n);
+    r = lqg_reducef(lqg_of_bitsf(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_sin_reducedf(r, z) : lqg_cos_reducedf(z);
+    r = n & 1u ? lqg_sin_reducedf(r, rest, z) : lqg_cos_reducedf(z);
     return lqg_change_signf(r, (n + 1u) << 30);
 }
 
-/* The reduction as above, but r and what its rounding leaves. */
+/* As lqg_reducef, but with a rest that includes what the rounding of r has left: tan is steeper than sin. */
 static inline float lqg_tanf(float x)
 {
     LQG_STRICT_BODY
     const uint32_t bits = lqg_bitsf(x), a = bits & 0x7fffffffu;
-    float shifted, quarters, exact, part, near, rest, r, z, t;
+    float t = lqg_of_bitsf(a), shifted, quarters, exact, part, r, rest, z;
 
     if (a > 0x46000000u)
         return lqg_of_bitsf(LQG_NANF);
-    r = lqg_of_bitsf(a);
-    shifted = r * 0.636619772f + 8388608.0f;
+    shifted = t * 0.636619772f + 8388608.0f;
     quarters = shifted - 8388608.0f;
-    exact = (r - quarters * 1.5703125f) - quarters * 0.000483751297f;
+    exact = (t - quarters * 1.5703125f) - quarters * 0.000483751297f;
     part = quarters * 7.54953362e-08f;
-    near = exact - part;
-    rest = ((exact - near) - part) - quarters * 2.56334407e-12f;
-    r = near + rest;
-    rest = rest - (r - near);
+    r = exact - part;
+    rest = ((exact - r) - part) - quarters * 2.56334407e-12f;
     z = r * r;
     t = r + (r * (z * lqg_tan_polynomialf(z)) + rest);
-    t = lqg_bitsf(shifted) & 1u ? -1.0f / t : t;
-    return lqg_change_signf(t, bits);
+    return lqg_change_signf(lqg_bitsf(shifted) & 1u ? -1.0f / t : t, bits);
 }
 
 /* The angle of ]−π, π[ that is x but for whole turns. */
@@ -286,11 +280,15 @@ static inline float lqg_tanhf(float x)
 
     if (a > 0x7f800000u)
         return lqg_of_bitsf(LQG_NANF);
+    t = lqg_of_bitsf(a);
     if (a <= 0x3f0ccccdu) { /* 0.55 */
-        t = x * x;
-        return x + x * (t * lqg_tanh_polynomialf(t));
+        const float z = t * t;
+        t = t + t * (z * lqg_tanh_polynomialf(z));
+    } else if (a <= 0x41200000u) { /* 10 */
+        t = 1.0f - 2.0f / (lqg_exp_withinf(2.0f * t) + 1.0f); /* e²ˣ */
+    } else {
+        t = 1.0f;
     }
-    t = a > 0x41200000u ? 1.0f : 1.0f - 2.0f / (lqg_exp_withinf(2.0f * lqg_of_bitsf(a)) + 1.0f); /* 10 */
     return lqg_change_signf(t, bits);
 }
 

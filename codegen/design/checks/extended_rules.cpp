@@ -53,11 +53,12 @@ void check_extended_filter(const Problem& problem, Findings& findings) {
 void check_law_beside_extended(const Problem& problem, Findings& findings) {
   if (!problem.regulator) return;
   const Regulator& law = *problem.regulator;
-  const ExtendedRule rules[] = {{"lqr.horizon", law.horizon > 0, "expected 0: the law is a constant K"},
-                        {"lqr.integral", law.integral.has_value(), "expected none: write ξ as a state of plant.f"},
-                        {"lqr.track", !law.track.empty(), "expected none: the law holds the operating point"},
-                        {"lqr.input_rate", law.input_rate.size() > 0, "expected none"},
-                        {"limits.horizon", foresees(problem.limits), "expected 0: u is clipped"}};
+  const ExtendedRule rules[] = {
+      {"lqr.horizon", law.horizon > 0, "expected 0: the law is a constant K"},
+      {"lqr.integral", law.integral.has_value(), "expected none: write ξ as a state of plant.f"},
+      {"lqr.track", !law.track.empty(), "expected none: the law holds the operating point"},
+      {"lqr.input_rate", law.input_rate.size() > 0, "expected none"},
+      {"limits.horizon", foresees(problem.limits), "expected 0: u is clipped"}};
   for (const ExtendedRule& rule : rules)
     if (rule.is_broken) add_error(findings, rule.key, std::string("with kalman.gain = \"extended\" ") + rule.expected);
 }

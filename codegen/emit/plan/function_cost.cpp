@@ -16,19 +16,18 @@ struct BytesOfFunction {
   Op function;
   long floats, doubles;
 };
-constexpr BytesOfFunction bytes_of_functions[] = {
-    {Op::square_root, 48, 476},
-    {Op::sine, 312, 692},
-    {Op::cosine, 304, 692},
-    {Op::tangent, 340, 860},
-    {Op::arcsine, 344, 1488},
-    {Op::arccosine, 368, 1536},
-    {Op::arctangent, 420, 1204},
-    {Op::arctangent_of_two, 440, 2612},
-    {Op::exponential, 296, 632},
-    {Op::logarithm, 332, 624},
-    {Op::hyperbolic_tangent, 420, 956},
-    {Op::wrapped, 260, 460}};
+constexpr BytesOfFunction bytes_of_functions[] = {{Op::square_root, 48, 476},
+                                                  {Op::sine, 312, 692},
+                                                  {Op::cosine, 304, 692},
+                                                  {Op::tangent, 340, 860},
+                                                  {Op::arcsine, 344, 1488},
+                                                  {Op::arccosine, 368, 1536},
+                                                  {Op::arctangent, 420, 1204},
+                                                  {Op::arctangent_of_two, 440, 2612},
+                                                  {Op::exponential, 296, 632},
+                                                  {Op::logarithm, 332, 624},
+                                                  {Op::hyperbolic_tangent, 420, 956},
+                                                  {Op::wrapped, 260, 460}};
 constexpr long bytes_of_sine_and_cosine = 352, bytes_of_double_sine_and_cosine = 748;
 constexpr long stack_of_function = 48, stack_of_double_function = 200;
 

@@ -87,6 +87,24 @@ Json plant(const Controller& controller) {
   return out;
 }
 
+Json parameters(const std::vector<design::Parameter>& all) {
+  Json out = Json::object();
+  for (const design::Parameter& parameter : all) {
+    Json& one = out[parameter.name] = {{"value", parameter.value}};
+    if (!parameter.unit.empty()) one["unit"] = parameter.unit;
+    if (!parameter.formula.empty()) one["expression"] = parameter.formula;
+    if (parameter.is_set) one["is_set"] = true;
+  }
+  return out;
+}
+
+Json expressions(const std::vector<design::Formula>& all) {
+  Json out = Json::object();
+  for (const design::Formula& formula : all)
+    out[formula.key] = {{"value", formula.value}, {"expression", formula.text}};
+  return out;
+}
+
 Json schedule(const std::vector<design::RealMatrix>& gains) {
   Json out = Json::array();
   for (const design::RealMatrix& gain : gains) out.push_back(rows(gain));
@@ -394,6 +412,8 @@ std::string json(const Controller& controller) {
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
   if (const auto& point = controller.problem.plant.operating_point) out["operating_point"] = operating_point(*point);
+  if (!controller.problem.parameters.empty()) out["parameters"] = parameters(controller.problem.parameters);
+  if (!controller.problem.formulas.empty()) out["expressions"] = expressions(controller.problem.formulas);
   if (solution.estimator && solution.estimator->noise.V.size() > 0)
     out["noise"] = noise(solution.estimator->noise);
   else if (solution.noise)

@@ -34,8 +34,8 @@ std::string wraps_in_words(const Controller& controller) {
 std::string describe_extended_plant(const Controller& controller) {
   const design::Plant& plant = controller.problem.plant;
   const bool is_discrete = plant.domain == design::Domain::discrete;
-  const std::string out = "\nPlant, sampled every " + number(design::Real(plant.sample_time), true) + " s:  " +
-                    (is_discrete ? "x⁺ = f(x, u) + G w" : "ẋ = f(x, u)") + ",  y = h(x, u) + v\n\n";
+  const std::string out = "\nPlant, sampled every " + number(design::Real(plant.sample_time), true) +
+                          " s:  " + (is_discrete ? "x⁺ = f(x, u) + G w" : "ẋ = f(x, u)") + ",  y = h(x, u) + v\n\n";
   return out + signal_lines("states   ", "x", plant.states) + signal_lines("inputs   ", "u", plant.inputs) +
          signal_lines("outputs  ", "y", plant.outputs);
 }

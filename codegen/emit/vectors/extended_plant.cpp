@@ -32,7 +32,8 @@ Eigen::VectorXd normal_numbers(Eigen::Index count, simulate::Noise& noise) {
 }  // namespace
 
 ExtendedPlant::ExtendedPlant(const Controller& controller, std::uint64_t seed_of_noise)
-    : model_(controller::model_of<double>(controller, [](const design::Real& value) { return design::to_double(value); })),
+    : model_(
+          controller::model_of<double>(controller, [](const design::Real& value) { return design::to_double(value); })),
       noise_(seed_of_noise), x_(controller.x0), of_outputs_(root_of_output_noise(model_)) {}
 
 Eigen::VectorXd ExtendedPlant::measure(const Eigen::VectorXd& u) {

@@ -41,20 +41,21 @@ inline lqg::expression::Tree formula(const std::string& text, const Texts& texts
   std::vector<std::string> names = texts.states;
   names.insert(names.end(), texts.inputs.begin(), texts.inputs.end());
   const auto parsed = lqg::expression::parse(text);
-  const auto bound = lqg::expression::bind(
-      std::get<lqg::expression::Tree>(parsed), [&](const std::string& name, std::size_t at) -> lqg::expression::Tree {
-        for (std::size_t i = 0; i < names.size(); ++i)
-          if (names[i] == name) return lqg::expression::variable(name, static_cast<int>(i), at);
-        return nullptr;
-      });
+  const auto bound = lqg::expression::bind(std::get<lqg::expression::Tree>(parsed),
+                                           [&](const std::string& name, std::size_t at) -> lqg::expression::Tree {
+                                             for (std::size_t i = 0; i < names.size(); ++i)
+                                               if (names[i] == name)
+                                                 return lqg::expression::variable(name, static_cast<int>(i), at);
+                                             return nullptr;
+                                           });
   return std::get<lqg::expression::Tree>(bound);
 }
 
 // Constants are made as those of S: with its digits.
 template <class S>
 void add_constants(const lqg::expression::Node& node, std::map<const lqg::expression::Node*, S>& out) {
-  using Exact = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>,
-                                              boost::multiprecision::et_off>;
+  using Exact =
+      boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>, boost::multiprecision::et_off>;
   if (node.is_constant) out.insert({&node, S(static_cast<real_of<S>>(lqg::expression::Constants<Exact>()(node)))});
   for (const auto& operand : node.operands)
     if (!node.is_constant) add_constants(*operand, out);

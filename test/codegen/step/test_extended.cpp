@@ -19,21 +19,21 @@ namespace reference = extended_reference;
 
 namespace {
 
-using Long = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>, boost::multiprecision::et_off>;
+using Long =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>, boost::multiprecision::et_off>;
 
-const Texts cart = {
-    {"p", "v", "th", "om"},
-    {"F"},
-    {"v", "(F - 0.1*v + 0.2*sin(th)*(0.3*om^2 - 9.81*cos(th)))/(0.5 + 0.2*sin(th)^2)", "om",
-     "(9.81*0.7*sin(th) - cos(th)*(F - 0.1*v + 0.2*0.3*om^2*sin(th)))/(0.3*(0.5 + 0.2*sin(th)^2))"},
-    {"p", "th"},
-    {false, true}};
-const Texts ship = {{"px", "py", "heading", "speed"},
-                    {"turn"},
-                    {"px + 0.5*speed*cos(heading)", "py + 0.5*speed*sin(heading)", "heading + 0.5*turn",
-                     "speed*exp(-0.5/64)"},
-                    {"sqrt(px^2 + py^2)", "atan2(py, px)"},
+const Texts cart = {{"p", "v", "th", "om"},
+                    {"F"},
+                    {"v", "(F - 0.1*v + 0.2*sin(th)*(0.3*om^2 - 9.81*cos(th)))/(0.5 + 0.2*sin(th)^2)", "om",
+                     "(9.81*0.7*sin(th) - cos(th)*(F - 0.1*v + 0.2*0.3*om^2*sin(th)))/(0.3*(0.5 + 0.2*sin(th)^2))"},
+                    {"p", "th"},
                     {false, true}};
+const Texts ship = {
+    {"px", "py", "heading", "speed"},
+    {"turn"},
+    {"px + 0.5*speed*cos(heading)", "py + 0.5*speed*sin(heading)", "heading + 0.5*turn", "speed*exp(-0.5/64)"},
+    {"sqrt(px^2 + py^2)", "atan2(py, px)"},
+    {false, true}};
 
 template <class S>
 Model<S> cart_model(Filter filter) {
