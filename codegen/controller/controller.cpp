@@ -86,9 +86,11 @@ bool has_feedthrough(const Controller& controller) {
          in_any_stage(controller, [&](std::size_t at) { return !is_zero(plant_at(controller, at).D); });
 }
 
+// In the numbers of the controller.
 Eigen::VectorXd start_of(const Controller& controller) {
   if (!controller.has.filter) return {};
-  return design::to_doubles(controller.solution.start->x0).col(0);
+  const Eigen::VectorXd x0 = design::to_doubles(controller.solution.start->x0).col(0);
+  return is_extended(controller) ? in_own_units(x0, stated_point(controller).x) : x0;
 }
 
 // Of the innovations of each sample, those of tables of gains included.

@@ -104,6 +104,30 @@ step::LimitedLaw<S> limited_law_of(const Controller& controller, Round round) {
   return law;
 }
 
+// u + K x of the operating point: the law of an extended filter is u − K (x̂ − x).
+template <class S, class Round>
+step::Vector<S> begin_law(const Controller& controller, Round round) {
+  const Point point = stated_point(controller);
+  const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
+  const design::RealMatrix& K = controller.solution.regulator->K;
+  step::Vector<S> begun(controller.size.nu);
+  for (Eigen::Index i = 0; i < begun.size(); ++i) {
+    design::Real sum = point.u.size() ? point.u(i) : 0.0;
+    for (Eigen::Index j = 0; j < point.x.size(); ++j) sum += K(i, j) * design::Real(point.x(j));
+    begun(i) = round(sum);
+  }
+  return begun;
+}
+
+// The input at the operating point of an extended filter, where it is not 0.
+template <class S, class Round>
+step::Vector<S> start_of_input(const Controller& controller, Round round) {
+  const Eigen::VectorXd u = stated_point(controller).u;
+  step::Vector<S> start(u.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) start(i) = round(design::Real(u(i)));
+  return start;
+}
+
 template <class S, class Round>
 void convert_regulator(const Controller& controller, Round round, std::size_t sample, step::Model<S>& model) {
   const Gains& gains = row_of(controller.laws, sample);
@@ -127,6 +151,7 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
     model.wanted.push_back(
         static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));
   model.T = round(design::Real(controller.problem.plant.sample_time));
+  if (is_extended(controller)) model.law_begun = begin_law<S>(controller, round);
   model.xi_bound = controller.bounds.xi;
   model.error_limit = controller.bounds.error.template cast<S>();
   if (controller.has.filter || model.integral.empty()) return;
@@ -153,6 +178,7 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
   model.point = convert_point<S>(controller.point);
   if (controller.has.filter) {
     model.x0 = convert<S>(kept_start(controller), round);
+    if (is_extended(controller)) model.u0 = start_of_input<S>(controller, round);
     if (controller.modal) {
       model.to_estimate = convert<S>(controller.modal->T, round);
       model.of_estimate = convert<S>(controller.modal->inverse, round);

@@ -94,7 +94,9 @@ Point stated_point(const Controller& controller) {
   return result;
 }
 
+// An extended filter is in the plant's own units.
 Point point_of(const Controller& controller) {
+  if (is_extended(controller)) return {};
   Point point = stated_point(controller);
   for (VectorXd* part : {&point.x, &point.u, &point.y, &point.r})
     *part = empty_if_zero(point_in_target(*part, controller.target.is_double));

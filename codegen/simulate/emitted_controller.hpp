@@ -96,12 +96,16 @@ class EmittedController {
   // x̂
   Vector<S> estimate() const {
     step::Listener listener;
-    return step::own_state(model_.point, estimated_deviation(), listener);
+    return step::own_state(model_.point, step::estimate(model_, state_, listener), listener);
   }
   // The same from the operating point.
   Vector<S> estimated_deviation() const {
     step::Listener listener;
-    return step::estimate(model_, state_, listener);
+    Vector<S> x = step::estimate(model_, state_, listener);
+    const Eigen::VectorXd point =
+        controller::is_extended(controller_) ? controller::stated_point(controller_).x : Eigen::VectorXd();
+    for (Eigen::Index i = 0; i < point.size(); ++i) x(i) = x(i) - S(point(i));
+    return x;
   }
   unsigned set_state(const Vector<S>& x) {
     step::Listener listener;

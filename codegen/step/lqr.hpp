@@ -52,6 +52,9 @@ S within(const S& low, const S& value, const S& high, const char* below, const c
 
 template <class S>
 std::string equation_of_law(const Model<S>& model) {
+  if (model.equations)
+    return std::string("u = (u + K x of the operating point) − K x̂") +
+           (model.u_min.size() || model.u_step.size() ? ", within its limits" : "");
   return std::string(model.gives_change       ? "u = u[k−1] − K [x̂"
                      : model.integral.empty() ? "u = −K x̂"
                                               : "u = −K [x̂") +

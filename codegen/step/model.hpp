@@ -61,13 +61,15 @@ struct Model {
   std::vector<int> x_bound;  // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
   Matrix<S> to_estimate, of_estimate;  // T, T⁻¹, nx × nx: the filter keeps z in the place of x, x̂ = T z; or empty
   Vector<S> x0;                        // nx
+  Vector<S> u0;                        // nu, or empty: the input that acts at the start, else 0
   std::vector<S> P0;                   // plain: lower triangle, row by row
   std::vector<S> U0, D0;               // ud: strict upper triangle, column by column; diagonal
   int delayed = 0;                     // the last of the nx states are this many inputs on their way, the oldest first
   Matrix<S> K;                         // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
   Vector<S> u_min, u_max;              // nu, or empty: no limits
   bool has_finite_law = false;         // what the law asks for is known to be finite: nobody has to look
-  Vector<S> law_begun;                 // nu, or empty: the sums of the law so far as x̂, where K has no x̂ any more
+  Vector<S> law_begun;                 // nu, or empty: the sums of the law so far: as x̂, where K has no x̂ any more;
+                                       // of an extended filter u + K x of the operating point
   Vector<S> prediction_begun;          // nx, or empty: likewise A x̂, where A is 0
   // A law with a memory.
   int nr = 0;                 // references
@@ -147,6 +149,7 @@ State<S> initial_state(const Model<S>& model) {
   const auto zeros = [](Eigen::Index size) { return Vector<S>(Vector<S>::Constant(size, S(0))); };
   const auto nxi = static_cast<Eigen::Index>(model.integral.size());
   state.u = zeros(has_feedthrough(model) || continues(model) ? model.nu : 0);
+  if (state.u.size() && model.u0.size()) state.u = model.u0;
   state.widening = model.gate_start;
   state.innovation = zeros(model.M.cols());
   state.r = model.point.r.size() ? model.point.r : zeros(model.nr);
