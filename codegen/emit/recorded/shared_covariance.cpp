@@ -41,7 +41,7 @@ Symbols load_covariance(const Controller& controller, int nx) { return load(cont
 
 bool can_share_covariance(const Controller& controller) {
   return controller.filter == step::Filter::plain && !controller.has.stages && !controller.keeps.innovation &&
-         controller.solution.online->E.isIdentity(0);
+         controller.solution.online->E.isIdentity(0) && !controller::is_extended(controller);
 }
 
 std::vector<std::pair<int, int>> blocks_of_rows(const Controller& controller) {

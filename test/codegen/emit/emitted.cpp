@@ -35,7 +35,7 @@ std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
   using lqg::controller::Sharing;
   using lqg::design::Style;
   std::vector<Way> ways = {{Style::unrolled, Sharing::nothing, "_unrolled"}};
-  const bool has_loops = !controller.linear && !controller.modal;
+  const bool has_loops = !controller.linear && !controller.modal && !lqg::controller::is_extended(controller);
   if (has_loops) ways.push_back({Style::compact, Sharing::nothing, "_compact"});  // those loops are of x̂
   if (has_loops && lqg::emit::can_share_covariance(controller)) {
     ways.push_back({Style::unrolled, Sharing::outputs, "_outputs"});
