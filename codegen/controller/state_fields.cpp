@@ -39,7 +39,7 @@ void add_estimate(const Controller& controller, Fields& fields) {
 }
 
 // Of an extended filter: that of the operating point.
-std::vector<double> start_of_input(const Controller& controller) {
+std::vector<double> input_at_start(const Controller& controller) {
   const auto u = start_of_input<double>(
       controller, [&](const design::Real& value) { return rounded_to_target(value, controller.target.is_double); });
   return {u.data(), u.data() + u.size()};
@@ -88,7 +88,7 @@ std::vector<Field> state_fields(const Controller& controller) {
   if (controller.keeps.input)
     add_reals(fields, "u_applied", controller.size.nu, "{NAME}_NU",
               "input that acts: of the last predict or control" + deviation_of(controller.point.u),
-              is_extended(controller) ? start_of_input(controller) : std::vector<double>());
+              is_extended(controller) ? input_at_start(controller) : std::vector<double>());
   if (controller.has.gate)
     add_reals(fields, "widening", controller.size.ny, "{NAME}_NY",
               "w ≥ 1, widening of the gate: it grows while the output is rejected", start_of_gate(controller));
