@@ -98,6 +98,8 @@ void check_companions(const Values& values, Report& report) {
   needs("kalman.recovery", values.text("kalman.recovery") != "auto" || requires_of_loop(values),
         "a margin or max_pole in [require] for \"auto\": without one there is nothing to meet");
   for (const std::string& stage : values.tables_of("stage")) {
+    for (const char* key : {".A", ".B", ".C", ".D"})
+      needs((stage + key).c_str(), !values.has("plant.f"), "a plant of matrices: plant.f is one for all samples");
     for (const char* key : {".Q", ".R", ".N"}) needs((stage + key).c_str(), values.has("lqr"), "[lqr]");
     for (const char* key : {".process_noise", ".measurement_noise"})
       needs((stage + key).c_str(), values.has("kalman"), "[kalman]");

@@ -56,18 +56,6 @@ DesignFile read_stream(std::istream& stream, const std::filesystem::path& folder
   return parse_design(text, folder, settings);
 }
 
-// On one line, as it stands in a comment.
-std::string on_one_line(const std::string& formula) {
-  std::string line;
-  for (const char c : formula) {
-    const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
-    if (!is_blank) line += c;
-    if (is_blank && !line.empty() && line.back() != ' ') line += ' ';
-  }
-  if (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
-
 std::vector<design::Parameter> stated(const Parameters& parameters) {
   std::vector<design::Parameter> all;
   for (const Parameter& one : parameters.all)

@@ -20,29 +20,28 @@ using Names = std::vector<std::string>;
 
 const char* const point_key = "plant.operating_point";
 
-std::string indexed(const std::string& key, std::size_t i) { return key + "[" + std::to_string(i) + "]"; }
-
-// A line break becomes a blank: the text stands in a comment.
-std::string in_one_line(std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
-  return text;
+const Node* value_in(const Node* table, const std::string& name) {
+  for (std::size_t i = 0; table != nullptr && table->kind == Kind::table && i < table->keys.size(); ++i)
+    if (table->keys[i].name == name) return &table->items[i];
+  return nullptr;
 }
+
+std::string entry_key(const std::string& key, std::size_t i) { return key + "[" + std::to_string(i) + "]"; }
 
 // Equations and operating point of one file.
 class EquationsReader {
  public:
   EquationsReader(const Node& document, const Parameters& parameters, const FormulaPlaces& places, ExactValues& exact,
                   Values& values, Report& report)
-      : plant_(item(&document, "plant")), parameters_(parameters), places_(places), exact_(exact), values_(values),
+      : plant_(value_in(&document, "plant")), parameters_(parameters), places_(places), exact_(exact), values_(values),
         report_(report), states_(signal_names(values, Size::nx)), inputs_(signal_names(values, Size::nu)) {}
 
   // What the plants of scenarios have in place of the design's parameters.
   void read_changes(const Node& document) {
-    const Node* scenarios = item(&document, "scenario");
+    const Node* scenarios = value_in(&document, "scenario");
     for (std::size_t i = 0; scenarios != nullptr && i < scenarios->items.size(); ++i) {
-      const std::string key = indexed("scenario", i) + ".plant.parameters";
-      const Node* changes = item(item(&scenarios->items[i], "plant"), "parameters");
+      const std::string key = entry_key("scenario", i) + ".plant.parameters";
+      const Node* changes = value_in(value_in(&scenarios->items[i], "plant"), "parameters");
       if (changes == nullptr) continue;
       if (!values_.has("plant.f"))
         report_.error(key, "needs plant.f: parameters of matrices are those of the design");
@@ -62,7 +61,7 @@ class EquationsReader {
     const bool is_good = read_formulas("plant.f", equations->f, equations->f_text);
     if (!read_formulas("plant.h", equations->h, equations->h_text) || !is_good) return;
     values_.equations = equations;
-    const EquationUnits units(item(plant_, "f"), item(plant_, "h"), parameters_, places_, values_, report_);
+    const EquationUnits units(value_in(plant_, "f"), value_in(plant_, "h"), parameters_, places_, values_, report_);
     if (units.check()) linearise();
   }
 
@@ -116,7 +115,7 @@ class EquationsReader {
         if (parameters_.find(name) != nullptr || parameters_.wrong.count(name) != 0) other = "a parameter";
         if (other.empty()) continue;
         good = false;
-        report_.error(indexed(key, i),
+        report_.error(entry_key(key, i),
                       "expected a name of its own in plant.f, found that of " + other + ", " + in_quotes(name));
       }
     return good;
@@ -124,7 +123,7 @@ class EquationsReader {
 
   // One a state, or one an output.
   bool read_formulas(const std::string& key, Trees& formulas, Names& texts) {
-    const Node* list = item(plant_, key.substr(key.find('.') + 1));
+    const Node* list = value_in(plant_, key.substr(key.find('.') + 1));
     if (list == nullptr) return true;
     if (list->kind != Kind::array || list->items.empty()) {
       report_.error(key, "expected an array of formulas in quotes, found " + describe(*list));
@@ -133,15 +132,15 @@ class EquationsReader {
     bool good = true;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
       const Node& node = list->items[i];
-      report_.place(indexed(key, i), node.where);
+      report_.place(entry_key(key, i), node.where);
       if (node.kind != Kind::text && node.kind != Kind::number) {
-        report_.error(indexed(key, i), "expected a formula in quotes, found " + describe(node));
+        report_.error(entry_key(key, i), "expected a formula in quotes, found " + describe(node));
         good = false;
         continue;
       }
       formulas.push_back(node.kind == Kind::number ? expression::number(node.number)
-                                                   : formula(indexed(key, i), node, 0, true));
-      texts.push_back(node.kind == Kind::number ? shown(node.number) : in_one_line(node.text));
+                                                   : formula(entry_key(key, i), node, 0, true));
+      texts.push_back(node.kind == Kind::number ? shown(node.number) : on_one_line(node.text));
       good = good && formulas.back();
     }
     return good;
@@ -232,7 +231,7 @@ class EquationsReader {
   // What is left out is 0.
   bool read_values_of(const std::string& part, const Names& names, const char* size, design::WantedPoint& point) {
     const std::string key = std::string(point_key) + "." + part;
-    const Node* list = item(item(plant_, "operating_point"), part);
+    const Node* list = value_in(value_in(plant_, "operating_point"), part);
     const std::string expected =
         "expected " + counted(static_cast<long>(names.size()), "number") + " (" + size + "), found ";
     if (list != nullptr && (list->kind != Kind::array || list->items.size() != names.size())) {
@@ -244,7 +243,7 @@ class EquationsReader {
       point.values.push_back(list == nullptr ? expression::number(0) : nullptr);
       point.starts.push_back(nullptr);
       if (list != nullptr)
-        good = read_value(indexed(key, i), list->items[i], point.values.back(), point.starts.back()) && good;
+        good = read_value(entry_key(key, i), list->items[i], point.values.back(), point.starts.back()) && good;
     }
     return good;
   }
@@ -272,7 +271,7 @@ class EquationsReader {
 
   bool read_steady(design::WantedPoint& point) {
     const std::string key = std::string(point_key) + ".steady";
-    const Node* list = item(item(plant_, "operating_point"), "steady");
+    const Node* list = value_in(value_in(plant_, "operating_point"), "steady");
     point.is_steady.assign(states_.size(), list == nullptr);
     if (list == nullptr) return true;
     if (list->kind != Kind::array) {
@@ -288,7 +287,7 @@ class EquationsReader {
       if (is_state) continue;
       good = false;
       const std::string near = node.kind == Kind::text ? nearest_word(states_, node.text) : "";
-      report_.error(indexed(key, i), node.where,
+      report_.error(entry_key(key, i), node.where,
                     "expected the name of a state, found " +
                         (node.kind == Kind::text ? in_quotes(node.text) : describe(node)) +
                         (near.empty() ? "" : "; did you mean `" + near + "`?"));

@@ -6,43 +6,21 @@
 
 #include <unity.h>
 
+#include "../plant_of_equations.hpp"
 #include "design/linearise.hpp"
 #include "design/rounding.hpp"
-#include "expression/bind.hpp"
 #include "linearisation_reference.hpp"
 
 using namespace lqg::design;
-namespace expression = lqg::expression;
-using Texts = std::vector<std::string>;
+using lqg_test::Texts;
 
 namespace {
 
-expression::Tree tree_of(const std::string& text, const Plant& plant) {
-  const auto parsed = expression::parse(text);
-  TEST_ASSERT_TRUE_MESSAGE(std::holds_alternative<expression::Tree>(parsed), text.c_str());
-  const auto bound = expression::bind(std::get<expression::Tree>(parsed), [&](const std::string& name, std::size_t at) {
-    int index = 0;
-    for (const auto* signals : {&plant.states, &plant.inputs})
-      for (const Signal& signal : *signals) {
-        if (signal.name == name) return expression::variable(name, index, at);
-        ++index;
-      }
-    return expression::Tree();
-  });
-  TEST_ASSERT_TRUE_MESSAGE(std::holds_alternative<expression::Tree>(bound), text.c_str());
-  return std::get<expression::Tree>(bound);
-}
-
 struct Case {
   Case(Domain domain, const Texts& states, const Texts& inputs, const Texts& f, const Texts& h, const Texts& values,
-       const Texts& steady) {
-    plant.domain = domain;
-    for (const std::string& name : states) plant.states.push_back({name, ""});
-    for (const std::string& name : inputs) plant.inputs.push_back({name, ""});
-    auto equations = std::make_shared<Equations>();
-    for (const std::string& text : f) equations->f.push_back(tree_of(text, plant));
-    for (const std::string& text : h) equations->h.push_back(tree_of(text, plant));
-    plant.equations = equations;
+       const Texts& steady)
+      : plant(lqg_test::plant_of(domain, states, inputs, f, h)) {
+    using lqg_test::tree_of;
     for (const std::string& value : values) {
       const bool is_open = value[0] == '?';
       point.values.push_back(is_open ? nullptr : tree_of(value, plant));
