@@ -7,6 +7,7 @@
 #include "controller/gains.hpp"
 #include "controller/gate.hpp"
 #include "controller/numbers.hpp"
+#include "controller/operating_point.hpp"
 #include "controller/recovery.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/finding.hpp"
@@ -106,6 +107,7 @@ Controller described(design::Problem problem, design::Solution solution, Source 
   controller.stage_starts = stage_starts_of(controller);
   controller.has.feedthrough = has_feedthrough(controller);
   controller.x0 = start_of(controller);
+  controller.point = point_of(controller);
   return controller;
 }
 
@@ -181,6 +183,7 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
                                         design::Findings& findings) {
   Controller controller = described(std::move(problem), std::move(solution), std::move(source));
   check_emittable(controller, findings);
+  check_point(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
@@ -255,6 +258,10 @@ std::string name_of(design::Realisation realisation) {
     case design::Realisation::modal: return "modal";
     default: return "physical";
   }
+}
+
+bool has_estimate(const Controller& controller) {
+  return controller.linear || controller.modal || (controller.has.filter && controller.point.x.size() > 0);
 }
 
 bool can_set_input(const Controller& controller) {

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "controller/controller.hpp"
+#include "controller/limit_of_target.hpp"
+#include "controller/operating_point.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "design/rounding.hpp"
@@ -65,15 +67,6 @@ void convert_steady(const Controller& controller, Round round, std::size_t sampl
     model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
 }
 
-// The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
-// an infinite limit stays infinite.
-inline double limit_of_target(double limit, int inward, bool is_double) {
-  if (is_double || std::isinf(limit)) return limit;
-  const float near = static_cast<float>(limit);
-  const bool outside = inward < 0 ? static_cast<double>(near) > limit : static_cast<double>(near) < limit;
-  return outside ? std::nextafter(near, inward < 0 ? -INFINITY : INFINITY) : near;
-}
-
 template <class S>
 step::Vector<S> convert_limits(const Eigen::VectorXd& from, int inward, bool is_double) {
   step::Vector<S> to(from.size());
@@ -100,6 +93,10 @@ step::LimitedLaw<S> limited_law_of(const Controller& controller, Round round) {
   law.scale = convert<S>(rows.scale, round);
   law.low = convert_limits<S>(design::to_doubles(rows.low), +1, is_double);
   law.high = convert_limits<S>(design::to_doubles(rows.high), -1, is_double);
+  if (controller.point.u.size()) {
+    law.low.head(law.nu) = input_limits(controller, +1).template cast<S>();
+    law.high.head(law.nu) = input_limits(controller, -1).template cast<S>();
+  }
   law.tolerance = convert<S>(rows.tolerance, round);
   if (controller.has.rate_limit) law.u_step = convert_limits<S>(rate_steps(controller), -1, is_double);
   return law;
@@ -112,8 +109,8 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
   if (controller.has.foresight) model.foreseen = limited_law_of<S>(controller, round);
   const auto& limits = controller.problem.limits;
   if (limits && limits->u_min.size() && !controller.has.foresight) {
-    model.u_min = convert_limits<S>(limits->u_min, +1, controller.target.is_double);
-    model.u_max = convert_limits<S>(limits->u_max, -1, controller.target.is_double);
+    model.u_min = input_limits(controller, +1).template cast<S>();
+    model.u_max = input_limits(controller, -1).template cast<S>();
   }
   if (controller.has.rate_limit && !controller.has.foresight)
     model.u_step = convert_limits<S>(rate_steps(controller), -1, controller.target.is_double);
@@ -151,6 +148,7 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
   model.B = convert<S>(kept_plant_at(controller, sample).B, round);
   model.D.resize(model.ny, 0);
   model.M.resize(model.nx, 0);
+  model.point = convert_point<S>(controller.point);
   if (controller.has.filter) {
     model.x0 = convert<S>(kept_start(controller), round);
     if (controller.modal) {
@@ -159,9 +157,9 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
     }
     model.x_bound = controller.bounds.x;
     model.nu_limit = controller.bounds.innovation.template cast<S>();
-    if (const design::Estimator& estimator = *controller.problem.estimator; estimator.output_min.size()) {
-      model.y_min = convert_limits<S>(estimator.output_min, +1, controller.target.is_double);
-      model.y_max = convert_limits<S>(estimator.output_max, -1, controller.target.is_double);
+    if (controller.has.range) {
+      model.y_min = output_range(controller, +1).template cast<S>();
+      model.y_max = output_range(controller, -1).template cast<S>();
     }
     if (controller.has.gate) {
       model.gate = round(design::Real(controller.gate.sigma));

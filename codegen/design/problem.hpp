@@ -28,8 +28,10 @@ enum class Domain { continuous, discrete };
 // Where the linear plant is the plant: its x, u and y are deviations from these. In the plant's own units, as is what
 // the file states beside it; when a Problem leaves `input`, its limits, ranges and initial state are deviations, too.
 struct OperatingPoint {
-  Eigen::VectorXd x, u, y;                               // nx, nu, ny
-  Eigen::VectorXd u_min, u_max, output_min, output_max;  // of Limits and Estimator, as the file states them
+  Eigen::VectorXd x, u, y;  // nx, nu, ny
+  // Of Limits and Estimator, as the file states them.
+  Eigen::VectorXd u_min, u_max, output_min, output_max;
+  Eigen::MatrixXd states_range, outputs_range;
 };
 
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.

@@ -42,19 +42,26 @@ std::vector<design::Signal> signals(const Values& values, const std::string& key
   return result;
 }
 
-// With all digits; the point in those of a double.
+// With all digits.
 void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
   plant.A = design::ExactMatrix::of(linearisation.A);
   plant.B = design::ExactMatrix::of(linearisation.B);
   plant.C = design::ExactMatrix::of(linearisation.C);
   plant.D = design::ExactMatrix::of(linearisation.D);
-  plant.operating_point = design::OperatingPoint{design::to_doubles(linearisation.x),
-                                                 design::to_doubles(linearisation.u),
-                                                 design::to_doubles(linearisation.y),
-                                                 {},
-                                                 {},
-                                                 {},
-                                                 {}};
+}
+
+// What is left out is 0.
+std::optional<design::OperatingPoint> operating_point(const Values& values, const design::Plant& plant) {
+  const std::string table = "plant.operating_point";
+  if (!values.has(table)) return std::nullopt;
+  const auto part = [&](const char* key, Eigen::Index size) {
+    return Eigen::VectorXd(zero_or(values, table + key, static_cast<int>(size), 1).col(0));
+  };
+  design::OperatingPoint point;
+  point.x = part(".states", plant.A.rows());
+  point.u = part(".inputs", plant.B.cols());
+  point.y = part(".outputs", plant.C.rows());
+  return point;
 }
 
 design::Plant plant(const Values& values) {
@@ -83,6 +90,7 @@ design::Plant plant(const Values& values) {
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
+  result.operating_point = operating_point(values, result);
   return result;
 }
 
@@ -324,6 +332,11 @@ design::Problem assemble(const Values& values) {
   problem.requirements = requirements(values);
   problem.code = code(values);
   return problem;
+}
+
+void begin_at_operating_point(const Values& values, design::Problem& problem) {
+  const auto& point = problem.plant.operating_point;
+  if (point && problem.estimator && !values.has("kalman.initial_state")) problem.estimator->x0 = point->x;
 }
 
 }  // namespace lqg::input

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "design/operating_point.hpp"
 #include "input/assemble.hpp"
 #include "input/consistency.hpp"
 #include "input/document.hpp"
@@ -124,6 +125,10 @@ DesignFile parse_design(const std::string& text, const std::optional<std::filesy
     problem.parameters = stated(parameters);
     problem.formulas = stated(formulas);
     load_columns(values, folder, problem.scenarios, report);
+    begin_at_operating_point(values, problem);
+    design::Findings findings;
+    design::express_as_deviations(problem, findings);
+    for (const design::Finding& finding : findings) report.error(finding.key, finding.message);
     if (!design::has_error(file.findings)) file.problem = std::move(problem);
   }
   sort_by_place(file, file.findings);

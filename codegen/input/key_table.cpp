@@ -43,14 +43,6 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"plant.h", Type::formulas, ny, no, optional, {},
        "Of each output its formula. Without it lqgen designs a regulator alone.", "no outputs",
        "README.md#plants-as-equations"},
-      {"plant.operating_point", Type::table, no, no, optional, {},
-       "Where `f` and `h` are linearised."},
-      {"plant.operating_point.states", Type::point, nx, no, optional, {},
-       "The states there: numbers, formulas, or `\"?\"` for what is found so that f = 0; `\"? 0.5\"` says where the "
-       "search begins.", "0"},
-      {"plant.operating_point.inputs", Type::point, nu, no, optional, {}, "The inputs there, likewise.", "0"},
-      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
-       "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
       {"plant.A", Type::matrix, nx, nx, optional, {}, "System matrix. One of `A` and `f` is required."},
       {"plant.B", Type::matrix, nx, nu, optional, {},
        "Input matrix. Without it lqgen designs an estimator alone.", "no inputs"},
@@ -81,6 +73,21 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`x0`, `x1`, …"},
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
+      {"plant.operating_point", Type::table, no, no, optional, {},
+       "Where the matrices are the linearisation of the plant, or where `f` and `h` are linearised: x, u and y of the design are deviations from this point. "
+       "All the rest of the file, and all that firmware hands over and gets, is in the plant's own units: limits, ranges, "
+       "initial states, references, y, u and x. Weights, noises and what [lqr.bryson] accepts are of deviations.",
+       "x, u and y are those of the matrices", "README.md#operating-point"},
+      {"plant.operating_point.states", Type::point, nx, no, optional, {},
+       "The states there: numbers or formulas; of `plant.f` also `\"?\"` for what is found so that f = 0. `\"? 0.5\"` says "
+       "where the search begins.", "0"},
+      {"plant.operating_point.inputs", Type::point, nu, no, optional, {},
+       "The inputs that keep the plant there, likewise.", "0"},
+      {"plant.operating_point.outputs", Type::vector, ny, no, optional, {},
+       "The outputs there; of `plant.h` they are computed. References begin with them.", "0"},
+      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
+       "Names of the states that are at rest there: whose f is 0, or x of a discrete plant.", "all",
+       "README.md#plants-as-equations"},
 
       {"lqr", Type::table, no, no, optional, {},
        "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
@@ -158,7 +165,8 @@ std::vector<KeyRule> keys_of_the_loop() {
        "Form of P with `gain = \"online\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
        "`plain`: P itself, which is cheaper."},
       {"kalman.initial_state", Type::vector, nx, no, optional, {},
-       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.", "0"},
+       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.",
+       "0, or `plant.operating_point`"},
       {"kalman.initial_covariance", Type::weight, nx, nx, optional, {},
        "P0 = P(0|−1), the covariance of that x̂.", "identity"},
       {"kalman.process_correlation_time", Type::positives, nw, no, optional, {},

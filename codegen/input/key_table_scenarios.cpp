@@ -45,10 +45,12 @@ std::vector<KeyRule> scenario_keys() {
       {"scenario.name", Type::line, no, no, required, {}, "Name of the scenario, different from the others."},
       {"scenario.duration", Type::positive, no, no, required, {}, "Length in s; at most 1,000,000 samples."},
       {"scenario.x0", Type::vector, nx, no, optional, {},
-       "State of the plant at the start. x̂ begins with `kalman.initial_state`.", "0"},
+       "State of the plant at the start. x̂ begins with `kalman.initial_state`.", "0, or `plant.operating_point`"},
       {"scenario.noise", Type::flag, no, no, optional, {}, "`false`: without the noises of the design.", "true"},
       {"scenario.reference", Type::tables, no, no, optional, {},
-       "References r of outputs that are in `lqr.track` or `lqr.integral.outputs`. Several add up."},
+       "References r of outputs that are in `lqr.track` or `lqr.integral.outputs`. Several add up. With "
+       "`plant.operating_point` r begins with the output there and `value` is what it becomes; what adds up are the "
+       "changes, and a sine is one."},
       {"scenario.reference.output", Type::signal, ny, no, required, {}, "The output."},
   };
   append(keys, course("scenario.reference"));

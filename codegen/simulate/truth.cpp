@@ -32,9 +32,12 @@ double sensed(const design::Sensor& sensor, double y) {
   return std::min(std::max(y, sensor.min), sensor.max);
 }
 
+// Of a point, of which nothing is there where all of it is 0.
+double entry(const VectorXd& point, int i) { return point.size() ? point(i) : 0; }
+
 }  // namespace
 
-Truth::Truth(const TruthModel& model, const VectorXd& x0, Noise& noise) : model_(model), noise_(noise) {
+Truth::Truth(const TruthModel& model, const VectorXd& x0, Noise& noise) : model_(model), noise_(noise), point_(controller::stated_point(*model.controller)) {
   x0_ = VectorXd::Zero(model.nx + static_cast<Index>(model.lagged.size()));
   x0_.head(x0.size()) = x0;
   x_ = x0_;
@@ -51,9 +54,12 @@ void Truth::ask(const VectorXd& u) {
   commands_.col(place(k_)) = u;
   for (const design::Actuator& actuator : model_.scenario->actuator) {
     // What it was asked for before, without its gain.
-    const double before = k_ == 0 || actuator.gain == 0 ? 0 : asked_for(actuator.input, k_ - 1) / actuator.gain;
+    const double at_rest = entry(point_.u, actuator.input);
+    const double before = k_ == 0              ? at_rest
+                          : actuator.gain == 0 ? 0
+                                               : (at_rest + asked_for(actuator.input, k_ - 1)) / actuator.gain;
     double& command = commands_(actuator.input, place(k_));
-    command = actuator.gain * limited(actuator, before, command, model_.T);
+    command = actuator.gain * limited(actuator, before, at_rest + command, model_.T) - at_rest;
   }
 }
 
@@ -140,7 +146,10 @@ VectorXd Truth::measure() {
   for (Index i = 0; i < model_.ny; ++i)
     if (model_.output_delay(i) > 0) y(i) = late_output(i);
   y += drawn_.tail(model_.ny);
-  for (const design::Sensor& sensor : model_.scenario->sensor) y(sensor.output) = sensed(sensor, y(sensor.output));
+  for (const design::Sensor& sensor : model_.scenario->sensor) {
+    const double at_rest = entry(point_.y, sensor.output);
+    y(sensor.output) = sensed(sensor, at_rest + y(sensor.output)) - at_rest;
+  }
   return y;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "controller/operating_point.hpp"
 #include "simulate/noise.hpp"
 #include "simulate/truth_model.hpp"
 
@@ -45,6 +46,7 @@ class Truth {
 
   const TruthModel& model_;
   Noise& noise_;
+  controller::Point point_;  // sensors and actuators are in the plant's own units
   int k_ = 0;
   bool has_asked_ = false;  // in this sample
   Eigen::VectorXd x0_, x_, drawn_, outputs_;

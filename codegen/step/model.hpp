@@ -30,6 +30,12 @@ struct LimitedLaw {
   Vector<S> u_step;         // nu, or empty
 };
 
+// What the caller's numbers are where those of the model are 0; each vector is empty where all of it is 0.
+template <class S>
+struct OperatingPoint {
+  Vector<S> x, u, y, r;  // nx, nu, ny, nr
+};
+
 // Absent parts have no rows or no columns: C without a filter, K without a regulator, D and M when they are zero.
 template <class S>
 struct Model {
@@ -75,6 +81,7 @@ struct Model {
   Matrix<S> H;                // nxi × nu: ξ + H (u − v) is ξ where u was applied in place of v
   Matrix<S> H_input;          // nxi × nu: ξ + H_input (u − v) makes the law give u, or nearly, where it gave v
   S T = S(0);                 // s, the sample time, of ξ⁺ = ξ + T (r − y)
+  OperatingPoint<S> point;    // of x, u and y, which are deviations; only r of the state is in the plant's own units
 };
 
 // No gate is wider, squared: then it lets everything in that is believable.
@@ -113,7 +120,7 @@ struct State {
   Vector<S> u;           // nu: the input that acts; kept when D ≠ 0, and where the law begins with it
   Vector<S> widening;    // ny, with a gate: its threshold is this in units of gate² S, 1 at least
   Vector<S> innovation;  // ny: what predict still needs of the last outputs; kept when M ≠ 0
-  Vector<S> r;           // nr: what the outputs should be
+  Vector<S> r;           // nr: what the outputs should be, in the plant's own units
   Vector<S> xi;          // nxi: ξ, the integral of r − y
   Vector<S> error;       // nxi: r − y of this sample, which predict adds to ξ
   Vector<S> demand;      // nu: what the law asked for; kept where there is a ξ to correct
@@ -137,7 +144,7 @@ State<S> initial_state(const Model<S>& model) {
   state.u = zeros(has_feedthrough(model) || continues(model) ? model.nu : 0);
   state.widening = model.gate_start;
   state.innovation = zeros(model.M.cols());
-  state.r = zeros(model.nr);
+  state.r = model.point.r.size() ? model.point.r : zeros(model.nr);
   state.xi = state.error = zeros(nxi);
   state.demand = zeros(nxi ? model.nu : 0);
   return state;
@@ -177,7 +184,7 @@ inline Place of_state(int i, const char* of = "") { return {Place::Kind::state, 
 inline Place of_input(int i, const char* of = "") { return {Place::Kind::input, i, -1, of, -1}; }
 inline Place of_output(int i, const char* of = "") { return {Place::Kind::output, i, -1, of, -1}; }
 inline Place of_integral(int i, const char* of = "") { return {Place::Kind::integral, i, -1, of, -1}; }
-inline Place of_reference(int i) { return {Place::Kind::reference, i, -1, "", -1}; }
+inline Place of_reference(int i, const char* of = "") { return {Place::Kind::reference, i, -1, of, -1}; }
 inline Place of_entry(int i, int j = -1, const char* of = "") { return {Place::Kind::entry, i, j, of, -1}; }
 inline Place of_entry_without(int without, int i, int j) { return {Place::Kind::entry, i, j, "", without}; }
 // What a number is that is no gain.
@@ -196,7 +203,10 @@ enum class Quantity {
   gate_narrow,
   threshold,
   error_limit,
-  sample_time
+  sample_time,
+  point_x,
+  point_u,
+  point_y
 };
 // How many outputs are told apart, all from the last on together.
 inline constexpr int told_rejections = 8;

@@ -24,8 +24,9 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
     if (is_kept) begin += (begin.empty() ? "" : ", ") + std::string(what);
   };
   add(controller.size.nxi > 0, "ξ = 0");
-  add(controller.size.nr > 0, "r = 0");
-  add(controller.keeps.input, "last input = 0");
+  add(controller.size.nr > 0, controller.point.r.size() ? "r = the outputs of the operating point" : "r = 0");
+  add(controller.keeps.input, controller.point.u.size() ? "last input = that of the operating point"
+                                                        : "last input = 0");
   add(controller.keeps.sample, "sample 0");
   add(controller.has.filter, "counters = 0");
   return write_function(templates::init, controller, {{"begin", begin}, {"body", bodies.init}});
@@ -212,11 +213,12 @@ std::string covariance_function(const Controller& controller) {
   return write_function(templates::covariance, controller, words);
 }
 
-// Only a filter that keeps z has something to compute for it.
+// Only where what the filter keeps is not x̂ there is something to compute.
 std::string estimate_function(const Controller& controller) {
-  if (!controller.modal) return "";
+  if (!has_estimate(controller)) return "";
   return write_function(templates::estimate, controller,
-                        {{"body", body(controller, trace_estimate_of_modes(controller), {"self"})}});
+                        {{"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}},
+                        {{"is_modal", controller.modal.has_value()}});
 }
 
 std::string set_state_function(const Controller& controller) {

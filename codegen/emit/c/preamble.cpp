@@ -28,7 +28,7 @@ std::string preamble(const Controller& controller, const std::string& functions)
   const design::Problem& problem = controller.problem;
   return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" +
          provenance(controller) + " *\n" + table_of_contents(controller, functions) +
-         comment_lines(describe_plant(controller) + describe_equations(controller) + describe_regulator(controller) +
+         comment_lines(describe_equations(controller) + describe_plant(controller) + describe_regulator(controller) +
                        describe_estimator(controller) + describe_linear_form(controller) +
                        describe_compensator(controller) + describe_white(controller) + describe_modes(controller) +
                        describe_loop(controller) + describe_forms(controller) + describe_cost(controller)) +

@@ -55,10 +55,6 @@ PageTable equations_of_motion(const Controller& controller) {
       {},
       {}};
   for (const EquationLine& line : equation_lines(controller)) table.rows.push_back({line.left, line.right});
-  if (table.rows.empty()) return table;
-  std::string list;
-  for (const std::string& one : operating_point_in_words(controller)) list += (list.empty() ? "" : ", ") + one;
-  if (!list.empty()) table.rows.push_back({"Linearised at", list});
   return table;
 }
 

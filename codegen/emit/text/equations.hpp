@@ -16,9 +16,6 @@ struct EquationLine {
 // f of each state and h of each output, as the file has them; none of a plant of matrices.
 std::vector<EquationLine> equation_lines(const Controller& controller);
 
-// "p = 0 m" of each state, input and output at the operating point; none without one.
-std::vector<std::string> operating_point_in_words(const Controller& controller);
-
 // The same as lines of the header's first comment and of the terminal, behind an empty one and a heading.
 std::string describe_equations(const Controller& controller);
 

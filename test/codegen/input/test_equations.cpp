@@ -85,6 +85,10 @@ void test_short_names_are_states_and_parameters_like_others() {
 void test_what_stands_beside_equations_is_refused() {
   expect_refusal(names + equations + point + "B = [[0], [1]]\n",
                  "13:5: plant.B: comes from plant.f and plant.h: expected one of the two");
+  expect_refusal(names + equations + "operating_point = { states = [0, 0], outputs = [0] }\n",
+                 "12:48: plant.operating_point.outputs: comes from plant.f and plant.h: expected one of the two");
+  expect_refusal(names + "A = [[0, 1], [0, 0]]\nB = [[0], [1]]\nC = [[1, 0]]\noperating_point = { inputs = [\"?\"] }\n",
+                 "13:31: plant.operating_point.inputs[0]: expected a number or a formula: \"?\" needs plant.f");
   expect_refusal(names + "A = [[0, 1], [0, 0]]\nB = [[0], [1]]\nC = [[1, 0]]\nh = [\"th\"]\n",
                  "13:5: plant.h: needs plant.f");
 }
