@@ -46,7 +46,6 @@ class FormulaReader {
       : parameters_(parameters), places_(places), values_(values), report_(report) {}
 
   Formulas read(Node& document) {
-    has_equations_ = item(item(&document, "plant"), "f") != nullptr;
     walk_table(document, "");
     return std::move(result_);
   }
@@ -71,9 +70,7 @@ class FormulaReader {
 
   void read_value(const KeyRule& rule, Node& node, const std::string& path) {
     key_ = path;
-    // With equations "?" may stand in the place of a number; read_equations knows what it is.
-    const bool is_plain_point = rule.type == Type::point && !has_equations_;
-    const Numbers numbers = is_plain_point ? Numbers::in_arrays : numbers_in(rule.type);
+    const Numbers numbers = numbers_in(rule.type);
     const bool is_word = std::find(rule.words.begin(), rule.words.end(), node.text) != rule.words.end();
     if (node.kind == Kind::text && !is_word && (numbers == Numbers::alone || numbers == Numbers::alone_or_in_tables))
       take(node, path);
@@ -129,7 +126,6 @@ class FormulaReader {
   std::string key_;
   std::size_t bytes_ = 0;
   Formulas result_;
-  bool has_equations_ = false;
 };
 
 }  // namespace

@@ -157,9 +157,6 @@ class ValueReader {
           if (auto matrix = read_matrix(rule, *mask, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         }
         break;
-      case Type::point:
-        if (values_.has("plant.f")) break;  // by read_equations
-        [[fallthrough]];
       case Type::matrix:
       case Type::weight:
       case Type::vector:
@@ -168,6 +165,7 @@ class ValueReader {
         if (auto matrix = read_matrix(rule, node, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         break;
       case Type::formulas:  // by read_equations
+      case Type::point:
       case Type::states:
       case Type::table:
       case Type::tables:
