@@ -28,7 +28,7 @@ static void assert_near(float expected, float found)
 
 static void test_nan_gives_the_one_nan(void)
 {
-    static float (*const functions[])(float) = {lqg_sinf,  lqg_cosf,  lqg_tanf, lqg_asinf, lqg_acosf, lqg_atanf,
+    static float (*const functions[])(float) = {lqg_sinf,  lqg_cosf, lqg_tanf, lqg_asinf, lqg_acosf, lqg_atanf,
                                                 lqg_sqrtf, lqg_expf, lqg_logf, lqg_tanhf, lqg_wrapf};
     static const uint32_t nans[] = {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u, 0xffffffffu};
 
@@ -105,7 +105,7 @@ static void test_exact_results_are_exact(void)
     assert_bits(1.57079637f, lqg_asinf(1.0f));
     assert_bits(1e-45f, lqg_sinf(1e-45f));
     assert_bits(-1e-45f, lqg_tanhf(-1e-45f));
-    for (unsigned i = 0; i < 4096; i++)
+    for (uint32_t i = 0; i < 4096; i++)
         assert_bits((float)i, lqg_sqrtf((float)(i * i)));
 }
 
@@ -126,8 +126,8 @@ static void test_atan2_knows_each_quadrant_zero_and_infinity(void)
     static const struct {
         float y, x;
         int eighths;
-    } rows[] = {{1, 1, 1},      {1, 0.0f, 2},  {1, -0.0f, 2}, {1, -1, 3},      {0.0f, -1, 4}, {0.0f, -0.0f, 4},
-                {0.0f, 0.0f, 0}, {0.0f, 1, 0}, {2, 1, 2},     {2, 2, 1},       {2, -2, 3},    {1, 2, 0},
+    } rows[] = {{1, 1, 1},       {1, 0.0f, 2}, {1, -0.0f, 2}, {1, -1, 3},   {0.0f, -1, 4}, {0.0f, -0.0f, 4},
+                {0.0f, 0.0f, 0}, {0.0f, 1, 0}, {2, 1, 2},     {2, 2, 1},    {2, -2, 3},    {1, 2, 0},
                 {1, -2, 4},      {0.0f, 2, 0}, {2, 0.0f, 2},  {0.0f, -2, 4}};
     static const float angles[] = {0.0f, 0.785398185f, 1.57079637f, 2.35619450f, 3.14159274f};
 

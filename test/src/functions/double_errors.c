@@ -50,7 +50,10 @@ static double partner(double y)
     return lqg_of_bits(lqg_bits(fabs(y)) * 11400714819323198485u);
 }
 
-static double any_angle(double y) { return lqg_atan2(y, partner(y)); }
+static double any_angle(double y)
+{
+    return lqg_atan2(y, partner(y));
+}
 
 static int any_angle_expected(mpfr_t angle, const mpfr_t y, mpfr_rnd_t rounding)
 {
@@ -63,8 +66,14 @@ static int any_angle_expected(mpfr_t angle, const mpfr_t y, mpfr_rnd_t rounding)
     return inexact;
 }
 
-static double steep_angle(double x) { return lqg_atan2(x, -1.0); }
-static double flat_angle(double x) { return lqg_atan2(3.0, x); }
+static double steep_angle(double x)
+{
+    return lqg_atan2(x, -1.0);
+}
+static double flat_angle(double x)
+{
+    return lqg_atan2(3.0, x);
+}
 
 static int steep_angle_expected(mpfr_t angle, const mpfr_t y, mpfr_rnd_t rounding)
 {
@@ -119,9 +128,25 @@ static const function_t functions[] = {
 };
 
 /* Where a text begins to compute otherwise, and where functions end. */
-static const double special[] = {0,     DBL_MIN, DBL_MAX, (double)INFINITY, 0.375, 0.55, 0.5625, 0.6875, 0.7071067811865476, 1,
-                                 1.414213562373095, 22, 709.8, 709.782712893384, -745.1332191019412, -746, 0.7853981633974483,
-                                 LQG_ANGLE_MAX, 3.141592653589793};
+static const double special[] = {0,
+                                 DBL_MIN,
+                                 DBL_MAX,
+                                 (double)INFINITY,
+                                 0.375,
+                                 0.55,
+                                 0.5625,
+                                 0.6875,
+                                 0.7071067811865476,
+                                 1,
+                                 1.414213562373095,
+                                 22,
+                                 709.8,
+                                 709.782712893384,
+                                 -745.1332191019412,
+                                 -746,
+                                 0.7853981633974483,
+                                 LQG_ANGLE_MAX,
+                                 3.141592653589793};
 
 static uint64_t random_bits(void)
 {
@@ -146,20 +171,20 @@ static double neighbour(double x)
 static double argument(const function_t *f, unsigned kind)
 {
     switch (kind) {
-    case 0:
-        return lqg_of_bits(random_bits());
-    case 1:
-        return f->range * random_number();
-    case 2:
-        return 3 * random_number();
-    case 3: /* the double next to a multiple of π/2, and its neighbours */
-        return lqg_of_bits(lqg_bits(rint(random_number() * 667544) * 1.5707963267948966) + random_bits() % 3u - 1u);
-    case 4:
-        return neighbour(rint(random_number() * 20) * 1.5707963267948966);
-    case 5: /* at any distance from ±1 */
-        return copysign(1 + ldexp(random_number(), -(int)(random_bits() % 54u)), random_number());
-    default:
-        return copysign(neighbour(special[random_bits() % (sizeof special / sizeof *special)]), random_number());
+        case 0:
+            return lqg_of_bits(random_bits());
+        case 1:
+            return f->range * random_number();
+        case 2:
+            return 3 * random_number();
+        case 3: /* the double next to a multiple of π/2, and its neighbours */
+            return lqg_of_bits(lqg_bits(rint(random_number() * 667544) * 1.5707963267948966) + random_bits() % 3u - 1u);
+        case 4:
+            return neighbour(rint(random_number() * 20) * 1.5707963267948966);
+        case 5: /* at any distance from ±1 */
+            return copysign(1 + ldexp(random_number(), -(int)(random_bits() % 54u)), random_number());
+        default:
+            return copysign(neighbour(special[random_bits() % (sizeof special / sizeof *special)]), random_number());
     }
 }
 
@@ -203,7 +228,8 @@ static int look_at(const function_t *f, unsigned long arguments)
     mpfr_init2(argument_of_f, 53);
     for (unsigned long i = 0; i < 7 * arguments; i++) {
         const double x = argument(f, (unsigned)(i % 7)), found = f->found(x);
-        const double error = is_symmetric(f, x, found) ? error_of(f, x, found, expected, argument_of_f) : (double)INFINITY;
+        const double error =
+            is_symmetric(f, x, found) ? error_of(f, x, found, expected, argument_of_f) : (double)INFINITY;
         if (error > largest) {
             largest = error;
             where = x;

@@ -45,12 +45,30 @@ static float partner(float y)
     return lqg_of_bitsf(lqg_bitsf(fabsf(y)) * 2654435761u);
 }
 
-static float any_angle(float y) { return lqg_atan2f(y, partner(y)); }
-static double any_angle_expected(double y) { return atan2(y, (double)partner((float)y)); }
-static float steep_angle(float x) { return lqg_atan2f(x, -1.0f); }
-static double steep_angle_expected(double x) { return atan2(x, -1.0); }
-static float flat_angle(float x) { return lqg_atan2f(3.0f, x); }
-static double flat_angle_expected(double x) { return atan2(3.0, x); }
+static float any_angle(float y)
+{
+    return lqg_atan2f(y, partner(y));
+}
+static double any_angle_expected(double y)
+{
+    return atan2(y, (double)partner((float)y));
+}
+static float steep_angle(float x)
+{
+    return lqg_atan2f(x, -1.0f);
+}
+static double steep_angle_expected(double x)
+{
+    return atan2(x, -1.0);
+}
+static float flat_angle(float x)
+{
+    return lqg_atan2f(3.0f, x);
+}
+static double flat_angle_expected(double x)
+{
+    return atan2(3.0, x);
+}
 
 static double wrapped(double x)
 {
