@@ -117,7 +117,7 @@ void test_a_scenario_is_that_of_the_plant_at_zero_shifted() { expect_shifted_run
 void test_a_gain_of_an_actuator_is_of_u_itself() {
   const Controller about = lqg_test::controller_of(tank);
   design::Scenario scenario = about.problem.scenarios.at(0);
-  scenario.noise = false, scenario.x0.resize(0);
+  scenario.noise = false, scenario.x0.resize(0), scenario.sensor.clear();
   const ScenarioRun run = simulate::run_scenario(about, scenario);
   // It begins at rest, with u = 4 and an actuator that has done that before; then it makes 3 of 4.
   TEST_ASSERT_TRUE(std::abs(run.u(0, 0) - 4) <= rounding);
