@@ -105,10 +105,7 @@ PLANTS = [
         "c",
         "a b",
         "u",
-        [
-            "u - max(a, b)*min(a, b)*abs(a - b) + tan(a)/3",
-            "asin(a/2) + acos(b/4) - atan(a^-3) + b^1.5 - 0.1^u",
-        ],
+        ["u - max(a, b)*min(a, b)*abs(a - b) + tan(a)/3", "asin(a/2) + acos(b/4) - atan(a^-3) + b^1.5 - 0.1^u"],
         ["a*b^3/exp(a)"],
         ["0.25", "?1", "?0"],
         None,
@@ -175,9 +172,7 @@ def row(plant):
     names = x + u
     fs, hs = [function(text, names) for text in f], [function(text, names) for text in h]
     at_rest = x if steady is None else steady.split()
-    rates = [
-        (lambda p, g=fs[i], i=i: g(p) - (p[i] if domain == "d" else 0)) for i in range(len(x)) if x[i] in at_rest
-    ]
+    rates = [(lambda p, g=fs[i], i=i: g(p) - (p[i] if domain == "d" else 0)) for i in range(len(x)) if x[i] in at_rest]
     point = solved(values, rates)
     slopes = [[rounded(slope(g, point, j)) for j in range(len(names))] for g in fs + hs]
     return (
