@@ -16,7 +16,10 @@ mp.mp.dps = 200
 DIFFERENCE = mp.mpf(10) ** -60  # central, with Richardson's extrapolation below
 
 FUNCTIONS = {
-    **{name: getattr(mp, name) for name in "sqrt sin cos tan asin acos atan atan2 exp log tanh".split()},
+    **{
+        name: getattr(mp, name)
+        for name in ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "tanh"]
+    },
     "abs": abs,
     "min": min,
     "max": max,
@@ -135,7 +138,16 @@ def rounded(value):
 
 
 def listed(texts):
-    return "{" + ", ".join(texts) + "}"
+    """In lines of at most 110 characters"""
+    lines = [""]
+    for text in texts:
+        begins = not lines[-1]
+        if not begins and len(lines[-1]) + len(text) > 100:
+            lines[-1] += ","
+            lines.append(text)
+        else:
+            lines[-1] += text if begins else ", " + text
+    return "{" + "\n      ".join(lines) + "}"
 
 
 def quoted(texts):

@@ -65,7 +65,8 @@ void test_equations_become_the_matrices_of_their_linearisation() {
 
 void test_names_without_a_list_are_those_of_matrices_and_a_plant_may_have_no_inputs() {
   const DesignFile file = input::parse_design(
-      "name = \"p\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nf = [\"x0/2 + x1^2\", \"\"\"x1/3\n + 0*x0\"\"\"]\nh "
+      "name = \"p\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\n"
+      "f = [\"x0/2 + x1^2\", \"\"\"x1/3\n + 0*x0\"\"\"]\nh "
       "= [\"x0\"]\noperating_point = {}\n[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\n");
   TEST_ASSERT_TRUE_MESSAGE(file.problem.has_value(), all_findings(file).c_str());
   expect_equal(0.5, file.problem->plant.A(0, 0));
@@ -150,7 +151,8 @@ void test_a_scenario_has_other_parameters_of_equations_alone() {
   TEST_ASSERT_TRUE_MESSAGE(good.problem.has_value(), all_findings(good).c_str());
   expect_equal(1, good.problem->scenarios[0].plant.parameters.at("l"));
   TEST_ASSERT_EQUAL_STRING(
-      "p.toml:22:26: scenario[0].plant.parameters: expected the name of a parameter, found \"gravty\"; did you mean `gravity`?\n",
+      "p.toml:22:26: scenario[0].plant.parameters: expected the name of a parameter, found \"gravty\"; did you mean "
+      "`gravity`?\n",
       all_findings(read_with(names + equations + point, "gravty = 1")).c_str());
   const std::string matrices = "A = [[0, 1], [0, 0]]\nB = [[0], [1]]\nC = [[1, 0]]\n";
   TEST_ASSERT_TRUE(all_findings(read_with(names + matrices, "l = 1")).find("needs plant.f") != std::string::npos);
