@@ -63,7 +63,8 @@ void test_a_linear_f_runs_as_the_same_matrices() {
   const ScenarioRun of_matrices =
       run_of("A = [[0, 1], [-20, -0.5]]\nB = [[0], [3]]\nC = [[1, 0], [0, 1]]\nD = [[0], [0.01]]\n");
   const ScenarioRun of_equations = run_of(
-      "f = [\"om\", \"stiff*th - 0.5*om + 3*u\"]\nh = [\"th\", \"om + 0.01*u\"]\noperating_point = { states = [0, 0] }\n");
+      "f = [\"om\", \"stiff*th - 0.5*om + 3*u\"]\nh = [\"th\", \"om + 0.01*u\"]\n"
+      "operating_point = { states = [0, 0] }\n");
   expect_near(of_matrices.x, of_equations.x, "x");
   expect_near(of_matrices.u, of_equations.u, "u");
   expect_near(of_matrices.y, of_equations.y, "y");
