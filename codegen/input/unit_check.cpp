@@ -114,23 +114,22 @@ OptionalUnit expected_unit(const Values& values, const std::string& key) {
   if (place == nullptr) return std::nullopt;
   if (place->rows == nullptr) return expression::parse_unit(place->unit);
   const EntryOfKey entry = entry_behind(key, *place);
-  const std::optional<std::size_t> row = entry.indices.empty() ? index_of_name(values, place->rows, entry.name)
-                                                               : std::optional(entry.indices[0]);
+  const std::optional<std::size_t> row =
+      entry.indices.empty() ? index_of_name(values, place->rows, entry.name) : std::optional(entry.indices[0]);
   OptionalUnit unit = row ? unit_of_signal(values, place->rows, *row) : std::nullopt;
   if (unit && place->columns != nullptr) {
     if (entry.indices.size() < 2) return std::nullopt;
     const OptionalUnit column = unit_of_signal(values, place->columns, entry.indices[1]);
     unit = column ? OptionalUnit(*unit / *column) : std::nullopt;
   }
-  const bool is_rate = place->rate == Rate::per_second ||
-                       (place->rate == Rate::of_plant && values.text("plant.domain") != "discrete");
+  const bool is_rate =
+      place->rate == Rate::per_second || (place->rate == Rate::of_plant && values.text("plant.domain") != "discrete");
   return unit && is_rate ? OptionalUnit(*unit / *expression::parse_unit("s")) : unit;
 }
 
 void check_formula(const PlacedFormula& placed, const Parameters& parameters, const Values& values,
                    const FormulaPlaces& places, Report& report) {
-  const auto measured =
-      expression::measure_of(*placed.node.formula->tree, measure_of_parameters(parameters));
+  const auto measured = expression::measure_of(*placed.node.formula->tree, measure_of_parameters(parameters));
   if (const auto* fault = std::get_if<expression::Fault>(&measured))
     return report.error(placed.key, places.of(placed.node, fault->at), fault->message);
   const Measure& found = std::get<Measure>(measured);

@@ -10,7 +10,8 @@ PageSection parameter_section(const Controller& controller) {
   PageView view;
   const auto parameters = table_of_parameters(controller), expressions = table_of_expressions(controller);
   if (!parameters.empty()) view.tables.push_back({"", {"name", "value", "expression"}, parameters});
-  if (!expressions.empty()) view.tables.push_back({"Numbers by expressions", {"key", "value", "expression"}, expressions});
+  if (!expressions.empty())
+    view.tables.push_back({"Numbers by expressions", {"key", "value", "expression"}, expressions});
   if (!view.tables.empty()) section.views.push_back(std::move(view));
   return section;
 }
