@@ -299,6 +299,7 @@ Parameters read_parameters(const Node& document, const Settings& settings, const
                            ExactValues& values, Report& report) {
   const Node* table = parameters_table(document);
   Node none;
+  none.where = {1, 1};
   if (table == nullptr) table = &none;
   if (table->kind != Kind::table) {
     report.error("parameters", table->where, "expected a table of numbers and expressions, found " + describe(*table));
