@@ -26,17 +26,23 @@ Json text(const char* pattern) { return {{"type", "string"}, {"pattern", pattern
 Json index(int most) { return {{"type", "integer"}, {"minimum", 0}, {"maximum", most}}; }
 
 // Strings are expressions: what is said of numbers holds for numbers alone.
-const Json number_type = {"number", "string"}, whole_type = {"integer", "string"};
+Json or_expression(const Json& types, const Json& rules) {
+  Json out = {{"type", types}, {"pattern", R"(^[-+*/^(),.0-9A-Za-z_ \t\r\n]+$)"}};
+  out.update(rules);
+  return out;
+}
 
-Json whole(int least) { return {{"type", whole_type}, {"minimum", least}}; }
-Json whole(int least, int most) { return {{"type", whole_type}, {"minimum", least}, {"maximum", most}}; }
+Json whole(int least) { return or_expression({"integer", "string"}, {{"minimum", least}}); }
+Json whole(int least, int most) {
+  return or_expression({"integer", "string"}, {{"minimum", least}, {"maximum", most}});
+}
 
 // JSON has no infinity: tools that turn TOML into JSON make it null.
-Json number_or_infinity() { return {{"type", {"number", "string", "null"}}}; }
+Json number_or_infinity() { return or_expression({"number", "string", "null"}, Json::object()); }
 
-const Json number = {{"type", number_type}};
-const Json number_above_0 = {{"type", number_type}, {"exclusiveMinimum", 0}};
-const Json number_from_0 = {{"type", number_type}, {"minimum", 0}};
+const Json number = or_expression({"number", "string"}, Json::object());
+const Json number_above_0 = or_expression({"number", "string"}, {{"exclusiveMinimum", 0}});
+const Json number_from_0 = or_expression({"number", "string"}, {{"minimum", 0}});
 const Json matrix = array_of(array_of(number));
 
 Json pair_of(const Json& items) {
