@@ -7,10 +7,12 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "design/equations_of_motion.hpp"
 #include "design/exact_matrix.hpp"
 #include "design/scenario.hpp"
 
@@ -22,6 +24,15 @@ struct Signal {
 };
 
 enum class Domain { continuous, discrete };
+
+// Where the linear plant is the plant: its x, u and y are deviations from these. In the plant's own units, as is what
+// the file states beside it; when a Problem leaves `input`, its limits, ranges and initial state are deviations, too.
+struct OperatingPoint {
+  Eigen::VectorXd x, u, y;  // nx, nu, ny
+  // Of Limits and Estimator, as the file states them.
+  Eigen::VectorXd u_min, u_max, output_min, output_max;
+  Eigen::MatrixXd states_range, outputs_range;
+};
 
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
 struct Plant {
@@ -38,6 +49,8 @@ struct Plant {
   Eigen::VectorXd dropout;       // ny, the probability that C x of an output is 0 in a sample; or empty: never
   double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
+  std::optional<OperatingPoint> operating_point = {};  // not given: 0
+  std::shared_ptr<const Equations> equations = {};     // of a plant that is stated so; A, B, C, D are its linearisation
 };
 
 // Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).
@@ -104,6 +117,15 @@ struct TransferRecovery {
   bool is_automatic = false;  // instead of q: the smallest one with which the loop has what is required of it
 };
 
+// How the filter goes over the equations of a continuous plant from one sample to the next, with u held.
+enum class Integrator { rk4, euler };
+
+// An extended filter: with Gain::online, over the equations of the plant, linearised at its own estimate.
+struct Extended {
+  Integrator integrator = Integrator::rk4;
+  std::vector<int> wraps;  // outputs that are angles, in rad: their innovations lie in [−π, π)
+};
+
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.
 struct Estimator {
   ExactMatrix W, V, Swv;
@@ -122,6 +144,7 @@ struct Estimator {
   std::optional<WantedPoles> poles;  // [observer]: L has these poles; no noise is there then
   std::vector<InputDisturbance> disturbance;  // estimated, too, and by the regulator cancelled; each input once
   std::optional<TransferRecovery> recovery;
+  std::optional<Extended> extended;  // with a plant that has equations
 };
 
 // Placed poles need no noise.

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "design/rounding.hpp"
 #include "input/disturbances.hpp"
 #include "input/scenarios.hpp"
 
@@ -41,6 +42,28 @@ std::vector<design::Signal> signals(const Values& values, const std::string& key
   return result;
 }
 
+// What is left out is 0.
+std::optional<design::OperatingPoint> operating_point(const Values& values, const design::Plant& plant) {
+  const std::string table = "plant.operating_point";
+  if (!values.has(table)) return std::nullopt;
+  const auto part = [&](const char* key, Eigen::Index size) {
+    return Eigen::VectorXd(zero_or(values, table + key, static_cast<int>(size), 1).col(0));
+  };
+  design::OperatingPoint point;
+  point.x = part(".states", plant.A.rows());
+  point.u = part(".inputs", plant.B.cols());
+  point.y = part(".outputs", plant.C.rows());
+  return point;
+}
+
+// With all digits.
+void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
+  plant.A = design::ExactMatrix::of(linearisation.A);
+  plant.B = design::ExactMatrix::of(linearisation.B);
+  plant.C = design::ExactMatrix::of(linearisation.C);
+  plant.D = design::ExactMatrix::of(linearisation.D);
+}
+
 design::Plant plant(const Values& values) {
   const int nx = values.sizes.at(Size::nx);
   const int nu = values.sizes.at(Size::nu);
@@ -49,10 +72,15 @@ design::Plant plant(const Values& values) {
   const bool discrete = values.text("plant.domain") == "discrete";
   result.domain = discrete ? design::Domain::discrete : design::Domain::continuous;
   result.sample_time = values.numbers.at("plant.sample_time");
-  result.A = *values.matrix("plant.A");
-  result.B = zero_or(values, "plant.B", nx, nu);
-  result.C = zero_or(values, "plant.C", ny, nx);
-  result.D = zero_or(values, "plant.D", ny, nu);
+  result.equations = values.equations;
+  if (values.linearisation) {
+    linearise(*values.linearisation, result);
+  } else {
+    result.A = zero_or(values, "plant.A", nx, nx);  // of equations without a linearisation 0
+    result.B = zero_or(values, "plant.B", nx, nu);
+    result.C = zero_or(values, "plant.C", ny, nx);
+    result.D = zero_or(values, "plant.D", ny, nu);
+  }
   result.G = identity_or(values, "plant.G", nx);
   result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
   result.delay = values.number("plant.delay", 0);
@@ -62,6 +90,7 @@ design::Plant plant(const Values& values) {
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
+  result.operating_point = operating_point(values, result);
   return result;
 }
 
@@ -147,9 +176,14 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   const bool discrete = noise.empty() ? plant.domain == design::Domain::discrete : noise == "discrete";
   result.noise = discrete ? design::Noise::discrete : design::Noise::continuous;
   const auto says = [&](const char* key, const char* word) { return values.text(key) == word; };
-  result.gain = says("kalman.gain", "online")     ? design::Gain::online
-                : says("kalman.gain", "schedule") ? design::Gain::schedule
-                                                  : design::Gain::steady;
+  const bool is_extended = says("kalman.gain", "extended");
+  result.gain = is_extended || says("kalman.gain", "online") ? design::Gain::online
+                : says("kalman.gain", "schedule")            ? design::Gain::schedule
+                                                             : design::Gain::steady;
+  if (is_extended)
+    result.extended =
+        design::Extended{says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
+                         values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
   result.horizon = whole(values, "kalman.horizon");
   result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
   result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");
@@ -303,6 +337,11 @@ design::Problem assemble(const Values& values) {
   problem.requirements = requirements(values);
   problem.code = code(values);
   return problem;
+}
+
+void begin_at_operating_point(const Values& values, design::Problem& problem) {
+  const auto& point = problem.plant.operating_point;
+  if (point && problem.estimator && !values.has("kalman.initial_state")) problem.estimator->x0 = point->x;
 }
 
 }  // namespace lqg::input

@@ -11,9 +11,11 @@
 #include <utility>
 #include <variant>
 
+#include "design/operating_point.hpp"
 #include "input/assemble.hpp"
 #include "input/consistency.hpp"
 #include "input/document.hpp"
+#include "input/equations.hpp"
 #include "input/formulas.hpp"
 #include "input/names.hpp"
 #include "input/parameters.hpp"
@@ -52,18 +54,6 @@ DesignFile read_stream(std::istream& stream, const std::filesystem::path& folder
   if (stream.bad()) return unreadable("reading it failed");
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return parse_design(text, folder, settings);
-}
-
-// On one line, as it stands in a comment.
-std::string on_one_line(const std::string& formula) {
-  std::string line;
-  for (const char c : formula) {
-    const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
-    if (!is_blank) line += c;
-    if (is_blank && !line.empty() && line.back() != ' ') line += ' ';
-  }
-  if (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
 }
 
 std::vector<design::Parameter> stated(const Parameters& parameters) {
@@ -127,6 +117,7 @@ DesignFile parse_design(const std::string& text, const std::optional<std::filesy
   const Parameters parameters = read_parameters(std::get<Node>(document), settings, places, exact, report);
   const Formulas formulas = read_formulas(std::get<Node>(document), parameters, places, exact, report);
   Values values = read_values(std::get<Node>(document), formulas.wrong, report);
+  read_equations(std::get<Node>(document), parameters, places, exact, values, report);
   check_consistency(values, report);
   check_units(formulas, parameters, values, places, report);
   if (!design::has_error(file.findings)) {
@@ -134,6 +125,10 @@ DesignFile parse_design(const std::string& text, const std::optional<std::filesy
     problem.parameters = stated(parameters);
     problem.formulas = stated(formulas);
     load_columns(values, folder, problem.scenarios, report);
+    begin_at_operating_point(values, problem);
+    design::Findings findings;
+    design::express_as_deviations(problem, findings);
+    for (const design::Finding& finding : findings) report.error(finding.key, finding.message);
     if (!design::has_error(file.findings)) file.problem = std::move(problem);
   }
   sort_by_place(file, file.findings);

@@ -37,6 +37,9 @@ enum class Type {
   signal,     // one of the signals that `rows` counts: its name, or its number from 0
   entry,      // the same of a row or column whose signals another key tells
   poles,      // an array of numbers and of [re, im], conjugates in pairs
+  formulas,   // an array of formulas in quotes, one for each of `rows`
+  point,      // an array of numbers, formulas, "?" and "? start"
+  states,     // an array of names of states
   signals,    // an array of "name [unit]"
   parameters  // a table: of names each a number, a formula, or { value, unit }
 };

@@ -199,13 +199,25 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
     return node == nodes.end() ? std::pair(absent, absent) : shape_of(*node->second);
   };
   const auto limited = [](int size) { return size > most_signals ? -1 : size; };
-  const auto [nx, columns] = shape("plant.A", -1);
+  // Entries of an array; −1 of anything else.
+  const auto length = [&](const char* key, int absent) {
+    const auto node = nodes.find(key);
+    if (node == nodes.end()) return absent;
+    return is_array(*node->second) && !node->second->items.empty() ? static_cast<int>(node->second->items.size()) : -1;
+  };
   std::map<Size, int> sizes{{Size::none, 1}};
-  sizes[Size::nx] = limited(nx == columns ? nx : -1);
-  // A row where a column was meant, as of one input, tells no number of inputs.
-  const auto [rows_of_B, columns_of_B] = shape("plant.B", 0);
-  sizes[Size::nu] = rows_of_B != nx && columns_of_B == nx ? -1 : limited(columns_of_B);
-  sizes[Size::ny] = limited(shape("plant.C", 0).first);
+  if (nodes.count("plant.f") != 0) {
+    sizes[Size::nx] = limited(length("plant.f", -1));
+    sizes[Size::nu] = limited(length("plant.inputs", 0));
+    sizes[Size::ny] = limited(length("plant.h", 0));
+  } else {
+    const auto [nx, columns] = shape("plant.A", -1);
+    sizes[Size::nx] = limited(nx == columns ? nx : -1);
+    // A row where a column was meant, as of one input, tells no number of inputs.
+    const auto [rows_of_B, columns_of_B] = shape("plant.B", 0);
+    sizes[Size::nu] = rows_of_B != nx && columns_of_B == nx ? -1 : limited(columns_of_B);
+    sizes[Size::ny] = limited(shape("plant.C", 0).first);
+  }
   const auto integrated = nodes.find("lqr.integral.outputs");
   sizes[Size::integrals] = integrated == nodes.end() ? 0 : limited(static_cast<int>(integrated->second->items.size()));
   sizes[Size::nw] = limited(shape("plant.G", sizes[Size::nx]).second);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "input/formulas.hpp"
@@ -165,6 +166,9 @@ class ValueReader {
       case Type::bounds:
         if (auto matrix = read_matrix(rule, node, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         break;
+      case Type::formulas:  // by read_equations
+      case Type::point:
+      case Type::states:
       case Type::table:
       case Type::tables:
       case Type::parameters: break;
@@ -210,9 +214,14 @@ class ValueReader {
   // False where the key speaks of inputs or outputs and there are none. For the tables [lqr], [limits],
   // [kalman] that is said once for all of their keys.
   bool has_its_matrix(const KeyRule& rule) {
-    for (const auto& [size, matrix] : {std::pair(Size::nu, "plant.B"), std::pair(Size::ny, "plant.C")}) {
-      if ((rule.rows != size && rule.columns != size) || values_.has(matrix)) continue;
-      if (parent_of(rule.path) == "plant") report_.error(rule.path, "needs " + std::string(matrix));
+    const bool is_of_f = values_.has("plant.f");
+    if (is_of_f && (rule.path == "plant.inputs" || rule.type == Type::formulas || rule.type == Type::point))
+      return true;
+    for (const auto& [size, matrix, otherwise] :
+         {std::tuple(Size::nu, "plant.B", "plant.inputs"), std::tuple(Size::ny, "plant.C", "plant.h")}) {
+      const char* const source = is_of_f ? otherwise : matrix;
+      if ((rule.rows != size && rule.columns != size) || values_.has(source)) continue;
+      if (parent_of(rule.path) == "plant") report_.error(rule.path, "needs " + std::string(source));
       return false;
     }
     return true;
@@ -350,6 +359,9 @@ double Values::number(const std::string& key, double absent) const {
   const auto found = numbers.find(key);
   return found == numbers.end() ? absent : found->second;
 }
+
+bool Values::has_inputs() const { return has(has("plant.f") ? "plant.inputs" : "plant.B"); }
+bool Values::has_outputs() const { return has(has("plant.f") ? "plant.h" : "plant.C"); }
 
 const std::vector<std::string>& Values::tables_like(const std::string& rule) const {
   static const std::vector<std::string> none;

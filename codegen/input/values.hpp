@@ -5,11 +5,14 @@
 #include <Eigen/Core>
 #include <complex>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "design/exact_matrix.hpp"
+#include "design/linearise.hpp"
 #include "design/problem.hpp"
 #include "input/document.hpp"
 #include "input/keys.hpp"
@@ -27,6 +30,8 @@ struct Values {
   std::map<std::string, std::vector<int>> indices;                 // and counts
   std::map<std::string, std::map<std::string, double>> named;      // prices by name
   std::map<std::string, std::vector<std::complex<double>>> poles;  // conjugates side by side, +j first
+  std::shared_ptr<const design::Equations> equations;
+  std::optional<design::Linearisation> linearisation;
   std::map<Size, int> sizes;      // 0: there are none; −1: not known, because what tells them is wrong
   std::set<std::string> present;  // keys in the file, right or wrong, and those that an unknown key seems to mean
   std::set<std::string> tables;   // those of them that are tables, and "", the file's top
@@ -37,6 +42,8 @@ struct Values {
   const design::ExactMatrix* matrix(const std::string& key) const;  // nullptr: absent or wrong
   std::string text(const std::string& key) const;                   // "": absent or wrong
   double number(const std::string& key, double absent) const;
+  bool has_inputs() const;                                                     // by what the file has of the plant
+  bool has_outputs() const;                                                    // likewise
   std::vector<std::string> tables_of(const std::string& key) const;            // "stage[0]", "stage[1]", …
   const std::vector<std::string>& tables_like(const std::string& rule) const;  // of a rule's path: all there are
 };

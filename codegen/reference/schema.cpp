@@ -124,6 +124,9 @@ Json value_schema(const KeyRule& rule) {
     case Type::poles: return array_of(pole());
     case Type::signals: return array_of(text(R"(^ *[A-Za-z][A-Za-z0-9_]* *(\[[^\[\]\\]*\] *)?$)"));
     case Type::parameters: return parameters();
+    case Type::formulas: return array_of({{"anyOf", {{{"type", "string"}}, number}}});
+    case Type::point: return array_of({{"anyOf", {number, {{"type", "string"}}}}});
+    case Type::states: return array_of({{"type", "string"}});
     case Type::table:
     case Type::tables: break;
   }

@@ -57,6 +57,9 @@ std::string values_of(const KeyRule& rule) {
     case Type::signal:
     case Type::entry: return "name or number of a signal";
     case Type::poles: return "poles";
+    case Type::formulas: return rows + " formulas";
+    case Type::point: return rows + " numbers, formulas or `\"?\"`";
+    case Type::states: return "names of states";
     case Type::signals: return rows + " names with units";
     case Type::table:
     case Type::tables:

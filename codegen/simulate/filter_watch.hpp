@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "controller/operating_point.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/rounding.hpp"
 #include "simulate/emitted_controller.hpp"
@@ -51,10 +52,10 @@ class FilterWatch {
   void before_update(const EmittedController<S>& emitted, const Eigen::VectorXd& y) {
     const design::SampledPlant& plant = controller::plant_at(controller_, emitted.sample());
     load(plant);
-    const Eigen::VectorXd x = as_doubles(emitted.estimate());
+    const Eigen::VectorXd x = as_doubles(emitted.estimated_deviation());
     Eigen::VectorXd expected = ordered_image(C_, x);
     if (controller_.has.feedthrough) add_product(D_, as_doubles(emitted.state().u), expected);
-    innovation_ = y - expected;
+    innovation_ = controller::as_deviations(y, controller_.point.y) - expected;
     gain_row_ = emitted.gain_row();
     if (!error_) return;
     error_->go_to(emitted.sample());
@@ -73,7 +74,7 @@ class FilterWatch {
       else
         error_->update(gain_row_, emitted.left_out());
     }
-    if (!controller_.is_predictor) keep(as_doubles(emitted.estimate()));
+    if (!controller_.is_predictor) keep(as_doubles(emitted.estimated_deviation()));
   }
   // Of a sample with these events.
   void end_sample(unsigned events) {
@@ -87,8 +88,9 @@ class FilterWatch {
   bool knows_its_error() const { return error_.has_value(); }
   const Eigen::VectorXd& innovation() const { return innovation_; }
   double nis() const { return nis_; }
-  const Eigen::VectorXd& estimate() const { return estimate_; }  // that u is made of, the inputs on their way too
-  const Eigen::MatrixXd& P() const { return P_; }                // of its error
+  // That u is made of, the inputs on their way too, from the operating point.
+  const Eigen::VectorXd& estimate() const { return estimate_; }
+  const Eigen::MatrixXd& P() const { return P_; }  // of its error
 
  private:
   void load(const design::SampledPlant& plant) {

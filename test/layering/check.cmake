@@ -50,15 +50,15 @@ file(GLOB private RELATIVE "${ROOT}/src" "${ROOT}/src/*.h")
 list(TRANSFORM private REPLACE "(.*)\\.h" "^\\1\\\\.h$")
 check(src "${standard_c}" "^lqg/[a-z_]+\\.h$" ${private})
 
-set(any_room "${standard_cpp}" "${posix}" "^Eigen/" "^lqg/version\\.h$")
+set(any_room "${standard_cpp}" "${posix}" "^Eigen/" "^lqg/(version|functions)\\.h$")
 set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
 
 # The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who
 # solves.
 set(room_folder codegen/design)
-string(CONCAT design_words "^design/(problem|scenario|exact_matrix|solution|solution_matrices|finding|real|rounding|"
-                           "progress)\\.hpp$")
-check_floors(design "${design_words}" "numeric;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
+string(CONCAT design_words "^design/(problem|equations_of_motion|linearise|scenario|exact_matrix|solution|"
+                            "solution_matrices|finding|real|rounding|progress)\\.hpp$")
+check_floors(design "${design_words}" "numeric;motion;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
              ${digits} "^expression/")
 check(codegen/design "^expression/" ${any_room} ${digits} "^design/")
 

@@ -67,6 +67,7 @@ std::string name_with_unit(const design::Signal& signal) {
 }
 
 std::string equation_of_law(const Controller& controller) {
+  if (controller::is_extended(controller)) return "(u + K x of the operating point) − K x̂";
   const std::string x = controller.has.filter ? "x̂" : "x", xi = controller.size.nxi ? "; ξ" : "";
   const std::string last = controller.has.input_change ? "; u[k−1]" : "";
   return (controller.has.input_change ? "u[k−1] − K " : "−K ") + (xi + last == "" ? x : "[" + x + xi + last + "]") +
