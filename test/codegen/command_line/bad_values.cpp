@@ -121,7 +121,7 @@ std::vector<BadDesign> wrong_values() {
       {"flash with a fraction", {{41, "flash = 0.5"}}, {"41:9: code.flash: expected a whole number …, found 0.5"}},
       {"flash with a unit",
        {{41, "flash = \"16k\""}},
-       {"41:12: code.flash: expected a number or an expression, found \"16k\": expected an operator or the end, found k"}},
+       {"41:12: code.flash: expected a number or an expression, found \"16k\": …"}},
 
       {"entry that is no number",
        {{8, "B = [[0], [nan], [0], [0]]"}},

@@ -18,8 +18,9 @@ namespace {
 
 // A design of one state; `a` and `b` stand in A and B, `parameters` in [parameters].
 std::string design_of(const std::string& parameters, const std::string& a = "0", const std::string& b = "1") {
-  return "name = \"d\"\n[parameters]\n" + parameters + "\n[plant]\ndomain = \"continuous\"\nsample_time = 0.01\nA = [[" +
-         a + "]]\nB = [[" + b + "]]\n[lqr]\nQ = [1]\nR = [1]\n";
+  return "name = \"d\"\n[parameters]\n" + parameters +
+         "\n[plant]\ndomain = \"continuous\"\nsample_time = 0.01\nA = [[" + a + "]]\nB = [[" + b +
+         "]]\n[lqr]\nQ = [1]\nR = [1]\n";
 }
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
@@ -201,8 +202,7 @@ void test_circle_is_shown_once() {
 
 void test_long_circle_is_cut() {
   std::string many;
-  for (int i = 0; i < 1000; ++i)
-    many += "p" + std::to_string(i) + " = \"p" + std::to_string((i + 1) % 1000) + "\"\n";
+  for (int i = 0; i < 1000; ++i) many += "p" + std::to_string(i) + " = \"p" + std::to_string((i + 1) % 1000) + "\"\n";
   expect_lines(
       "d.toml:3:7: parameters.p0: expected a value that does not hang on itself, found the circle p0 → p1 → p2 → p3 → "
       "p4 → p5 → p6 → p7 → … → p0\n",
@@ -222,11 +222,13 @@ void test_name_that_is_not_there_has_its_place_and_the_nearest() {
       "d.toml:11:14: plant.A[0][0]: expected the name of a parameter, a function or pi, found \"Ktt\"; did you mean "
       "`Kt`?\n",
       design_of(motor, "\"2*R + Ktt\""));
-  expect_lines("d.toml:11:8: plant.A[0][0]: expected a number or an expression, found \"fast\": no parameter has this name\n",
-               design_of(motor, "\"fast\""));
-  expect_lines("d.toml:3:13: parameters.a: expected the name of a parameter, a function or pi, found \"cosh\"; did you mean "
-               "`cos`?\n",
-               design_of("a = \"1 + 2*(cosh - 1)\""));
+  expect_lines(
+      "d.toml:11:8: plant.A[0][0]: expected a number or an expression, found \"fast\": no parameter has this name\n",
+      design_of(motor, "\"fast\""));
+  expect_lines(
+      "d.toml:3:13: parameters.a: expected the name of a parameter, a function or pi, found \"cosh\"; did you mean "
+      "`cos`?\n",
+      design_of("a = \"1 + 2*(cosh - 1)\""));
 }
 
 void test_place_counts_characters_and_stays_at_a_string_with_escapes() {
@@ -256,7 +258,8 @@ void test_values_that_are_no_finite_numbers_have_a_reason() {
       {"exp(-1000)", "d.toml:11:8: plant.A[0][0]: its value is not 0, but nearer to it than a double can be\n"},
       {"sin(10^(10^9))", "d.toml:11:14: plant.A[0][0]: 10^1e+09 is too large\n"},
       {"1/(1/3*3 - 1)", "d.toml:11:9: plant.A[0][0]: 1/0 is no finite number\n"},
-      {"1/sin(pi)", "d.toml:11:9: plant.A[0][0]: its value hangs on a part that is 0, whatever digits it is computed with\n"}};
+      {"1/sin(pi)",
+       "d.toml:11:9: plant.A[0][0]: its value hangs on a part that is 0, whatever digits it is computed with\n"}};
   for (const auto& [text, line] : wrong) expect_lines(line, design_of(motor, quoted(text)));
 }
 
@@ -281,9 +284,10 @@ void test_what_stands_in_the_table_is_a_number_or_an_expression() {
       "d.toml:8:5: parameters.d: expected a finite number, found inf\n"
       "d.toml:9:15: parameters.e: expected a number or an expression in quotes, found a boolean\n"
       "d.toml:10:25: parameters.f.unit: expected a unit in quotes, found a number\n",
-      design_of("sin = 1\n\"a b\" = 2\na = [1]\nb = { val = 2 }\nc = { unit = \"m\" }\nd = inf\ne = { value = true }\nf = "
-                "{ value = 1, unit = 3 }",
-                "\"a + b + c + d + e + f\""));
+      design_of(
+          "sin = 1\n\"a b\" = 2\na = [1]\nb = { val = 2 }\nc = { unit = \"m\" }\nd = inf\ne = { value = true }\nf = "
+          "{ value = 1, unit = 3 }",
+          "\"a + b + c + d + e + f\""));
   expect_lines("d.toml:2:14: parameters: expected a table of numbers and expressions, found a number\n",
                "name = \"d\"\nparameters = 3\n[plant]\ndomain = \"continuous\"\nsample_time = 1\nA = [[0]]\nB = "
                "[[1]]\n[lqr]\nQ = [1]\nR = [1]\n");
@@ -303,7 +307,8 @@ void test_hostile_texts_end_in_refusals() {
   is_refused(design_of("", quoted(std::string(1000000, 'a'))));
   is_refused(design_of("a = \"" + std::string(1000, 'b') + "\"", "\"a\""));
   std::string much = "[[";
-  for (int i = 0; i < 200; ++i) much += (i ? ", " : "") + quoted("1" + std::string(1500, ' ') + "+ 1.5" + std::string(1500, ' '));
+  for (int i = 0; i < 200; ++i)
+    much += (i ? ", " : "") + quoted("1" + std::string(1500, ' ') + "+ 1.5" + std::string(1500, ' '));
   is_refused(design_of("", "0", "1") + "N = " + much + "]]\n");
 }
 
@@ -319,13 +324,15 @@ void test_setting_takes_the_place_of_a_value() {
 
 void test_setting_that_is_wrong_says_so() {
   const std::string text = design_of("R = 2\nL = \"R/4\"", "\"-R\"", "\"L\"");
-  expect_lines("d.toml:2:1: parameters: --set: expected the name of a parameter, found \"r\"; did you mean `R`?\n", text,
-               {{"r", "3"}});
-  expect_lines("d.toml:3:5: parameters.R: --set: expected a number or an expression, found \"2*\": expected a number, a "
-               "name or (, found the end\n",
-               text, {{"R", "2*"}});
-  expect_lines("d.toml:3:5: parameters.R: --set: expected a value that does not hang on itself, found the circle R → L → R\n",
-               text, {{"R", "L"}});
+  expect_lines("d.toml:2:1: parameters: --set: expected the name of a parameter, found \"r\"; did you mean `R`?\n",
+               text, {{"r", "3"}});
+  expect_lines(
+      "d.toml:3:5: parameters.R: --set: expected a number or an expression, found \"2*\": expected a number, a "
+      "name or (, found the end\n",
+      text, {{"R", "2*"}});
+  expect_lines(
+      "d.toml:3:5: parameters.R: --set: expected a value that does not hang on itself, found the circle R → L → R\n",
+      text, {{"R", "L"}});
   expect_lines("d.toml:1:1: parameters: --set: expected the name of a parameter, found \"R\"\n",
                "name = \"d\"\nplant = { domain = \"continuous\", sample_time = 1, A = [[0]], B = [[1]] }\nlqr = { Q = "
                "[1], R = [1] }\n",
@@ -342,11 +349,12 @@ void test_text_of_a_setting_is_a_name_and_a_value() {
 // What a person would multiply by hand is the nearest double of the same.
 void test_motor_of_parameters_is_the_motor_of_numbers() {
   const std::string head = "[plant]\ndomain = \"continuous\"\nsample_time = 0.001\n";
-  const design::Problem named = problem("name = \"d\"\n[parameters]\nR = 2.5\nL = 0.5\nKt = 0.25\nKe = 0.25\nJ = "
-                                        "0.125\nb = 0.5\n" +
-                                        head +
-                                        "A = [[0, 1, 0], [0, \"-b/J\", \"Kt/J\"], [0, \"-Ke/L\", \"-R/L\"]]\nB = [[0], "
-                                        "[0], [\"1/L\"]]\n[lqr]\nQ = [100, 0, 0]\nR = [1]\n");
+  const design::Problem named = problem(
+      "name = \"d\"\n[parameters]\nR = 2.5\nL = 0.5\nKt = 0.25\nKe = 0.25\nJ = "
+      "0.125\nb = 0.5\n" +
+      head +
+      "A = [[0, 1, 0], [0, \"-b/J\", \"Kt/J\"], [0, \"-Ke/L\", \"-R/L\"]]\nB = [[0], "
+      "[0], [\"1/L\"]]\n[lqr]\nQ = [100, 0, 0]\nR = [1]\n");
   Eigen::Matrix3d A;
   A << 0, 1, 0, 0, -4, 2, 0, -0.5, -5;
   TEST_ASSERT_TRUE(named.plant.A == A);

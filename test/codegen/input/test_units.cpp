@@ -30,25 +30,38 @@ void test_units_are_written_in_many_ways() {
     TEST_ASSERT_TRUE_MESSAGE(are_same(same, "J"), same);
   TEST_ASSERT_TRUE(are_same("N*m/A", "V*s/rad"));
   TEST_ASSERT_TRUE(are_same("ohm", "Ω") && are_same("ohm", "\u2126") && are_same("V/A", "Ohm"));
-  TEST_ASSERT_TRUE(are_same("H/ohm", "s") && are_same("ohm F", "s") && are_same("Wb", "V s") && are_same("T m^2", "Wb"));
+  TEST_ASSERT_TRUE(are_same("H/ohm", "s") && are_same("ohm F", "s") && are_same("Wb", "V s") &&
+                   are_same("T m^2", "Wb"));
   TEST_ASSERT_TRUE(are_same("rad/s", "1/s") && are_same("Hz", "1/s") && are_same("√Hz", "1/√s") && are_same("-", "1"));
   TEST_ASSERT_TRUE(are_same("", "1") && are_same("m^(0.5)", "√m") && are_same("°C", "K") && are_same("L", "dm^3"));
 }
 
 // Sizes by the SI brochure and by definition.
 void test_sizes() {
-  const std::pair<const char*, double> sizes[] = {{"mm", 1e-3},  {"µF", 1e-6},  {"uF", 1e-6},    {"kohm", 1e3},
-                                                  {"min", 60},   {"h", 3600},   {"mN", 1e-3},    {"%", 0.01},
-                                                  {"bar", 1e5},  {"g", 1e-3},   {"mNm", 1e-3},   {"km/h", 1 / 3.6},
-                                                  {"mm^2", 1e-6}, {"ms", 1e-3}, {"Mbar", 1e11},
-                                                  {"deg", std::acos(-1.0) / 180}, {"rpm", std::acos(-1.0) / 30}};
+  const std::pair<const char*, double> sizes[] = {{"mm", 1e-3},
+                                                  {"µF", 1e-6},
+                                                  {"uF", 1e-6},
+                                                  {"kohm", 1e3},
+                                                  {"min", 60},
+                                                  {"h", 3600},
+                                                  {"mN", 1e-3},
+                                                  {"%", 0.01},
+                                                  {"bar", 1e5},
+                                                  {"g", 1e-3},
+                                                  {"mNm", 1e-3},
+                                                  {"km/h", 1 / 3.6},
+                                                  {"mm^2", 1e-6},
+                                                  {"ms", 1e-3},
+                                                  {"Mbar", 1e11},
+                                                  {"deg", std::acos(-1.0) / 180},
+                                                  {"rpm", std::acos(-1.0) / 30}};
   for (const auto& [text, size] : sizes)
     TEST_ASSERT_TRUE_MESSAGE(std::abs(parse_unit(text)->decades - std::log10(size)) < 1e-12, text);
 }
 
 void test_what_is_no_unit_is_not_understood() {
-  for (const char* text : {"counts", "10 ms", "m//s", "m/(s", "m^", "m ^2", "kkg", "m^2^2", "m^999", "(", ")", "m)", "2",
-                           "mdeg", "°F", "m s s^", "\xc2"})
+  for (const char* text : {"counts", "10 ms", "m//s", "m/(s", "m^", "m ^2", "kkg", "m^2^2", "m^999", "(", ")", "m)",
+                           "2", "mdeg", "°F", "m s s^", "\xc2"})
     TEST_ASSERT_FALSE_MESSAGE(parse_unit(text), text);
   TEST_ASSERT_FALSE(parse_unit(std::string(101, ' ') + "m"));
   TEST_ASSERT_FALSE(parse_unit(std::string(60, '(') + "m"));
@@ -108,27 +121,27 @@ void test_entries_have_the_units_of_their_signals() {
   TEST_ASSERT_EQUAL_STRING("", lines("", "\"-k/m\"", "\"1/m\"").c_str());
   TEST_ASSERT_EQUAL_STRING("d:8:12: plant.B[1][0]: expected an expression in m/(N·s²), found one in 1/(kg·m)\n",
                            lines("", "\"-k/m\"", "\"1/(m*h)\"").c_str());
-  TEST_ASSERT_EQUAL_STRING("d:9:9: plant.delay: expected an expression in s, found one in m\n"
-                           "d:11:10: limits.u_max[0]: expected an expression in N, found one in V\n"
-                           "d:14:16: limits.states.v: expected an expression in m/s, found one in mm/s: convert it\n",
-                           lines("s = { value = 1, unit = \"s\" }", "0", "1",
-                                 "delay = \"h\"\n[limits]\nu_max = [\"V\"]\nu_min = [-1]\nhorizon = 4\n"
-                                 "states = { v = \"l/s\" }\n")
-                               .c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "d:9:9: plant.delay: expected an expression in s, found one in m\n"
+      "d:11:10: limits.u_max[0]: expected an expression in N, found one in V\n"
+      "d:14:16: limits.states.v: expected an expression in m/s, found one in mm/s: convert it\n",
+      lines("s = { value = 1, unit = \"s\" }", "0", "1",
+            "delay = \"h\"\n[limits]\nu_max = [\"V\"]\nu_min = [-1]\nhorizon = 4\n"
+            "states = { v = \"l/s\" }\n")
+          .c_str());
 }
 
 void test_parameters_have_the_units_that_they_say() {
   TEST_ASSERT_EQUAL_STRING("", lines("w = { value = \"sqrt(k/m)\", unit = \"rad/s\" }").c_str());
-  TEST_ASSERT_EQUAL_STRING(
-      "d:21:16: parameters.w: expected an expression in m, its unit, found one in N/(kg·m)\n",
-      lines("w = { value = \"k/m\", unit = \"m\" }").c_str());
+  TEST_ASSERT_EQUAL_STRING("d:21:16: parameters.w: expected an expression in m, its unit, found one in N/(kg·m)\n",
+                           lines("w = { value = \"k/m\", unit = \"m\" }").c_str());
   TEST_ASSERT_EQUAL_STRING("d:22:8: parameters.t: a sum of kg and N/m\n", lines("w = \"m\"\nt = \"w + k\"").c_str());
 }
 
 void test_unit_that_is_not_known_is_noted_once_and_not_judged() {
   TEST_ASSERT_EQUAL_STRING(
-      "d:21:25: note: parameters.c.unit: the unit \"counts\" is not known, as \"V*s/rad\" would be: it is shown and not "
-      "checked\n",
+      "d:21:25: note: parameters.c.unit: the unit \"counts\" is not known, as \"V*s/rad\" would be: it is shown "
+      "and not checked\n",
       lines("c = { value = 1, unit = \"counts\" }\ne = { value = 2, unit = \"counts\" }", "\"c*m + e*V\"").c_str());
 }
 
