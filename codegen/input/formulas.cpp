@@ -7,6 +7,7 @@
 
 #include "design/rounding.hpp"
 #include "input/keys.hpp"
+#include "input/names.hpp"
 #include "input/text.hpp"
 #include "input/values.hpp"
 
@@ -71,12 +72,19 @@ class FormulaReader {
   void read_value(const KeyRule& rule, Node& node, const std::string& path) {
     key_ = path;
     const Numbers numbers = numbers_in(rule.type);
-    const bool is_word = std::find(rule.words.begin(), rule.words.end(), node.text) != rule.words.end();
-    if (node.kind == Kind::text && !is_word && (numbers == Numbers::alone || numbers == Numbers::alone_or_in_tables))
+    if (node.kind == Kind::text && !is_word(rule, node.text) &&
+        (numbers == Numbers::alone || numbers == Numbers::alone_or_in_tables))
       take(node, path);
     if (node.kind == Kind::array && numbers == Numbers::in_arrays) read_array(node, path);
     if (node.kind != Kind::table || (numbers != Numbers::in_tables && numbers != Numbers::alone_or_in_tables)) return;
     for (std::size_t i = 0; i < node.items.size(); ++i) read_entry(node.items[i], path_of(path, node.keys[i].name));
+  }
+
+  // One of the rule's words, or what may be one misspelt.
+  bool is_word(const KeyRule& rule, const std::string& text) const {
+    if (std::find(rule.words.begin(), rule.words.end(), text) != rule.words.end()) return true;
+    return !rule.words.empty() && !check_parameter_name(text) && parameters_.find(text) == nullptr &&
+           parameters_.wrong.count(text) == 0;
   }
 
   void read_array(Node& array, const std::string& path) {

@@ -122,6 +122,17 @@ std::optional<std::size_t> entry(const Rule& rule, const SplitKey& key, const st
   return is_beside ? std::nullopt : std::optional(key.indices[0]);
 }
 
+// The parameter whose value the number at `key` is: "parameters.R" or "parameters.R.value".
+const design::Parameter* parameter_at(const std::string& key, const input::DesignFile& file) {
+  static const std::string table = "parameters.", value = ".value";
+  if (key.rfind(table, 0) != 0) return nullptr;
+  std::string name = key.substr(table.size());
+  if (const std::size_t dot = name.find('.'); dot != name.npos && name.substr(dot) == value) name.resize(dot);
+  for (const design::Parameter& parameter : file.problem->parameters)
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
+
 std::string last_word(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 // "(rad/s)/s" of a rate, "V/√s" of a walk, "V" of a limit; nothing of a weight, whose unit nobody thinks in.
@@ -198,6 +209,18 @@ void set_range(Tunable& tunable, const Rule& rule, double largest, const design:
   }
 }
 
+// From a tenth to ten times its value.
+Tunable tunable_parameter(const PlacedNumber& number, const design::Parameter& parameter) {
+  Tunable tunable;
+  tunable.group = "Parameters";
+  tunable.name = parameter.name;
+  tunable.unit = parameter.unit;
+  tunable.targets = {{number.key, 1}};
+  tunable.value = number.value;
+  number.value > 0 ? span_decades(tunable, 10) : span_from_zero(tunable, 1);
+  return tunable;
+}
+
 // Numbers that have a default and that a person wants to move: they are added to the file when they are written.
 std::vector<PlacedNumber> absent_numbers(const input::DesignFile& file) {
   std::vector<PlacedNumber> numbers;
@@ -236,6 +259,10 @@ std::vector<Tunable> tunables(const input::DesignFile& file) {
   numbers.insert(numbers.begin(), absent.begin(), absent.end());
   std::vector<Tunable> result;
   for (const PlacedNumber& number : numbers) {
+    if (const design::Parameter* parameter = parameter_at(number.key, file)) {
+      result.push_back(tunable_parameter(number, *parameter));
+      continue;
+    }
     const SplitKey key = split(number.key);
     const Rule* const rule = rule_of(key.base);
     if (rule == nullptr || !std::isfinite(number.value)) continue;
