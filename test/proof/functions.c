@@ -39,7 +39,7 @@ static void call_others(void)
 }
 
 #ifndef PARTS
-#define look_at_float(result, low, high)  (void)(result)
+#define look_at_float(result, low, high) (void)(result)
 #define look_at_double(result, low, high) (void)(result)
 #endif
 

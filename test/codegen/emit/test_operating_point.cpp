@@ -236,7 +236,9 @@ int main(void)
         dx[i] = draw();
         given[i] = x0[i] + dx[i];
     }
-)" + (size.nr ? "    if (k >= 10)\n        for (int i = 0; i < NR; i++) {\n            plain.r[i] = k % 40 == 39 ? (real)NAN : draw();\n"
+)" +
+         (size.nr
+              ? "    if (k >= 10)\n        for (int i = 0; i < NR; i++) {\n            plain.r[i] = k % 40 == 39 ? (real)NAN : draw();\n"
                 "            about.r[i] = r0[i] + plain.r[i];\n        }\n"
               : "") +
          (controller.linear       ? sample_of_form(controller)
@@ -311,7 +313,9 @@ void expect_limits_to_hold() {
   std::uniform_int_distribution<int> exponent(-40, 40);
   const auto number = [&] { return static_cast<T>(std::ldexp(mantissa(random), exponent(random))); };
   for (int n = 0; n < 20000; ++n) {
-    const T point = number(), limit = n % 2 ? number() : static_cast<T>(static_cast<double>(point) * (1 + std::ldexp(mantissa(random), -10)));
+    const T point = number(),
+            limit =
+                n % 2 ? number() : static_cast<T>(static_cast<double>(point) * (1 + std::ldexp(mantissa(random), -10)));
     for (const int inward : {-1, +1}) expect_the_limit(limit, point, inward);
   }
   for (const T limit : {T(0), T(-0.0), std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min(), T(12)})
