@@ -41,7 +41,9 @@ class Lineariser {
       add_error(findings_, point_key, std::to_string(more_digits) + " digits do not settle the slopes at this point");
       return std::nullopt;
     }
-    return are_doubles(*fine) ? fine : std::nullopt;
+    if (!are_doubles(*fine)) return std::nullopt;
+    note_moving(*found);
+    return fine;
   }
 
  private:
@@ -170,6 +172,18 @@ class Lineariser {
                       "f is 0 at " + listed(first) + ", which is taken, and also at " + listed(other) +
                           "; \"? 0.5\" says where the search begins");
     }
+  }
+
+  // What need not be at rest, and is not.
+  void note_moving(const RealVector& found) {
+    const Digits scope(digits_of_search);
+    std::vector<Index> others;
+    for (Index i = 0; i < nx_; ++i)
+      if (!wanted_.is_steady[static_cast<std::size_t>(i)]) others.push_back(i);
+    const Rest moving(plant_, others);
+    if (is_at_rest(moving, found)) return;
+    add_note(findings_, point_key,
+             rates_at(moving, found) + " at this point: the linear plant, and a filter of it, do not know of that");
   }
 
   // One row of values and slopes of each formula.

@@ -56,17 +56,12 @@ std::optional<design::OperatingPoint> operating_point(const Values& values, cons
   return point;
 }
 
-// With all digits; the point in those of a double.
+// With all digits.
 void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
   plant.A = design::ExactMatrix::of(linearisation.A);
   plant.B = design::ExactMatrix::of(linearisation.B);
   plant.C = design::ExactMatrix::of(linearisation.C);
   plant.D = design::ExactMatrix::of(linearisation.D);
-  design::OperatingPoint point;
-  point.x = design::to_doubles(linearisation.x);
-  point.u = design::to_doubles(linearisation.u);
-  point.y = design::to_doubles(linearisation.y);
-  plant.operating_point = point;
 }
 
 design::Plant plant(const Values& values) {
@@ -95,7 +90,7 @@ design::Plant plant(const Values& values) {
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
-  if (!result.equations) result.operating_point = operating_point(values, result);
+  result.operating_point = operating_point(values, result);
   return result;
 }
 

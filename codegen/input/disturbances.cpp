@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/rounding.hpp"
 #include "input/matrices.hpp"
 #include "input/text.hpp"
 
@@ -19,17 +18,13 @@ double entry_of(const Values& values, const char* key, int i) {
   return std::isfinite(value) ? value : 0;
 }
 
-double input_at_point(const Values& values, int input) {
-  if (values.linearisation) return design::to_double(values.linearisation->u(input));
-  const Eigen::MatrixXd* point = values.matrix("plant.operating_point.inputs");
-  return point != nullptr && input < point->rows() ? (*point)(input, 0) : 0;
-}
-
 // Of a limit its distance from the operating point.
 double reach_of(const Values& values, const char* key, int input) {
   const Eigen::MatrixXd* limits = values.matrix(key);
-  if (limits == nullptr || input >= limits->rows()) return 0;
-  const double reach = std::abs((*limits)(input, 0) - input_at_point(values, input));
+  const Eigen::MatrixXd* point = values.matrix("plant.operating_point.inputs");
+  if (limits == nullptr || point == nullptr || input >= std::min(limits->rows(), point->rows()))
+    return entry_of(values, key, input);
+  const double reach = std::abs((*limits)(input, 0) - (*point)(input, 0));
   return std::isfinite(reach) ? reach : 0;
 }
 

@@ -114,12 +114,6 @@ std::string_view line_of(std::string_view text, int line) {
 
 }  // namespace
 
-const Node* item(const Node* table, const std::string& key) {
-  for (std::size_t i = 0; table != nullptr && table->kind == Kind::table && i < table->keys.size(); ++i)
-    if (table->keys[i].name == key) return &table->items[i];
-  return nullptr;
-}
-
 std::string describe(const Node& node) {
   switch (node.kind) {
     case Kind::text: return "a string";

@@ -31,9 +31,6 @@ struct Node {
   std::shared_ptr<const Formula> formula = {};  // of a number that was a text; put there by read_formulas
 };
 
-// The value of that key; nullptr where there is none, or `table` is no table.
-const Node* item(const Node* table, const std::string& key);
-
 // "a string", "an array": what a message says was found.
 std::string describe(const Node& node);
 

@@ -9,6 +9,7 @@
 #include "design/rounding.hpp"
 #include "expression/parse.hpp"
 #include "input/equation_units.hpp"
+#include "input/matrices.hpp"
 #include "input/text.hpp"
 
 namespace lqg::input {
@@ -95,6 +96,22 @@ class EquationsReader {
   void refuse_without_f() {
     if (values_.has("plant.h")) report_.error("plant.h", "needs plant.f");
     if (values_.has("plant.operating_point.steady")) report_.error("plant.operating_point.steady", "needs plant.f");
+    read_point_of_matrices("states", states_, Size::nx);
+    read_point_of_matrices("inputs", inputs_, Size::nu);
+  }
+
+  void read_point_of_matrices(const std::string& part, const Names& names, Size size) {
+    const std::string key = std::string(point_key) + "." + part;
+    design::WantedPoint point;
+    if (!values_.has(key) || values_.sizes.at(size) <= 0 || !read_values_of(part, names, name_of(size), point)) return;
+    design::RealMatrix column(static_cast<Eigen::Index>(names.size()), 1);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!point.values[i])
+        return report_.error(entry_key(key, i), "expected a number or a formula: \"?\" needs plant.f");
+      const auto value = exact_(*point.values[i]);
+      if (const auto* number = std::get_if<design::Real>(&value)) column(static_cast<Eigen::Index>(i), 0) = *number;
+    }
+    values_.matrices[key] = design::ExactMatrix::of(column);
   }
 
   // Wrong ones have been reported.
@@ -115,7 +132,8 @@ class EquationsReader {
         if (parameters_.find(name) != nullptr || parameters_.wrong.count(name) != 0) other = "a parameter";
         if (other.empty()) continue;
         good = false;
-        report_.error(entry_key(key, i),
+        const Node* list = value_in(plant_, names == &states_ ? "states" : "inputs");
+        report_.error(entry_key(key, i), list == nullptr ? plant_->where : list->items[i].where,
                       "expected a name of its own in plant.f, found that of " + other + ", " + in_quotes(name));
       }
     return good;
@@ -204,6 +222,7 @@ class EquationsReader {
         report_.error(point_key, "missing: where plant.f is linearised, as in { states = [0, 0], inputs = [\"?\"] }");
       return;
     }
+    if (values_.tables.count(point_key) == 0) return;  // that has been said
     const std::optional<design::WantedPoint> point = wanted_point();
     if (!point) return;
     design::Plant plant;
@@ -213,6 +232,7 @@ class EquationsReader {
     plant.equations = values_.equations;
     design::Findings findings;
     values_.linearisation = design::linearise(plant, *point, findings);
+    if (values_.linearisation) keep_point(*values_.linearisation);
     for (const design::Finding& finding : findings)
       if (finding.severity == design::Severity::error)
         report_.error(finding.key, finding.message);
@@ -220,16 +240,24 @@ class EquationsReader {
         report_.note(finding.key, finding.message);
   }
 
+  // As if it stood in the file.
+  void keep_point(const design::Linearisation& found) {
+    values_.matrices["plant.operating_point.states"] = design::ExactMatrix(design::to_doubles(found.x));
+    values_.matrices["plant.operating_point.inputs"] = design::ExactMatrix(design::to_doubles(found.u));
+    values_.matrices["plant.operating_point.outputs"] = design::ExactMatrix(design::to_doubles(found.y));
+  }
+
   std::optional<design::WantedPoint> wanted_point() {
     design::WantedPoint point;
-    const bool has_states = read_values_of("states", states_, "nx", point);
-    const bool has_inputs = read_values_of("inputs", inputs_, "nu", point);
+    const bool has_states = read_values_of("states", states_, name_of(Size::nx), point);
+    const bool has_inputs = read_values_of("inputs", inputs_, name_of(Size::nu), point);
     if (!read_steady(point) || !has_states || !has_inputs) return std::nullopt;
     return point;
   }
 
   // What is left out is 0.
-  bool read_values_of(const std::string& part, const Names& names, const char* size, design::WantedPoint& point) {
+  bool read_values_of(const std::string& part, const Names& names, const std::string& size,
+                      design::WantedPoint& point) {
     const std::string key = std::string(point_key) + "." + part;
     const Node* list = value_in(value_in(plant_, "operating_point"), part);
     const std::string expected =

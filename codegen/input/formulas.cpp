@@ -7,6 +7,7 @@
 
 #include "design/rounding.hpp"
 #include "input/keys.hpp"
+#include "input/names.hpp"
 #include "input/text.hpp"
 #include "input/values.hpp"
 
@@ -46,7 +47,6 @@ class FormulaReader {
       : parameters_(parameters), places_(places), values_(values), report_(report) {}
 
   Formulas read(Node& document) {
-    has_equations_ = item(item(&document, "plant"), "f") != nullptr;
     walk_table(document, "");
     return std::move(result_);
   }
@@ -71,15 +71,20 @@ class FormulaReader {
 
   void read_value(const KeyRule& rule, Node& node, const std::string& path) {
     key_ = path;
-    // With equations "?" may stand in the place of a number; read_equations knows what it is.
-    const bool is_plain_point = rule.type == Type::point && !has_equations_;
-    const Numbers numbers = is_plain_point ? Numbers::in_arrays : numbers_in(rule.type);
-    const bool is_word = std::find(rule.words.begin(), rule.words.end(), node.text) != rule.words.end();
-    if (node.kind == Kind::text && !is_word && (numbers == Numbers::alone || numbers == Numbers::alone_or_in_tables))
+    const Numbers numbers = numbers_in(rule.type);
+    if (node.kind == Kind::text && !is_word(rule, node.text) &&
+        (numbers == Numbers::alone || numbers == Numbers::alone_or_in_tables))
       take(node, path);
     if (node.kind == Kind::array && numbers == Numbers::in_arrays) read_array(node, path);
     if (node.kind != Kind::table || (numbers != Numbers::in_tables && numbers != Numbers::alone_or_in_tables)) return;
     for (std::size_t i = 0; i < node.items.size(); ++i) read_entry(node.items[i], path_of(path, node.keys[i].name));
+  }
+
+  // One of the rule's words, or what may be one misspelt.
+  bool is_word(const KeyRule& rule, const std::string& text) const {
+    if (std::find(rule.words.begin(), rule.words.end(), text) != rule.words.end()) return true;
+    return !rule.words.empty() && !check_parameter_name(text) && parameters_.find(text) == nullptr &&
+           parameters_.wrong.count(text) == 0;
   }
 
   void read_array(Node& array, const std::string& path) {
@@ -129,7 +134,6 @@ class FormulaReader {
   std::string key_;
   std::size_t bytes_ = 0;
   Formulas result_;
-  bool has_equations_ = false;
 };
 
 }  // namespace

@@ -51,8 +51,7 @@ class MatrixReader {
 
  private:
   bool is_list() const {
-    return rule_.type == Type::vector || rule_.type == Type::positives || rule_.type == Type::bounds ||
-           rule_.type == Type::point;
+    return rule_.type == Type::vector || rule_.type == Type::positives || rule_.type == Type::bounds;
   }
 
   std::nullopt_t fail(const std::string& found) const {

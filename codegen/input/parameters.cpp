@@ -19,7 +19,7 @@ namespace {
 using expression::Measure;
 using expression::Tree;
 
-std::string key_of(const std::string& name) { return "parameters." + name; }
+std::string key_of(const std::string& name) { return path_of("parameters", name); }
 
 std::optional<double> number_in(const std::string& text) {
   double value = 0;
@@ -58,7 +58,7 @@ class ParameterReader {
     Stated one;
     one.parameter.name = key.name;
     if (const Complaint complaint = check_parameter_name(key.name))
-      return report_.error("parameters", key.where, *complaint);
+      return report_.error(key_of(key.name), key.where, *complaint);
     report_.place(key_of(key.name), node.where);
     const std::optional<Node> value = value_of(key.name, node, one);
     if (!value) {
@@ -299,6 +299,7 @@ Parameters read_parameters(const Node& document, const Settings& settings, const
                            ExactValues& values, Report& report) {
   const Node* table = parameters_table(document);
   Node none;
+  none.where = {1, 1};
   if (table == nullptr) table = &none;
   if (table->kind != Kind::table) {
     report.error("parameters", table->where, "expected a table of numbers and expressions, found " + describe(*table));

@@ -33,7 +33,8 @@ Location start_of(const Key& key, const Node& node) {
 // Walks the tables: known keys into `nodes`, the rest is reported.
 class Collector {
  public:
-  Collector(Nodes& nodes, Values& values, Report& report) : nodes_(nodes), values_(values), report_(report) {}
+  Collector(Nodes& nodes, Values& values, const std::set<std::string>& wrong, Report& report)
+      : nodes_(nodes), values_(values), wrong_(wrong), report_(report) {}
 
   void walk(const Node& table, const std::string& parent) {
     values_.tables.insert(parent);
@@ -41,7 +42,7 @@ class Collector {
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
       const std::string path = path_of(parent, table.keys[i].name);
       const KeyRule* rule = find_rule(rule_path(path));
-      report_.place(path, table.items[i].where);
+      if (wrong_.count(path) == 0) report_.place(path, table.items[i].where);  // else it is where it goes wrong
       values_.present.insert(path);
       if (rule == nullptr)
         report_unknown(table.keys[i], table.items[i], parent, path);
@@ -81,6 +82,7 @@ class Collector {
 
   Nodes& nodes_;
   Values& values_;
+  const std::set<std::string>& wrong_;
   Report& report_;
 };
 
@@ -157,9 +159,6 @@ class ValueReader {
           if (auto matrix = read_matrix(rule, *mask, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         }
         break;
-      case Type::point:
-        if (values_.has("plant.f")) break;  // by read_equations
-        [[fallthrough]];
       case Type::matrix:
       case Type::weight:
       case Type::vector:
@@ -168,6 +167,7 @@ class ValueReader {
         if (auto matrix = read_matrix(rule, node, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         break;
       case Type::formulas:  // by read_equations
+      case Type::point:
       case Type::states:
       case Type::table:
       case Type::tables:
@@ -392,7 +392,7 @@ std::vector<std::string> signal_names(const Values& values, Size size) {
 Values read_values(const Node& document, const std::set<std::string>& wrong, Report& report) {
   Values values;
   Nodes nodes;
-  Collector(nodes, values, report).walk(document, "");
+  Collector(nodes, values, wrong, report).walk(document, "");
   values.sizes = measure(nodes);
   ValueReader reader(values, report);
   for (const KeyRule& rule : key_rules()) {

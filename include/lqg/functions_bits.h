@@ -51,14 +51,14 @@ LQG_STRICT_BEGIN
 static inline uint32_t lqg_bitsf(float x)
 {
     uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
+    (void)memcpy(&bits, &x, sizeof bits);
     return bits;
 }
 
 static inline float lqg_of_bitsf(uint32_t bits)
 {
     float x;
-    memcpy(&x, &bits, sizeof x);
+    (void)memcpy(&x, &bits, sizeof x);
     return x;
 }
 
@@ -113,14 +113,14 @@ static inline float lqg_sqrtf(float x)
 static inline uint64_t lqg_bits(double x)
 {
     uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
+    (void)memcpy(&bits, &x, sizeof bits);
     return bits;
 }
 
 static inline double lqg_of_bits(uint64_t bits)
 {
     double x;
-    memcpy(&x, &bits, sizeof x);
+    (void)memcpy(&x, &bits, sizeof x);
     return x;
 }
 

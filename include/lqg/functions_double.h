@@ -3,6 +3,7 @@
 #ifndef LQG_FUNCTIONS_DOUBLE_H
 #define LQG_FUNCTIONS_DOUBLE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "lqg/arithmetic.h"
@@ -51,15 +52,16 @@ static inline void lqg_sin_cos(double x, double *sine, double *cosine)
     double r, rest, z, s, c;
 
     if (a > 0x4130000000000000u) { /* LQG_ANGLE_MAX */
-        *sine = *cosine = lqg_of_bits(LQG_NAN);
+        *sine = lqg_of_bits(LQG_NAN);
+        *cosine = *sine;
         return;
     }
     r = lqg_reduce(lqg_of_bits(a), &rest, &n);
     z = r * r;
     s = lqg_sin_reduced(r, rest, z);
     c = lqg_cos_reduced(z);
-    *sine = lqg_change_sign(n & 1u ? c : s, bits ^ (uint64_t)n << 62);
-    *cosine = lqg_change_sign(n & 1u ? s : c, (uint64_t)(n + 1u) << 62);
+    *sine = lqg_change_sign((n & 1u) != 0u ? c : s, bits ^ ((uint64_t)n << 62));
+    *cosine = lqg_change_sign((n & 1u) != 0u ? s : c, ((uint64_t)n + 1u) << 62);
 }
 
 static inline double lqg_sin(double x)
@@ -73,8 +75,8 @@ static inline double lqg_sin(double x)
         return lqg_of_bits(LQG_NAN);
     r = lqg_reduce(lqg_of_bits(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_cos_reduced(z) : lqg_sin_reduced(r, rest, z);
-    return lqg_change_sign(r, bits ^ (uint64_t)n << 62);
+    r = (n & 1u) != 0u ? lqg_cos_reduced(z) : lqg_sin_reduced(r, rest, z);
+    return lqg_change_sign(r, bits ^ ((uint64_t)n << 62));
 }
 
 static inline double lqg_cos(double x)
@@ -88,8 +90,8 @@ static inline double lqg_cos(double x)
         return lqg_of_bits(LQG_NAN);
     r = lqg_reduce(lqg_of_bits(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_sin_reduced(r, rest, z) : lqg_cos_reduced(z);
-    return lqg_change_sign(r, (uint64_t)(n + 1u) << 62);
+    r = (n & 1u) != 0u ? lqg_sin_reduced(r, rest, z) : lqg_cos_reduced(z);
+    return lqg_change_sign(r, ((uint64_t)n + 1u) << 62);
 }
 
 /* As lqg_reduce, but with a rest that includes what the rounding of r has left: tan is steeper than sin. */
@@ -109,28 +111,31 @@ static inline double lqg_tan(double x)
     rest = ((exact - r) + part) + quarters * 2.9407886703873282e-27;
     z = r * r;
     t = r + (r * (z * lqg_tan_polynomial(z)) + rest);
-    return lqg_change_sign(lqg_bits(shifted) & 1u ? -1.0 / t : t, bits);
+    return lqg_change_sign((lqg_bits(shifted) & 1u) != 0u ? -1.0 / t : t, bits);
 }
 
-/* The angle of ]−π, π[ that is x but for whole turns. */
+/* The angle of ]−π, π[ that is x but for whole turns: up to 3π one turn, beyond by the reduction, whose rounding may
+ * leave a turn too many. */
 static inline double lqg_wrap(double x)
 {
     LQG_STRICT_BODY
     const uint64_t bits = lqg_bits(x), a_bits = bits & 0x7fffffffffffffffu;
-    double a = lqg_of_bits(a_bits), quarters;
+    double a = lqg_of_bits(a_bits);
 
     if (a_bits > 0x4130000000000000u)
         return lqg_of_bits(LQG_NAN);
     if (a <= 3.1415926535897931)
         return x;
-    quarters = 4.0 * ((a * 0.15915494309189535 + 4503599627370496.0) - 4503599627370496.0);
-    a = a - quarters * 1.5707963267341256;
-    a = a - quarters * 6.0771054855024431e-11;
-    a = a + quarters * 4.9789962502207207e-17;
-    a = a + quarters * 2.9407886703873282e-27;
+    if (a > 9.4247779607693) { /* 3π */
+        const double quarters = 4.0 * ((a * 0.15915494309189535 + 4503599627370496.0) - 4503599627370496.0);
+        a = a - quarters * 1.5707963267341256;
+        a = a - quarters * 6.0771054855024431e-11;
+        a = a + quarters * 4.9789962502207207e-17;
+        a = a + quarters * 2.9407886703873282e-27;
+    }
     if (a > 3.1415926535897931)
         a = (a - 6.2831853071795862) - 2.4492935982947064e-16;
-    else if (a < -3.1415926535897931)
+    if (a < -3.1415926535897931)
         a = (a + 6.2831853071795862) + 2.4492935982947064e-16;
     return lqg_change_sign(a, bits);
 }
@@ -170,33 +175,36 @@ static inline double lqg_acos(double x)
     return bits == a ? s + z : 3.1415926535897931 - (s + (z - 1.2246467991473532e-16));
 }
 
-/* atan t + low, 0 ≤ t ≤ 1: atan t = atan c + atan (t − c)/(1 + c t), c = 0, ½ or 1. */
+/* atan t + low, 0 ≤ t ≤ 1: atan t = atan c + atan u, u = (t − c)/(1 + c t), c = 0, ½ or 1. */
 static inline double lqg_atan_plus(double t, double low)
 {
     LQG_STRICT_BODY
-    double center = 0.0, z;
+    double u = t, high = 0.0, rest = low, z;
 
-    if (t > 0.6875) {
-        t = (t - 1.0) / (t + 1.0);
-        center = 0.78539816339744828;
-        low += 3.061616997868383e-17;
-    } else if (t > 0.375) {
-        t = (2.0 * t - 1.0) / (2.0 + t);
-        center = 0.46364760900080609;
-        low += 2.2698777452961687e-17;
+    if (t > 0.375) {
+        if (t > 0.6875) {
+            u = (t - 1.0) / (t + 1.0);
+            high = 0.78539816339744828; /* atan 1 */
+            rest = low + 3.061616997868383e-17;
+        } else {
+            u = (2.0 * t - 1.0) / (2.0 + t);
+            high = 0.46364760900080609; /* atan ½ */
+            rest = low + 2.2698777452961687e-17;
+        }
     }
-    z = t * t;
-    return center + (t + (t * (z * lqg_atan_polynomial(z)) + low));
+    z = u * u;
+    return high + (u + (u * (z * lqg_atan_polynomial(z)) + rest));
 }
 
 static inline double lqg_atan(double x)
 {
     LQG_STRICT_BODY
     const uint64_t bits = lqg_bits(x), a = bits & 0x7fffffffffffffffu;
-    double t = lqg_of_bits(a);
+    double t;
 
     if (a > 0x7ff0000000000000u)
         return lqg_of_bits(LQG_NAN);
+    t = lqg_of_bits(a);
     if (a > 0x3ff0000000000000u) /* π/2 − atan 1/a */
         t = 1.5707963267948966 - lqg_atan_plus(1.0 / t, -6.123233995736766e-17);
     else
@@ -211,7 +219,7 @@ static inline double lqg_atan2(double y, double x)
     const uint64_t x_bits = lqg_bits(x), y_bits = lqg_bits(y);
     const uint64_t ax = x_bits & 0x7fffffffffffffffu, ay = y_bits & 0x7fffffffffffffffu;
     const uint64_t small = ax < ay ? ax : ay, large = ax < ay ? ay : ax;
-    const int is_left = x_bits != ax, is_steep = ax < ay;
+    const bool is_left = x_bits != ax, is_steep = ax < ay;
     double base = 0.0, low = 0.0, t;
 
     if (large > 0x7ff0000000000000u)
@@ -219,7 +227,8 @@ static inline double lqg_atan2(double y, double x)
     if (is_steep) {
         base = 1.5707963267948966;
         low = 6.123233995736766e-17;
-    } else if (is_left) {
+    }
+    if (is_left && !is_steep) {
         base = 3.1415926535897931;
         low = 1.2246467991473532e-16;
     }
@@ -234,7 +243,7 @@ static inline double lqg_atan2(double y, double x)
 /* 2ⁿ, −1022 ≤ n ≤ 1023, n modulo 2¹². */
 static inline double lqg_power(uint32_t n)
 {
-    return lqg_of_bits((uint64_t)(n + 1023u) << 52);
+    return lqg_of_bits(((uint64_t)n + 1023u) << 52);
 }
 
 /* eˣ, −746 ≤ x ≤ 709.8: 2ⁿ e^(x − n ln 2), in two factors, as 2ⁿ alone may be no double. ln 2 is the sum of two parts,
@@ -271,7 +280,7 @@ static inline double lqg_log(double x)
 {
     LQG_STRICT_BODY
     uint64_t bits = lqg_bits(x);
-    int32_t bias = 1023;
+    int32_t exponent = -1023;
     double n, f, s, z, half_square;
 
     if (bits - 0x0010000000000000u >= 0x7fe0000000000000u) { /* not a normal number above 0 */
@@ -282,10 +291,11 @@ static inline double lqg_log(double x)
         if (bits > 0x7ff0000000000000u)
             return lqg_of_bits(LQG_NAN);
         bits = lqg_bits(x * 4503599627370496.0); /* 2⁵² */
-        bias = 1075;
+        exponent = -1075;
     }
     bits += 0x3ff0000000000000u - 0x3fe6a09e667f3bcdu; /* 1 − √½ */
-    n = (double)((int32_t)(bits >> 52) - bias);
+    exponent += (int32_t)(bits >> 52);
+    n = (double)exponent;
     f = lqg_of_bits((bits & 0x000fffffffffffffu) + 0x3fe6a09e667f3bcdu) - 1.0;
     s = f / (2.0 + f);
     z = s * s;

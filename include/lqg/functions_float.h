@@ -3,6 +3,7 @@
 #ifndef LQG_FUNCTIONS_FLOAT_H
 #define LQG_FUNCTIONS_FLOAT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "lqg/arithmetic.h"
@@ -50,15 +51,16 @@ static inline void lqg_sin_cosf(float x, float *sine, float *cosine)
     float r, rest, z, s, c;
 
     if (a > 0x46000000u) { /* LQG_ANGLE_MAXF */
-        *sine = *cosine = lqg_of_bitsf(LQG_NANF);
+        *sine = lqg_of_bitsf(LQG_NANF);
+        *cosine = *sine;
         return;
     }
     r = lqg_reducef(lqg_of_bitsf(a), &rest, &n);
     z = r * r;
     s = lqg_sin_reducedf(r, rest, z);
     c = lqg_cos_reducedf(z);
-    *sine = lqg_change_signf(n & 1u ? c : s, bits ^ n << 30);
-    *cosine = lqg_change_signf(n & 1u ? s : c, (n + 1u) << 30);
+    *sine = lqg_change_signf((n & 1u) != 0u ? c : s, bits ^ (n << 30));
+    *cosine = lqg_change_signf((n & 1u) != 0u ? s : c, (n + 1u) << 30);
 }
 
 static inline float lqg_sinf(float x)
@@ -72,8 +74,8 @@ static inline float lqg_sinf(float x)
         return lqg_of_bitsf(LQG_NANF);
     r = lqg_reducef(lqg_of_bitsf(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_cos_reducedf(z) : lqg_sin_reducedf(r, rest, z);
-    return lqg_change_signf(r, bits ^ n << 30);
+    r = (n & 1u) != 0u ? lqg_cos_reducedf(z) : lqg_sin_reducedf(r, rest, z);
+    return lqg_change_signf(r, bits ^ (n << 30));
 }
 
 static inline float lqg_cosf(float x)
@@ -87,7 +89,7 @@ static inline float lqg_cosf(float x)
         return lqg_of_bitsf(LQG_NANF);
     r = lqg_reducef(lqg_of_bitsf(a), &rest, &n);
     z = r * r;
-    r = n & 1u ? lqg_sin_reducedf(r, rest, z) : lqg_cos_reducedf(z);
+    r = (n & 1u) != 0u ? lqg_sin_reducedf(r, rest, z) : lqg_cos_reducedf(z);
     return lqg_change_signf(r, (n + 1u) << 30);
 }
 
@@ -108,28 +110,31 @@ static inline float lqg_tanf(float x)
     rest = ((exact - r) - part) - quarters * 2.56334407e-12f;
     z = r * r;
     t = r + (r * (z * lqg_tan_polynomialf(z)) + rest);
-    return lqg_change_signf(lqg_bitsf(shifted) & 1u ? -1.0f / t : t, bits);
+    return lqg_change_signf((lqg_bitsf(shifted) & 1u) != 0u ? -1.0f / t : t, bits);
 }
 
-/* The angle of ]−π, π[ that is x but for whole turns. */
+/* The angle of ]−π, π[ that is x but for whole turns: up to 3π one turn, beyond by the reduction, whose rounding may
+ * leave a turn too many. */
 static inline float lqg_wrapf(float x)
 {
     LQG_STRICT_BODY
     const uint32_t bits = lqg_bitsf(x), a_bits = bits & 0x7fffffffu;
-    float a = lqg_of_bitsf(a_bits), quarters;
+    float a = lqg_of_bitsf(a_bits);
 
     if (a_bits > 0x46000000u)
         return lqg_of_bitsf(LQG_NANF);
     if (a <= 3.1415925f)
         return x;
-    quarters = 4.0f * ((a * 0.159154943f + 8388608.0f) - 8388608.0f);
-    a = a - quarters * 1.5703125f;
-    a = a - quarters * 0.000483751297f;
-    a = a - quarters * 7.54953362e-08f;
-    a = a - quarters * 2.56334407e-12f;
+    if (a > 9.424777f) { /* 3π */
+        const float quarters = 4.0f * ((a * 0.159154943f + 8388608.0f) - 8388608.0f);
+        a = a - quarters * 1.5703125f;
+        a = a - quarters * 0.000483751297f;
+        a = a - quarters * 7.54953362e-08f;
+        a = a - quarters * 2.56334407e-12f;
+    }
     if (a > 3.1415925f)
         a = (a - 6.28318548f) + 1.74845553e-07f;
-    else if (a < -3.1415925f)
+    if (a < -3.1415925f)
         a = (a + 6.28318548f) - 1.74845553e-07f;
     return lqg_change_signf(a, bits);
 }
@@ -182,10 +187,11 @@ static inline float lqg_atanf(float x)
 {
     LQG_STRICT_BODY
     const uint32_t bits = lqg_bitsf(x), a = bits & 0x7fffffffu;
-    float t = lqg_of_bitsf(a);
+    float t;
 
     if (a > 0x7f800000u)
         return lqg_of_bitsf(LQG_NANF);
+    t = lqg_of_bitsf(a);
     if (a > 0x3f800000u) /* π/2 − atan 1/a */
         t = 1.57079637f - lqg_atan_plusf(1.0f / t, 4.37113883e-08f);
     else
@@ -200,7 +206,7 @@ static inline float lqg_atan2f(float y, float x)
     const uint32_t x_bits = lqg_bitsf(x), y_bits = lqg_bitsf(y);
     const uint32_t ax = x_bits & 0x7fffffffu, ay = y_bits & 0x7fffffffu;
     const uint32_t small = ax < ay ? ax : ay, large = ax < ay ? ay : ax;
-    const int is_left = x_bits != ax, is_steep = ax < ay;
+    const bool is_left = x_bits != ax, is_steep = ax < ay;
     float base = 0.0f, low = 0.0f, t;
 
     if (large > 0x7f800000u)
@@ -208,7 +214,8 @@ static inline float lqg_atan2f(float y, float x)
     if (is_steep) {
         base = 1.57079637f;
         low = -4.37113883e-08f;
-    } else if (is_left) {
+    }
+    if (is_left && !is_steep) {
         base = 3.14159274f;
         low = -8.74227766e-08f;
     }
@@ -251,7 +258,8 @@ static inline float lqg_expf(float x)
 static inline float lqg_logf(float x)
 {
     LQG_STRICT_BODY
-    uint32_t bits = lqg_bitsf(x), bias = 127u;
+    uint32_t bits = lqg_bitsf(x);
+    int32_t exponent = -127;
     float n, f, z;
 
     if (bits - 0x00800000u >= 0x7f000000u) { /* not a normal number above 0 */
@@ -262,10 +270,11 @@ static inline float lqg_logf(float x)
         if (bits > 0x7f800000u)
             return lqg_of_bitsf(LQG_NANF);
         bits = lqg_bitsf(x * 8388608.0f);
-        bias = 150u;
+        exponent = -150;
     }
     bits += 0x3f800000u - 0x3f3504f3u; /* 1 − √½ */
-    n = (float)((int32_t)(bits >> 23) - (int32_t)bias);
+    exponent += (int32_t)(bits >> 23);
+    n = (float)exponent;
     f = lqg_of_bitsf((bits & 0x007fffffu) + 0x3f3504f3u) - 1.0f;
     z = f * f;
     z = (f * (z * lqg_log_polynomialf(f)) + n * 1.42860677e-06f) - 0.5f * z;

@@ -105,7 +105,7 @@ static void test_exact_results_are_exact(void)
     assert_bits(1.57079637f, lqg_asinf(1.0f));
     assert_bits(1e-45f, lqg_sinf(1e-45f));
     assert_bits(-1e-45f, lqg_tanhf(-1e-45f));
-    for (unsigned i = 0; i < 4096; i++)
+    for (uint32_t i = 0; i < 4096; i++)
         assert_bits((float)i, lqg_sqrtf((float)(i * i)));
 }
 

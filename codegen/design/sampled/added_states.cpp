@@ -35,7 +35,7 @@ RealMatrix without_columns(const RealMatrix& a, Index at, Index count) {
 
 // [a 0; 0 corner]
 RealMatrix with_corner(const RealMatrix& a, const RealMatrix& corner) {
-  return joint(a, zeros(a.rows(), corner.cols()), corner);
+  return above(beside(a, zeros(a.rows(), corner.cols())), beside(zeros(corner.rows(), a.cols()), corner));
 }
 
 // W of a walk whose G is its size: 1 of a density; of samples what gathers to as much in a second.

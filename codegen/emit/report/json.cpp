@@ -62,10 +62,6 @@ void add_equations(const design::Plant& plant, Json& out) {
                        {"D", rows_of_doubles(plant.D)}};
 }
 
-Json operating_point(const design::OperatingPoint& point) {
-  return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
-}
-
 Json plant(const Controller& controller) {
   const design::SampledPlant& sampled = controller.solution.plant;
   const design::Plant& stated = controller.problem.plant;
