@@ -142,9 +142,7 @@ Samples continuous_samples(const Problem& problem, const Delay& delay) {
   take_moves(beside(period.A, period.B.leftCols(2 * nu)), nu, delay.samples, samples.plant);
   const RealMatrix held_G =
       held_noise ? RealMatrix(period.B.rightCols(nw)) : held_noise_input(problem, noise, segments.A, G);
-  const RealMatrix own_G = noise_is_sampled(problem)      ? identity(nx)
-                           : comes_at_samples(problem) ? G
-                                                       : held_G;
+  const RealMatrix own_G = noise_is_sampled(problem) ? identity(nx) : comes_at_samples(problem) ? G : held_G;
   samples.plant.G = padded(own_G, samples.plant.A.rows(), own_G.cols());
   if (noise_is_sampled(problem)) samples.noise = of_samples(noise, period.noise, held_G, T);
   if (!cost_is_integral(problem)) return samples;

@@ -70,8 +70,8 @@ void test_the_code_has_the_bits_of_the_host_in_every_arithmetic() {
       for (const char* covariance : {"ud", "plain"}) {
         const std::string kind = std::string("_") + real + "_" + arithmetic + "_" + covariance;
         const std::string form = std::string("covariance = \"") + covariance + "\"\n", end = code(real, arithmetic);
-        expect_emitted_to_pass(controller_of(named("ship" + kind, ship_plant + ship_filter + form + "gate = 6\n" + end)),
-                               {Language::c});
+        expect_emitted_to_pass(
+            controller_of(named("ship" + kind, ship_plant + ship_filter + form + "gate = 6\n" + end)), {Language::c});
         expect_emitted_to_pass(controller_of(named("cart" + kind, cart_plant + cart_filter + form + end)),
                                {Language::c});
       }
@@ -177,14 +177,14 @@ void expect_reference(const std::string& name, const std::string& design, const 
                       const double (&u)[reference::samples][1], const double (&x)[reference::samples][nx],
                       const double (&P)[reference::samples][np]) {
   const std::string N = std::to_string(nx), M = std::to_string(np), K = std::to_string(reference::samples);
-  const std::string program = "#include <stdio.h>\n#include \"" + name + ".h\"\nstatic const double y[] = {" +
-                              numbers(&y[0][0], 2 * reference::samples) + "};\nstatic const double u[] = {" +
-                              numbers(&u[0][0], reference::samples) + "};\nint main(void)\n{\n    " + name +
-                              "_t self;\n    double P[" + M + "];\n    " + name + "_init(&self);\n    for (int k = 0; k < " +
-                              K + "; k++) {\n        (void)" + name + "_step(&self, y + 2 * k, u + k);\n        " + name +
-                              "_covariance(&self, P);\n        for (int i = 0; i < " + N +
-                              "; i++) { printf(\"%.17g \", self.x[i]); }\n        for (int i = 0; i < " + M +
-                              "; i++) { printf(\"%.17g \", P[i]); }\n    }\n    return 0;\n}\n";
+  const std::string program =
+      "#include <stdio.h>\n#include \"" + name + ".h\"\nstatic const double y[] = {" +
+      numbers(&y[0][0], 2 * reference::samples) + "};\nstatic const double u[] = {" +
+      numbers(&u[0][0], reference::samples) + "};\nint main(void)\n{\n    " + name + "_t self;\n    double P[" + M +
+      "];\n    " + name + "_init(&self);\n    for (int k = 0; k < " + K + "; k++) {\n        (void)" + name +
+      "_step(&self, y + 2 * k, u + k);\n        " + name + "_covariance(&self, P);\n        for (int i = 0; i < " + N +
+      "; i++) { printf(\"%.17g \", self.x[i]); }\n        for (int i = 0; i < " + M +
+      "; i++) { printf(\"%.17g \", P[i]); }\n    }\n    return 0;\n}\n";
   std::istringstream answers(run_with_header(controller_of(design), program));
   for (int k = 0; k < reference::samples; ++k) {
     double largest = 0, found = 0;
@@ -239,7 +239,8 @@ int main(void)
            (predict & LQG_STATE_RESET) != 0u, self.x[0] == 1.0f && self.x[1] == 2.0f);
     return 0;
 }
-)--").c_str());
+)--")
+                                          .c_str());
 }
 
 void expect_refusal(const std::string& text, const std::string& key) {

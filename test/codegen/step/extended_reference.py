@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Extended Kalman filters with 60 digits, in matrices and with Jacobians by differences: python3 extended_reference.py >
-extended_reference.hpp.
+"""Extended Kalman filters with 60 digits, in matrices and with Jacobians by differences.
+
+Use: python3 extended_reference.py > extended_reference.hpp
 
 Nothing here is made as the code makes it: all outputs of a sample are one update, S is inverted as a matrix, and
 (f(x + h) - f(x - h))/2h with h = 1e-40 takes the place of dual numbers.
