@@ -27,10 +27,10 @@ void add_estimate(const Controller& controller, Fields& fields) {
   const auto size = [](const std::vector<double>& values) { return static_cast<int>(values.size()); };
   const std::string estimate = controller.modal ? "z of the estimate x̂ = T z" : "estimate x̂";
   const std::string error = controller.modal ? "z" : "x̂";
-  add_reals(fields, controller::kept_name(controller), model.nx, "{NAME}_NX",
-            estimate + ": of this sample after update, of the next one after predict" +
-                deviation_of(controller.point.x),
-            {model.x0.data(), model.x0.data() + model.nx});
+  add_reals(
+      fields, controller::kept_name(controller), model.nx, "{NAME}_NX",
+      estimate + ": of this sample after update, of the next one after predict" + deviation_of(controller.point.x),
+      {model.x0.data(), model.x0.data() + model.nx});
   add_reals(fields, "P", size(model.P0), std::to_string(model.P0.size()),
             "covariance of the error of " + error + ": lower triangle, P_ij at [i*(i+1)/2 + j]", model.P0);
   add_reals(fields, "U", size(model.U0), std::to_string(model.U0.size()),

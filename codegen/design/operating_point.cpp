@@ -22,8 +22,8 @@ void check_within(const VectorXd& point, const VectorXd& low, const VectorXd& hi
   for (Index i = 0; i < low.size(); ++i)
     if (point(i) < low(i) || point(i) > high(i))
       add_error(findings, entry(list, i),
-                "expected a number within " + limits + ", " + decimal(low(i)) + " to " + decimal(high(i)) +
-                    ", found " + decimal(point(i)));
+                "expected a number within " + limits + ", " + decimal(low(i)) + " to " + decimal(high(i)) + ", found " +
+                    decimal(point(i)));
 }
 
 void check_dropout(const Plant& plant, Findings& findings) {

@@ -61,9 +61,10 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
       {"plant.operating_point", Type::table, no, no, optional, {},
-       "Where the matrices are the linearisation of the plant: x, u and y of the design are deviations from this point. "
-       "All the rest of the file, and all that firmware hands over and gets, is in the plant's own units: limits, ranges, "
-       "initial states, references, y, u and x. Weights, noises and what [lqr.bryson] accepts are of deviations.",
+       "Where the matrices are the linearisation of the plant: x, u and y of the design are deviations from this "
+       "point. All the rest of the file, and all that firmware hands over and gets, is in the plant's own units: "
+       "limits, ranges, initial states, references, y, u and x. Weights, noises and what [lqr.bryson] accepts are of "
+       "deviations.",
        "x, u and y are those of the matrices", "README.md#operating-point"},
       {"plant.operating_point.states", Type::vector, nx, no, optional, {}, "The states there.", "0"},
       {"plant.operating_point.inputs", Type::vector, nu, no, optional, {},

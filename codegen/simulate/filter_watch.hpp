@@ -90,7 +90,7 @@ class FilterWatch {
   double nis() const { return nis_; }
   // That u is made of, the inputs on their way too, from the operating point.
   const Eigen::VectorXd& estimate() const { return estimate_; }
-  const Eigen::MatrixXd& P() const { return P_; }                // of its error
+  const Eigen::MatrixXd& P() const { return P_; }  // of its error
 
  private:
   void load(const design::SampledPlant& plant) {

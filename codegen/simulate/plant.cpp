@@ -47,8 +47,8 @@ VectorXd Plant::measure(const VectorXd& u) {
   for (Index i = 0; i < white.size(); ++i) white(i) = noise_.normal();
   drawn_ = ordered_image(now.noise_factor, white);
   const VectorXd acting = controller::as_deviations(u, point_.u);
-  return controller::in_own_units(
-      ordered_image(now.C, x_) + ordered_image(now.D, acting) + drawn_.tail(now.C.rows()), point_.y);
+  return controller::in_own_units(ordered_image(now.C, x_) + ordered_image(now.D, acting) + drawn_.tail(now.C.rows()),
+                                  point_.y);
 }
 
 void Plant::advance(const VectorXd& u) {

@@ -44,9 +44,9 @@ struct Surroundings : Unwatched {
     return in_target(controller.target, y);
   }
   VectorXd given_input() const {
-    return in_target(controller.target,
-                     options.input ? options.input(k)
-                                   : controller::in_own_units(VectorXd::Zero(controller.size.nu), point.u));
+    return in_target(controller.target, options.input
+                                            ? options.input(k)
+                                            : controller::in_own_units(VectorXd::Zero(controller.size.nu), point.u));
   }
   VectorXd state() const { return plant.state(); }
 };

@@ -37,7 +37,8 @@ double entry(const VectorXd& point, int i) { return point.size() ? point(i) : 0;
 
 }  // namespace
 
-Truth::Truth(const TruthModel& model, const VectorXd& x0, Noise& noise) : model_(model), noise_(noise), point_(controller::stated_point(*model.controller)) {
+Truth::Truth(const TruthModel& model, const VectorXd& x0, Noise& noise)
+    : model_(model), noise_(noise), point_(controller::stated_point(*model.controller)) {
   x0_ = VectorXd::Zero(model.nx + static_cast<Index>(model.lagged.size()));
   x0_.head(x0.size()) = x0;
   x_ = x0_;

@@ -202,9 +202,10 @@ void note_reference(const Problem& problem, const RealMatrix& asked, const std::
       if (!(size > reach)) continue;
       const int output = outputs[static_cast<std::size_t>(j)];
       add_note(findings, key_of_limit(*problem.limits, i),
-               (problem.plant.operating_point ? "a change by 1 of the reference for " : "a reference of 1 for ") + name_of(problem.plant.outputs, output, "y") + when + short_number(size) +
-                   " of " + name_of_input(problem, i) + ", which is limited to " + short_number(reach) +
-                   from_point(problem) + ": " + look);
+               (problem.plant.operating_point ? "a change by 1 of the reference for " : "a reference of 1 for ") +
+                   name_of(problem.plant.outputs, output, "y") + when + short_number(size) + " of " +
+                   name_of_input(problem, i) + ", which is limited to " + short_number(reach) + from_point(problem) +
+                   ": " + look);
     }
 }
 

@@ -25,8 +25,8 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
   };
   add(controller.size.nxi > 0, "ξ = 0");
   add(controller.size.nr > 0, controller.point.r.size() ? "r = the outputs of the operating point" : "r = 0");
-  add(controller.keeps.input, controller.point.u.size() ? "last input = that of the operating point"
-                                                        : "last input = 0");
+  add(controller.keeps.input,
+      controller.point.u.size() ? "last input = that of the operating point" : "last input = 0");
   add(controller.keeps.sample, "sample 0");
   add(controller.has.filter, "counters = 0");
   return write_function(templates::init, controller, {{"begin", begin}, {"body", bodies.init}});
@@ -217,8 +217,10 @@ std::string covariance_function(const Controller& controller) {
 std::string estimate_function(const Controller& controller) {
   if (!has_estimate(controller)) return "";
   return write_function(templates::estimate, controller,
-                        {{"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}},
-                        {{"is_modal", controller.modal.has_value()}});
+                        {{"what", controller.modal ? "x̂ = T z" : "x̂ in the plant's own units"},
+                         {"kept", controller.modal ? "z is what the filter keeps; only"
+                                                   : "The filter keeps what x̂ is beyond the operating point; only"},
+                         {"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}});
 }
 
 std::string set_state_function(const Controller& controller) {

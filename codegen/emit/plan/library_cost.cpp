@@ -178,9 +178,11 @@ long stack_of_loops(const Controller& controller) {
                       (controller.size.nxi ? aligned(real * ny) + aligned(ny) + 8 : 0) +
                       (controller.has.range ? aligned(real * ny) : 0);
   const long deviations = bytes_of_deviations(controller);
-  const long predict = (controller.point.u.size() > 0 ? aligned(real * controller.size.nu) : 0) + work + 16 + covariance + (remembers(controller) ? 8 : 0) + tables;
+  const long predict = (controller.point.u.size() > 0 ? aligned(real * controller.size.nu) : 0) + work + 16 +
+                       covariance + (remembers(controller) ? 8 : 0) + tables;
   const long whole = is_watched(controller) ? 0 : figures.whole - 8;
-  return std::max({law + deviations, update + deviations + whole + figures.update.of(controller), predict + figures.predict.of(controller)});
+  return std::max({law + deviations, update + deviations + whole + figures.update.of(controller),
+                   predict + figures.predict.of(controller)});
 }
 
 }  // namespace

@@ -113,8 +113,8 @@ std::string limit(const std::string& key, double given, double value) {
 }
 
 // Likewise, where the code has it as a deviation from the operating point.
-std::string limit(const Controller& controller, const std::string& key, const Eigen::VectorXd& given,
-                  Quantity of_point, const Eigen::VectorXd& point, int i, double value) {
+std::string limit(const Controller& controller, const std::string& key, const Eigen::VectorXd& given, Quantity of_point,
+                  const Eigen::VectorXd& point, int i, double value) {
   if (point.size() == 0 || point(i) == 0 || std::isinf(given(i))) return limit(key, given(i), value);
   return key + " = " + trace::literal(given(i), true) + " less " + constant_name(controller, of_point, i);
 }

@@ -70,9 +70,8 @@ TracedFunction trace_advance(const Controller& controller) {
   return trace_step(controller, keeps_outputs(controller),
                     [&](Function& into, const Model& model, State& state, TraceListener& listener) {
                       // NAME_move is called with deviations.
-                      const Symbols y = controller.is_predictor
-                                            ? load(controller, "y", "y", controller.size.ny, at_output)
-                                            : state.y;
+                      const Symbols y =
+                          controller.is_predictor ? load(controller, "y", "y", controller.size.ny, at_output) : state.y;
                       into.finite = step::advance(model, state, y, listener).node;
                       store_all(into, "self->z", state.z);
                     });

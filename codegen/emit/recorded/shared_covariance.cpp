@@ -162,8 +162,7 @@ TracedFunction trace_rows(const Controller& controller, int first, int end) {
 TracedFunction trace_end_of_predict(const Controller& controller) {
   return trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener,
                                     TracedFunction& function) {
-    const Symbols u =
-        step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
+    const Symbols u = step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
     function.finite = step::predict_plain_state(model, state, u, listener).node;
     function.checks_covariance = true;
     store_rest(controller, function, state);

@@ -143,8 +143,7 @@ TracedFunction trace_steady_predict(const Controller& controller, const SteadyPr
       controller, products,
       [&](SymbolicModel model, SymbolicState& state, TraceListener& listener, TracedFunction& function) {
         if (is_in_loop(products.A)) model.prediction_begun = load(controller, "sums", "begun", model.nx, at_state);
-        const Symbols u =
-            step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
+        const Symbols u = step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
         function.finite = step::predict(model, state, u, listener).node;
         store_state(controller, function, state, {});
       });

@@ -105,8 +105,8 @@ step::OperatingPoint<Expr> symbolic_point(const Controller& controller) {
   name(point.y, step::Quantity::point_y);
   for (int i = 0; i < point.r.size(); ++i)
     if (!step::is_at_zero(point.r, i))
-      point.r(i) = named(controller, point.r(i), step::Quantity::point_y,
-                         controller.references[static_cast<std::size_t>(i)]);
+      point.r(i) =
+          named(controller, point.r(i), step::Quantity::point_y, controller.references[static_cast<std::size_t>(i)]);
   return point;
 }
 

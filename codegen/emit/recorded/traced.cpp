@@ -161,8 +161,7 @@ TracedFunction trace_innovation(const Controller& controller) {
   const Model model = model_of_outputs(controller);
   const State state = load_state(controller, model, covariance_pattern(controller));
   TraceListener listener(controller, function);
-  const Symbols innovations =
-      step::innovations(model, state, load_outputs(controller, model, "y", listener), listener);
+  const Symbols innovations = step::innovations(model, state, load_outputs(controller, model, "y", listener), listener);
   for (int i = 0; i < model.ny; ++i) store(function, element("innovation", i), innovations(i));
   if (!controller.has.variance) return function;
   for (int i = 0; i < model.ny; ++i) {
@@ -200,8 +199,8 @@ TracedFunction trace_estimate_in_own_units(const Controller& controller) {
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
-  const Symbols x = step::own_state(
-      model.point, step::estimate(model, load_state(controller, model, {}), listener), listener);
+  const Symbols x =
+      step::own_state(model.point, step::estimate(model, load_state(controller, model, {}), listener), listener);
   for (int i = 0; i < model.nx; ++i) store(function, element("x", i), x(i));
   return function;
 }
@@ -231,7 +230,8 @@ TracedFunction trace_observation(const Controller& controller, int output) {
   const Model model = symbolic_model(controller);
   State state = load_state(controller, model, {});
   TraceListener listener(controller, function);
-  const Expr y = step::output_deviation(model.point, Expr::of(trace::graph().input("heard", "heard")), output, listener);
+  const Expr y =
+      step::output_deviation(model.point, Expr::of(trace::graph().input("heard", "heard")), output, listener);
   step::observe_alone(model, state, y, trace::is_less(Expr(0), Expr(1)), output, listener);
   store_state(controller, function, state, {});
   return function;

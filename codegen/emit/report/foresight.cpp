@@ -57,7 +57,8 @@ Quantity in_own_units(Quantity of, const Eigen::VectorXd& point, Eigen::Index i)
 
 design::Limits own_limits(const Controller& controller) {
   design::Limits limits = *controller.problem.limits;
-  limits.u_min = controller::own_input_limits(controller, +1), limits.u_max = controller::own_input_limits(controller, -1);
+  limits.u_min = controller::own_input_limits(controller, +1),
+  limits.u_max = controller::own_input_limits(controller, -1);
   limits.states = controller::own_state_limits(controller), limits.outputs = controller::own_output_limits(controller);
   return limits;
 }

@@ -131,11 +131,11 @@ std::vector<PageTable> point_tables(const Controller& controller) {
   if (!point) return {};
   PageTable table = {"Operating point, from which x, u and y of the matrices are deviations", {"", "at"}, {}};
   const design::Plant& plant = controller.problem.plant;
-  for (const auto& [signals, values] : {std::pair(&plant.states, &point->x), {&plant.inputs, &point->u},
-                                        {&plant.outputs, &point->y}})
+  for (const auto& [signals, values] :
+       {std::pair(&plant.states, &point->x), {&plant.inputs, &point->u}, {&plant.outputs, &point->y}})
     for (std::size_t i = 0; i < signals->size(); ++i)
-      table.rows.push_back({name_with_unit((*signals)[i]),
-                            number(design::Real((*values)(static_cast<Eigen::Index>(i))), true)});
+      table.rows.push_back(
+          {name_with_unit((*signals)[i]), number(design::Real((*values)(static_cast<Eigen::Index>(i))), true)});
   return {table};
 }
 

@@ -11,10 +11,10 @@ namespace lqg::emit {
 
 std::string summary(const Controller& controller) {
   const std::string worth = controller.worth ? "\n" + trace::wrap(worth_in_words(controller), 0, 96) + "\n" : "";
-  return controller.problem.name + "\n" + describe_point(controller) + describe_regulator(controller) + worth + describe_gains(controller) +
-         describe_optimum(controller) + describe_white(controller) + describe_loop(controller) +
-         describe_recovery(controller) + describe_rms(controller) + describe_poles(controller) +
-         describe_forms(controller) + describe_cost(controller);
+  return controller.problem.name + "\n" + describe_point(controller) + describe_regulator(controller) + worth +
+         describe_gains(controller) + describe_optimum(controller) + describe_white(controller) +
+         describe_loop(controller) + describe_recovery(controller) + describe_rms(controller) +
+         describe_poles(controller) + describe_forms(controller) + describe_cost(controller);
 }
 
 }  // namespace lqg::emit

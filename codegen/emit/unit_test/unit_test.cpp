@@ -161,7 +161,7 @@ std::string begin(const Controller& controller) {
 
 std::string reference_test(const Controller& controller) {
   const std::string update =
-      controller.linear  ? linear_estimate_check()
+      controller.linear          ? linear_estimate_check()
       : has_estimate(controller) ? linear_estimate_check() + covariance_check(controller)
       : controller.has.filter
           ? "        assert_near(x_tolerance, x_out[k], self.x, {NAME}_NX);\n" + covariance_check(controller)

@@ -72,9 +72,8 @@ class PhysicalPlayer : public Player {
       case Call::predict: return emitted_.predict(given_input(turn));
       case Call::set_state: return emitted_.set_state(given(turn, states()));
       case Call::set_input:
-        return controller_.has.filter
-                   ? emitted_.set_input(given_input(turn))
-                   : emitted_.set_input(numbers_of<S>(samples_[turn.row].y), given_input(turn));
+        return controller_.has.filter ? emitted_.set_input(given_input(turn))
+                                      : emitted_.set_input(numbers_of<S>(samples_[turn.row].y), given_input(turn));
       default: return look_or_write(turn, answer), 0;
     }
   }

@@ -107,7 +107,8 @@ template <class S>
 std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted) {
   simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
   Noise excitation(seed + 1);
-  const Eigen::VectorXd at_rest = controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller.point.u);
+  const Eigen::VectorXd at_rest =
+      controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller.point.u);
   Eigen::VectorXd applied = at_rest;
   std::vector<Sample> samples;
   while (samples.size() < sample_count && is_near(controller, plant.deviation())) {

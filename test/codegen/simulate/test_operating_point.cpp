@@ -101,7 +101,9 @@ void expect_shifted_runs(const std::string& text) {
   expect_shifted(own.innovation, at_zero.innovation, VectorXd::Zero(2), "innovation");
   TEST_ASSERT_TRUE(own.events == at_zero.events);
   const simulate::ScenarioNumbers &a = own.numbers, &b = at_zero.numbers;
-  for (const auto& [found, expected] : {std::pair(&a.rms_x, &b.rms_x), {&a.peak_u, &b.peak_u}, {&a.rms_y, &b.rms_y},
+  for (const auto& [found, expected] : {std::pair(&a.rms_x, &b.rms_x),
+                                        {&a.peak_u, &b.peak_u},
+                                        {&a.rms_y, &b.rms_y},
                                         {&a.share_at_limits, &b.share_at_limits}})
     for (std::size_t i = 0; i < found->size(); ++i)
       TEST_ASSERT_TRUE(std::abs((*found)[i] - (*expected)[i]) <= rounding);
