@@ -235,11 +235,10 @@ int main(void)
         given[i] = x0[i] + dx[i];
     }
 )" +
-         (size.nr
-              ? "    if (k >= 10)\n        for (int i = 0; i < NR; i++) {\n"
-                "            plain.r[i] = k % 40 == 39 ? (real)NAN : draw();\n"
-                "            about.r[i] = r0[i] + plain.r[i];\n        }\n"
-              : "") +
+         (size.nr ? "    if (k >= 10)\n        for (int i = 0; i < NR; i++) {\n"
+                    "            plain.r[i] = k % 40 == 39 ? (real)NAN : draw();\n"
+                    "            about.r[i] = r0[i] + plain.r[i];\n        }\n"
+                  : "") +
          (controller.linear       ? sample_of_form(controller)
           : controller.has.filter ? sample_of_filter(controller)
                                   : sample_of_regulator(controller)) +
