@@ -24,8 +24,8 @@ std::string describe_point(const Controller& controller) {
   const auto& point = controller.problem.plant.operating_point;
   if (!point) return "";
   const design::Plant& plant = controller.problem.plant;
-  return "\nOperating point: x, u and y of the matrices are deviations from it. All that is handed over and given back,\n"
-         "and r, is in the plant's own units.\n\n" +
+  return "\nOperating point: x, u and y of the matrices are deviations from it. All that is handed over and given "
+         "back,\nand r, is in the plant's own units.\n\n" +
          values_line("states   ", plant.states, point->x) + values_line("inputs   ", plant.inputs, point->u) +
          values_line("outputs  ", plant.outputs, point->y);
 }
