@@ -19,6 +19,9 @@ namespace {
 
 constexpr unsigned digits_of_search = 50, fewer_digits = 430, more_digits = 480;
 
+// Of more numbers to be found other points at rest are not sought, and of many more none.
+constexpr std::size_t most_for_others = 6, most_unknown = 40;
+
 const char* const point_key = "plant.operating_point";
 
 class Lineariser {
@@ -101,6 +104,12 @@ class Lineariser {
       report_rates(equations, given);
       return std::nullopt;
     }
+    if (unknown_.size() > most_unknown) {
+      add_error(
+          findings_, point_key,
+          "expected at most " + std::to_string(most_unknown) + " \"?\", found " + std::to_string(unknown_.size()));
+      return std::nullopt;
+    }
     return sought(equations, given);
   }
 
@@ -116,6 +125,7 @@ class Lineariser {
       }
       (undetermined(equations, *end, unknown_).empty() ? good : loose).push_back(*end);
       if (good.empty() && loose.size() >= 3) break;
+      if (!good.empty() && unknown_.size() > most_for_others) break;
     }
     if (good.empty()) {
       report_none(equations, loose, nearest);
