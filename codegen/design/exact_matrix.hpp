@@ -22,11 +22,11 @@ class ExactMatrix : public Eigen::MatrixXd {
  public:
   ExactMatrix() = default;
   template <class Derived>
-  ExactMatrix(const Eigen::MatrixBase<Derived>& doubles) : Eigen::MatrixXd(doubles) {}
+  ExactMatrix(const Eigen::EigenBase<Derived>& doubles) : Eigen::MatrixXd(doubles.derived()) {}
   template <class Derived>
-  ExactMatrix& operator=(const Eigen::MatrixBase<Derived>& doubles) {
+  ExactMatrix& operator=(const Eigen::EigenBase<Derived>& doubles) {
     exact_.reset();
-    Eigen::MatrixXd::operator=(doubles);
+    Eigen::MatrixXd::operator=(doubles.derived());
     return *this;
   }
   // Rounded, and kept with its digits where these say more.

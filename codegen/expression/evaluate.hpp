@@ -59,14 +59,15 @@ S value_of(Operation operation, const S& a, const S& b) {
 // `variable(index)` is the value of a variable; `constant(node)` that of a largest part without one: made with many
 // digits and rounded once, say.
 template <class S, class Variable, class Constant>
-S evaluate(const Node& node, const Variable& variable, const Constant& constant) {
+S evaluate(const Node& node, const Variable& variable, Constant&& constant) {
   if (node.is_constant) return constant(node);
   if (node.kind == Node::Kind::variable) return variable(node.index);
   if (node.kind != Node::Kind::operation) throw std::logic_error("the name " + node.name + " is not bound");
   const auto operand = [&](std::size_t i) -> S { return evaluate<S>(*node.operands[i], variable, constant); };
   if (node.operands.size() == 1) return value_of<S>(node.operation, operand(0));
   if (node.operation == Operation::power)
-    if (const std::optional<int> exponent = whole_exponent(*node.operands[1])) return whole_power(operand(0), *exponent);
+    if (const std::optional<int> exponent = whole_exponent(*node.operands[1]))
+      return whole_power(operand(0), *exponent);
   const S first = operand(0);
   return value_of<S>(node.operation, first, operand(1));
 }

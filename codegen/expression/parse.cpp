@@ -74,9 +74,7 @@ class Builder {
   void rise() { --depth_; }
 
   void begin_signs() { signs_.push_back({Operation::add, 0, true}); }
-  void take_sign(Iterator at) {
-    signs_.push_back({*at == '-' ? Operation::negate : Operation::add, place(at), false});
-  }
+  void take_sign(Iterator at) { signs_.push_back({*at == '-' ? Operation::negate : Operation::add, place(at), false}); }
   void end_signs() {
     for (; !signs_.back().begins; signs_.pop_back())
       if (signs_.back().operation == Operation::negate) make(Operation::negate, 1, signs_.back().at);
@@ -179,23 +177,23 @@ const auto take_operator = on([](Builder& builder, Iterator from, Iterator) { bu
 
 const auto sum_def = product >> *(sign_text[take_operator] > product > join);
 const auto product_def = with_signs >> *(product_sign[take_operator] > with_signs > join);
-const auto with_signs_def = then([](Builder& builder) { builder.begin_signs(); }) >>
-                            *sign_text[on([](Builder& builder, Iterator from, Iterator) { builder.take_sign(from); })] >>
-                            with_power >> then([](Builder& builder) { builder.end_signs(); });
+const auto with_signs_def =
+    then([](Builder& builder) { builder.begin_signs(); }) >>
+    *sign_text[on([](Builder& builder, Iterator from, Iterator) { builder.take_sign(from); })] >> with_power >>
+    then([](Builder& builder) { builder.end_signs(); });
 const auto with_power_def =
     atom >> -(power_sign[on([](Builder& builder, Iterator from, Iterator) { return builder.take_power(from); })] >
               with_signs > then([](Builder& builder) {
                 builder.join();
                 builder.rise();
               }));
-const auto number_atom = number_text[on(
-    [](Builder& builder, Iterator from, Iterator to) { return builder.take_number(from, to); })];
-const auto call = (name_text >> &x3::lit('('))[on([](Builder& builder, Iterator from, Iterator to) {
-                    return builder.begin_call(from, to);
-                  })] >>
-                  '(' > sum > *(',' > sum) > closing[on([](Builder& builder, Iterator from, Iterator) {
-                    return builder.end_call(from);
-                  })];
+const auto number_atom =
+    number_text[on([](Builder& builder, Iterator from, Iterator to) { return builder.take_number(from, to); })];
+const auto call =
+    (name_text >>
+     &x3::lit('('))[on([](Builder& builder, Iterator from, Iterator to) { return builder.begin_call(from, to); })] >>
+    '(' > sum >
+    *(',' > sum) > closing[on([](Builder& builder, Iterator from, Iterator) { return builder.end_call(from); })];
 const auto name_atom =
     name_text[on([](Builder& builder, Iterator from, Iterator to) { return builder.take_name(from, to); })];
 const auto group = opening[on([](Builder& builder, Iterator from, Iterator) { return builder.deepen(from); })] > sum >
@@ -233,7 +231,8 @@ std::variant<Tree, Fault> parse(const std::string& text) {
   if (text.size() > longest_text)
     return Fault{0, "a formula of " + std::to_string(text.size()) + " bytes; at most " + std::to_string(longest_text) +
                         " are read: name parts of it in [parameters]"};
-  const auto strange = std::find_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0x80) != 0; });
+  const auto strange =
+      std::find_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0x80) != 0; });
   if (strange != text.end())
     return not_expected(text, static_cast<std::size_t>(strange - text.begin()), "letters of a to z, digits and signs");
   Builder builder(text);

@@ -17,26 +17,14 @@ struct Described {
   bool is_function;
 };
 
-constexpr std::array<Described, 20> described = {{{Operation::negate, "-", 1, false},
-                                                  {Operation::add, "+", 2, false},
-                                                  {Operation::subtract, "-", 2, false},
-                                                  {Operation::multiply, "*", 2, false},
-                                                  {Operation::divide, "/", 2, false},
-                                                  {Operation::power, "^", 2, false},
-                                                  {Operation::sqrt, "sqrt", 1, true},
-                                                  {Operation::sin, "sin", 1, true},
-                                                  {Operation::cos, "cos", 1, true},
-                                                  {Operation::tan, "tan", 1, true},
-                                                  {Operation::asin, "asin", 1, true},
-                                                  {Operation::acos, "acos", 1, true},
-                                                  {Operation::atan, "atan", 1, true},
-                                                  {Operation::atan2, "atan2", 2, true},
-                                                  {Operation::exp, "exp", 1, true},
-                                                  {Operation::log, "log", 1, true},
-                                                  {Operation::tanh, "tanh", 1, true},
-                                                  {Operation::abs, "abs", 1, true},
-                                                  {Operation::min, "min", 2, true},
-                                                  {Operation::max, "max", 2, true}}};
+constexpr std::array<Described, 20> described = {
+    {{Operation::negate, "-", 1, false},   {Operation::add, "+", 2, false},      {Operation::subtract, "-", 2, false},
+     {Operation::multiply, "*", 2, false}, {Operation::divide, "/", 2, false},   {Operation::power, "^", 2, false},
+     {Operation::sqrt, "sqrt", 1, true},   {Operation::sin, "sin", 1, true},     {Operation::cos, "cos", 1, true},
+     {Operation::tan, "tan", 1, true},     {Operation::asin, "asin", 1, true},   {Operation::acos, "acos", 1, true},
+     {Operation::atan, "atan", 1, true},   {Operation::atan2, "atan2", 2, true}, {Operation::exp, "exp", 1, true},
+     {Operation::log, "log", 1, true},     {Operation::tanh, "tanh", 1, true},   {Operation::abs, "abs", 1, true},
+     {Operation::min, "min", 2, true},     {Operation::max, "max", 2, true}}};
 
 const Described& of(Operation operation) { return described[static_cast<std::size_t>(operation)]; }
 

@@ -39,7 +39,7 @@ using Tree = std::shared_ptr<const Node>;
 // `at` is where it begins in its text, in bytes; of an operation of two operands where its sign stands.
 struct Node {
   enum class Kind {
-    number,     // the double that the text's number is
+    number,  // the double that the text's number is
     pi,
     name,       // not bound yet
     variable,   // number `index` of the signals that the formula is over
