@@ -57,7 +57,7 @@ class EquationsReader {
     if (!values_.has("plant.f")) return refuse_without_f();
     for (const char* key : {"plant.A", "plant.B", "plant.C", "plant.D", "plant.operating_point.outputs"})
       if (values_.has(key)) report_.error(key, "comes from plant.f and plant.h: expected one of the two");
-    if (!are_names_known() || !check_names()) return;
+    if (!check_lists() || !are_names_known() || !check_names()) return;
     auto equations = std::make_shared<design::Equations>();
     const bool is_good = read_formulas("plant.f", equations->f, equations->f_text);
     if (!read_formulas("plant.h", equations->h, equations->h_text) || !is_good) return;
@@ -114,11 +114,29 @@ class EquationsReader {
     values_.matrices[key] = design::ExactMatrix::of(column);
   }
 
+  // Arrays, and no longer than a plant may be.
+  bool check_lists() {
+    bool good = true;
+    for (const char* part : {"f", "h", "inputs"}) {
+      const Node* list = value_in(plant_, part);
+      const std::string key = "plant." + std::string(part);
+      if (list == nullptr || (list->kind != Kind::array && key == "plant.inputs")) continue;
+      const bool is_list = list->kind == Kind::array && !list->items.empty();
+      if (is_list && list->items.size() <= most_signals) continue;
+      good = false;
+      report_.error(key, is_list ? "expected at most " + std::to_string(most_signals) + ", found " +
+                                       std::to_string(list->items.size())
+                                 : "expected an array of formulas in quotes, found " + describe(*list));
+    }
+    return good;
+  }
+
   // Wrong ones have been reported.
   bool are_names_known() const {
     for (const char* key : {"plant.states", "plant.inputs"})
       if (values_.has(key) && values_.signals.count(key) == 0) return false;
-    return values_.sizes.at(Size::nx) > 0;
+    const int nx = values_.sizes.at(Size::nx), nu = values_.sizes.at(Size::nu);
+    return static_cast<int>(states_.size()) == nx && static_cast<int>(inputs_.size()) == nu;
   }
 
   bool check_names() {
@@ -143,10 +161,6 @@ class EquationsReader {
   bool read_formulas(const std::string& key, Trees& formulas, Names& texts) {
     const Node* list = value_in(plant_, key.substr(key.find('.') + 1));
     if (list == nullptr) return true;
-    if (list->kind != Kind::array || list->items.empty()) {
-      report_.error(key, "expected an array of formulas in quotes, found " + describe(*list));
-      return false;
-    }
     bool good = true;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
       const Node& node = list->items[i];

@@ -35,8 +35,8 @@ class Rest {
 // of squares, each in units of its size, falls no more. Nothing where there is no value at the point itself.
 std::optional<RealVector> descended(const Rest& rest, RealVector point, const std::vector<Index>& unknown);
 
-// By Gauss's and Newton's method from nearby, to all digits in force. Nothing where that takes long: where the equations
-// touch 0 and do not pass through it.
+// By Gauss's and Newton's method from nearby, to all digits in force. Nothing where that takes long: where the
+// equations touch 0 and do not pass through it.
 std::optional<RealVector> polished(const Rest& rest, RealVector point, const std::vector<Index>& unknown);
 
 // All of them are 0 but for the rounding of the numbers that they are made of.

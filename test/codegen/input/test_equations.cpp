@@ -108,6 +108,20 @@ void test_a_wrong_name_is_told_with_its_place_and_a_likely_one() {
                  "\"th\"");
 }
 
+void test_lists_have_their_form_and_length() {
+  const auto with_f = [](const std::string& f) { return names + "f = " + f + "\nh = [\"th\"]\n" + point; };
+  expect_refusal(with_f("\"om\""), "10:5: plant.f: expected an array of formulas in quotes, found a string");
+  expect_refusal(with_f("[]"), "10:5: plant.f: expected an array of formulas in quotes, found an empty array");
+  expect_refusal(with_f("[\"om\", true]"), "10:12: plant.f[1]: expected a formula in quotes, found a boolean");
+  const std::string found = all_findings(read(with_f("[\"om\"]")));
+  TEST_ASSERT_TRUE_MESSAGE(found.rfind("p.toml:8:10: plant.states: expected 1 name (nx), found 2", 0) == 0,
+                           found.c_str());
+  std::string many = "[";
+  for (int i = 0; i < 257; ++i) many += "\"om\", ";
+  TEST_ASSERT_TRUE(all_findings(read(with_f(many + "]"))).find("plant.f: expected at most 256, found 257") !=
+                   std::string::npos);
+}
+
 void test_names_that_clash_are_refused() {
   const auto with_names = [](const std::string& states, const std::string& inputs) {
     return "domain = \"continuous\"\nsample_time = 0.01\nstates = " + states + "\ninputs = " + inputs + "\n" +
@@ -219,6 +233,7 @@ int main(int, char** arguments) {
   RUN_TEST(test_what_stands_beside_equations_is_refused);
   RUN_TEST(test_a_missing_operating_point_is_asked_for);
   RUN_TEST(test_a_wrong_name_is_told_with_its_place_and_a_likely_one);
+  RUN_TEST(test_lists_have_their_form_and_length);
   RUN_TEST(test_names_that_clash_are_refused);
   RUN_TEST(test_units_have_to_be_those_of_the_signals);
   RUN_TEST(test_the_point_has_its_form);
