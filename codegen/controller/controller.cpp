@@ -89,8 +89,9 @@ bool has_feedthrough(const Controller& controller) {
 // In the numbers of the controller.
 Eigen::VectorXd start_of(const Controller& controller) {
   if (!controller.has.filter) return {};
-  const Eigen::VectorXd x0 = design::to_doubles(controller.solution.start->x0).col(0);
-  return is_extended(controller) ? in_own_units(x0, stated_point(controller).x) : x0;
+  if (is_extended(controller) && controller.problem.estimator->extended->own_x0.size())
+    return controller.problem.estimator->extended->own_x0;
+  return design::to_doubles(controller.solution.start->x0).col(0);
 }
 
 // Of the innovations of each sample, those of tables of gains included.

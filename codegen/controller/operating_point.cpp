@@ -39,13 +39,14 @@ VectorXd states_of_point(const Controller& controller) {
 }
 
 template <class T>
-T farthest(T limit, T point, int inward) {
+T limit_from(T point, T limit, int inward) {
   const auto is_within = [&](T deviation) {
     const T sum = point + deviation;
     return inward < 0 ? sum <= limit : sum >= limit;
   };
   const T inside = inward < 0 ? -std::numeric_limits<T>::infinity() : std::numeric_limits<T>::infinity();
   T near = limit - point;
+  if (point + near == limit) return near;
   while (!is_within(near)) near = std::nextafter(near, inside);
   T width = std::max(std::abs(limit), std::abs(point)) * std::numeric_limits<T>::epsilon() +
             std::numeric_limits<T>::denorm_min(),
@@ -134,14 +135,24 @@ void check_point(const Controller& controller, design::Findings& findings) {
 
 double deviation_limit(double limit, double point, int inward, bool is_double) {
   if (std::isinf(limit)) return limit;
-  if (is_double) return farthest(limit, point, inward);
-  return static_cast<double>(farthest(static_cast<float>(limit), static_cast<float>(point), inward));
+  if (is_double) return limit_from(point, limit, inward);
+  return static_cast<double>(limit_from(static_cast<float>(point), static_cast<float>(limit), inward));
 }
 
 VectorXd input_limits(const Controller& controller, int inward) {
   const bool is_double = controller.target.is_double;
   return limits_of(own_input_limits(controller, inward), controller.point.u, inward, is_double,
                    [&](double limit, double point) { return deviation_limit(limit, point, inward, is_double); });
+}
+
+VectorXd input_limits_reached(const Controller& controller, int inward) {
+  const bool is_double = controller.target.is_double;
+  VectorXd limits = input_limits(controller, inward);
+  const VectorXd& point = controller.point.u;
+  for (Index i = 0; i < limits.size() && point.size(); ++i)
+    limits(i) = is_double ? point(i) + limits(i)
+                          : static_cast<double>(static_cast<float>(point(i)) + static_cast<float>(limits(i)));
+  return limits;
 }
 
 VectorXd output_range(const Controller& controller, int inward) {

@@ -23,14 +23,17 @@ Eigen::VectorXd as_deviations(Eigen::VectorXd own, const Eigen::VectorXd& point)
 // What the target could not add to a number without leaving its range.
 void check_point(const Controller& controller, design::Findings& findings);
 
-// The deviation farthest from the operating point whose sum with it, as the target rounds it, does not leave `limit`,
-// a limit in the plant's own units: `inward` is −1 for the largest value, +1 for the smallest. Infinite where that is.
+// The difference limit − point, where its sum with the point is `limit` as the target rounds both; else the deviation
+// farthest from the point whose sum does not leave it. `limit` is in the plant's own units, `inward` −1 for the largest
+// value and +1 for the smallest. Infinite where the limit is.
 double deviation_limit(double limit, double point, int inward, bool is_double);
 
 // The limits of u, and the ranges of the outputs, in the target's numbers, as deviations: of an output as the target
 // rounds y − point, so that no y within its range is beyond.
 Eigen::VectorXd input_limits(const Controller& controller, int inward);
 Eigen::VectorXd output_range(const Controller& controller, int inward);
+// What u is, in the plant's own units, where such a limit holds it.
+Eigen::VectorXd input_limits_reached(const Controller& controller, int inward);
 
 // The same in the plant's own units, not rounded: as the file states them.
 const Eigen::VectorXd& own_input_limits(const Controller& controller, int inward);

@@ -19,6 +19,9 @@ namespace {
 
 constexpr unsigned digits_of_search = 50, fewer_digits = 430, more_digits = 480;
 
+// Of more numbers to be found other points at rest are not sought, and of many more none.
+constexpr std::size_t most_for_others = 6, most_unknown = 40;
+
 const char* const point_key = "plant.operating_point";
 
 class Lineariser {
@@ -41,7 +44,9 @@ class Lineariser {
       add_error(findings_, point_key, std::to_string(more_digits) + " digits do not settle the slopes at this point");
       return std::nullopt;
     }
-    return are_doubles(*fine) ? fine : std::nullopt;
+    if (!are_doubles(*fine)) return std::nullopt;
+    note_moving(*found);
+    return fine;
   }
 
  private:
@@ -99,6 +104,12 @@ class Lineariser {
       report_rates(equations, given);
       return std::nullopt;
     }
+    if (unknown_.size() > most_unknown) {
+      add_error(
+          findings_, point_key,
+          "expected at most " + std::to_string(most_unknown) + " \"?\", found " + std::to_string(unknown_.size()));
+      return std::nullopt;
+    }
     return sought(equations, given);
   }
 
@@ -114,6 +125,7 @@ class Lineariser {
       }
       (undetermined(equations, *end, unknown_).empty() ? good : loose).push_back(*end);
       if (good.empty() && loose.size() >= 3) break;
+      if (!good.empty() && unknown_.size() > most_for_others) break;
     }
     if (good.empty()) {
       report_none(equations, loose, nearest);
@@ -170,6 +182,18 @@ class Lineariser {
                       "f is 0 at " + listed(first) + ", which is taken, and also at " + listed(other) +
                           "; \"? 0.5\" says where the search begins");
     }
+  }
+
+  // What need not be at rest, and is not.
+  void note_moving(const RealVector& found) {
+    const Digits scope(digits_of_search);
+    std::vector<Index> others;
+    for (Index i = 0; i < nx_; ++i)
+      if (!wanted_.is_steady[static_cast<std::size_t>(i)]) others.push_back(i);
+    const Rest moving(plant_, others);
+    if (is_at_rest(moving, found)) return;
+    add_note(findings_, point_key,
+             rates_at(moving, found) + " at this point: the linear plant, and a filter of it, do not know of that");
   }
 
   // One row of values and slopes of each formula.

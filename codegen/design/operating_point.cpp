@@ -79,6 +79,7 @@ void express_as_deviations(Problem& problem, Findings& findings) {
     check_within(point.y, point.output_min, point.output_max, "outputs", "kalman.output_min and kalman.output_max",
                  findings);
     less(problem.estimator->output_min, point.y), less(problem.estimator->output_max, point.y);
+    if (problem.estimator->extended) problem.estimator->extended->own_x0 = problem.estimator->x0;
     less(problem.estimator->x0, point.x);
   }
   for (Scenario& scenario : problem.scenarios) less(scenario, point);

@@ -123,7 +123,8 @@ enum class Integrator { rk4, euler };
 // An extended filter: with Gain::online, over the equations of the plant, linearised at its own estimate.
 struct Extended {
   Integrator integrator = Integrator::rk4;
-  std::vector<int> wraps;  // outputs that are angles, in rad: their innovations lie in [−π, π)
+  std::vector<int> wraps;       // outputs that are angles, in rad: their innovations lie in [−π, π)
+  Eigen::VectorXd own_x0 = {};  // the initial state in the plant's own units, where that of the filter is a deviation
 };
 
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.

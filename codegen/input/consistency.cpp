@@ -90,6 +90,8 @@ void check_companions(const Values& values, Report& report) {
         "[lqr] or [pole_placement]: without a regulator there is no loop");
   for (const char* key : {"kalman.integrator", "kalman.wraps"})
     needs(key, gain == "extended", "kalman.gain = \"extended\"");
+  needs("kalman.integrator", values.text("plant.domain") != "discrete",
+        "plant.domain = \"continuous\": plant.f of a discrete plant is the step itself");
   needs("kalman.recovery", gain != "online" && gain != "extended",
         "kalman.gain = \"steady\" or \"schedule\": a covariance that is carried with noise that is not there would not "
         "be that of the error");

@@ -37,8 +37,8 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`\"continuous\"`, with a note"},
       {"plant.sample_time", Type::positive, no, no, required, {}, "Sampling period of the loop, in s."},
       {"plant.f", Type::formulas, nx, no, optional, {},
-       "The plant as equations, in place of `A`, `B`, `C` and `D`: of each state its derivative, or its value in the next "
-       "sample with a discrete plant, as a formula over states, inputs and parameters.",
+       "The plant as equations, in place of `A`, `B`, `C` and `D`: of each state its derivative, or its value in the "
+       "next sample with a discrete plant, as a formula over states, inputs and parameters.",
        "the plant is linear", "README.md#plants-as-equations"},
       {"plant.h", Type::formulas, ny, no, optional, {},
        "Of each output its formula. Without it lqgen designs a regulator alone.", "no outputs",
@@ -74,14 +74,14 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
       {"plant.operating_point", Type::table, no, no, optional, {},
-       "Where `f` and `h` are linearised, or where the matrices are the linearisation of the plant: x, u and y of the "
+       "Where the matrices are the linearisation of the plant, or where `f` and `h` are linearised: x, u and y of the "
        "design are deviations from this point. All the rest of the file, and all that firmware hands over and gets, is "
        "in the plant's own units: limits, ranges, initial states, references, y, u and x. Weights, noises and what "
        "[lqr.bryson] accepts are of deviations.",
        "x, u and y are those of the matrices", "README.md#operating-point"},
       {"plant.operating_point.states", Type::point, nx, no, optional, {},
-       "The states there. With `f` also `\"?\"` for what is found so that f = 0; `\"? 0.5\"` says where the search begins.",
-       "0"},
+       "The states there: numbers or formulas; of `plant.f` also `\"?\"` for what is found so that f = 0. "
+       "`\"? 0.5\"` says where the search begins.", "0"},
       {"plant.operating_point.inputs", Type::point, nu, no, optional, {},
        "The inputs that keep the plant there, likewise.", "0"},
       {"plant.operating_point.outputs", Type::vector, ny, no, optional, {},

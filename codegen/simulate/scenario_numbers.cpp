@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "controller/limit_of_target.hpp"
 #include "controller/operating_point.hpp"
 
 namespace lqg::simulate {
@@ -42,21 +41,19 @@ std::vector<double> share_at_limits(const Controller& controller, const MatrixXd
   if (!controller.problem.limits || u.cols() == 0) return out;
   const design::Limits& limits = *controller.problem.limits;
   const Eigen::VectorXd start = controller::in_own_units(Eigen::VectorXd::Zero(u.rows()), controller.point.u);
-  const bool is_double = controller.target.is_double;
-  const auto target_limit = [&](const Eigen::VectorXd& from, Index i, int inward) {
-    return controller::limit_of_target(from(i), inward, is_double);
-  };
+  const double epsilon = controller.target.is_double ? 0x1p-52 : 0x1p-23;
+  const bool is_limited = limits.u_min.size() > 0;
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(u.rows(), design::forever);
+  const Eigen::VectorXd low = is_limited ? controller::input_limits_reached(controller, +1) : Eigen::VectorXd(-none);
+  const Eigen::VectorXd high = is_limited ? controller::input_limits_reached(controller, -1) : none;
   for (Index i = 0; i < u.rows(); ++i) {
-    const double least =
-        limits.u_min.size() ? target_limit(controller::own_input_limits(controller, +1), i, +1) : -design::forever;
-    const double most =
-        limits.u_max.size() ? target_limit(controller::own_input_limits(controller, -1), i, -1) : design::forever;
     const double step =
         limits.u_rate.size() ? limits.u_rate(i) * controller.problem.plant.sample_time : design::forever;
     Index count = 0;
     for (Index k = 0; k < u.cols(); ++k) {
       const double change = std::abs(u(i, k) - (k ? u(i, k - 1) : start(i)));
-      count += u(i, k) <= least || u(i, k) >= most || change >= step * (1 - 1e-6);
+      const double rounding = controller.point.u.size() > 0 ? 2 * epsilon * std::abs(u(i, k)) : 0;
+      count += u(i, k) <= low(i) || u(i, k) >= high(i) || change >= step * (1 - 1e-6) - rounding;
     }
     out[static_cast<std::size_t>(i)] = static_cast<double>(count) / static_cast<double>(u.cols());
   }

@@ -112,7 +112,7 @@ inline const char* equation_of_step(Integration integration) {
   switch (integration) {
     case Integration::none: return "x̂ ← f(x̂, u), and A, its Jacobian";
     case Integration::euler: return "x̂ ← x̂ + T f(x̂, u), and A, the Jacobian of this step";
-    default: return "x̂ ← x̂ + T/6 (k1 + 2 k2 + 2 k3 + k4), k of f(x̂, u): Runge-Kutta, and A, the Jacobian of this step";
+    default: return "x̂ ← x̂ + T/6 (k1 + 2 k2 + 2 k3 + k4), Runge-Kutta, and A, the Jacobian of this step";
   }
 }
 

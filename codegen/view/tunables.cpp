@@ -17,7 +17,7 @@ using design::Signal;
 using input::PlacedNumber;
 
 enum class Named { nothing, states, inputs, outputs, noises, integrals };
-enum class Span { weight, largest, time, limit, rate, walk, delay, steps, gate, spike, decay };
+enum class Span { point, weight, largest, time, limit, rate, walk, delay, steps, gate, spike, decay };
 
 struct Rule {
   const char* key;
@@ -31,6 +31,8 @@ struct Rule {
 const Rule rules[] = {
     {"plant.sample_time", "Timing", Named::nothing, Span::time, "s"},
     {"plant.delay", "Timing", Named::nothing, Span::delay, "s"},
+    {"plant.operating_point.states", "Operating point", Named::states, Span::point},
+    {"plant.operating_point.inputs", "Operating point", Named::inputs, Span::point},
     {"lqr.Q", "Weights of the states", Named::states, Span::weight},
     {"lqr.Q_output", "Weights of the outputs", Named::outputs, Span::weight},
     {"lqr.R", "Weights of the inputs", Named::inputs, Span::weight},
@@ -173,6 +175,12 @@ void span_delay(Tunable& tunable, const design::Plant& plant) {
   if (plant.domain == design::Domain::discrete) tunable.step = plant.sample_time;
 }
 
+// Twice the number to both sides, or 1.
+void span_both_sides(Tunable& tunable) {
+  tunable.high = tunable.value == 0 ? 1 : 2 * std::abs(tunable.value);
+  tunable.low = -tunable.high;
+}
+
 // α of a continuous cost is a rate from 0 on; of samples a factor from 1 on.
 void span_decay(Tunable& tunable, const design::Problem& problem) {
   if (problem.regulator && problem.regulator->cost == design::Cost::continuous) return span_from_zero(tunable, 1);
@@ -183,6 +191,7 @@ void span_decay(Tunable& tunable, const design::Problem& problem) {
 void set_range(Tunable& tunable, const Rule& rule, double largest, const design::Problem& problem) {
   const bool has_decades = tunable.value > 0;
   switch (rule.span) {
+    case Span::point: span_both_sides(tunable); break;
     case Span::weight: has_decades ? span_decades(tunable, 1000) : span_from_zero(tunable, largest); break;
     case Span::largest: span_decades(tunable, 30); break;
     case Span::time: span_decades(tunable, 10); break;

@@ -200,10 +200,11 @@ static inline double lqg_atan(double x)
 {
     LQG_STRICT_BODY
     const uint64_t bits = lqg_bits(x), a = bits & 0x7fffffffffffffffu;
-    double t = lqg_of_bits(a);
+    double t;
 
     if (a > 0x7ff0000000000000u)
         return lqg_of_bits(LQG_NAN);
+    t = lqg_of_bits(a);
     if (a > 0x3ff0000000000000u) /* π/2 − atan 1/a */
         t = 1.5707963267948966 - lqg_atan_plus(1.0 / t, -6.123233995736766e-17);
     else

@@ -187,10 +187,11 @@ static inline float lqg_atanf(float x)
 {
     LQG_STRICT_BODY
     const uint32_t bits = lqg_bitsf(x), a = bits & 0x7fffffffu;
-    float t = lqg_of_bitsf(a);
+    float t;
 
     if (a > 0x7f800000u)
         return lqg_of_bitsf(LQG_NANF);
+    t = lqg_of_bitsf(a);
     if (a > 0x3f800000u) /* π/2 − atan 1/a */
         t = 1.57079637f - lqg_atan_plusf(1.0f / t, 4.37113883e-08f);
     else

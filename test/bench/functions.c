@@ -30,9 +30,18 @@ static void call(const function_t *f, const REAL x[2], REAL results[2])
         f->to_two(x[0], &results[0], &results[1]);
 }
 
-static REAL no_function_of_one(REAL x) { return x; }
-static REAL no_function_of_two(REAL y, REAL x) { return (void)x, y; }
-static void no_function_to_two(REAL x, REAL *a, REAL *b) { (void)x, (void)a, (void)b; }
+static REAL no_function_of_one(REAL x)
+{
+    return x;
+}
+static REAL no_function_of_two(REAL y, REAL x)
+{
+    return (void)x, y;
+}
+static void no_function_to_two(REAL x, REAL *a, REAL *b)
+{
+    (void)x, (void)a, (void)b;
+}
 
 static function_t nothing_like(const function_t *f)
 {
@@ -88,10 +97,10 @@ static REAL libm_wrap(REAL x)
     return LIBM(remainder)(x, (REAL)6.283185307179586);
 }
 
-#define MEASURE(name, shape, ours, libm, low, high) \
-    { \
-        const function_t a = {shape(ours)}, b = {shape(libm)}; \
-        measure(#name "_mean", #name "_most", &a, low, high); \
+#define MEASURE(name, shape, ours, libm, low, high)                     \
+    {                                                                   \
+        const function_t a = {shape(ours)}, b = {shape(libm)};          \
+        measure(#name "_mean", #name "_most", &a, low, high);           \
         measure(#name "_libm_mean", #name "_libm_most", &b, low, high); \
     }
 #define ONE(f) f, 0, 0
@@ -102,7 +111,8 @@ int main(void)
 {
     start_counting();
     if (instructions_in(ticks_of_call(0, 0, 0, do_nothing_a_thousand_times, stack + STACK_WORDS)) -
-            instructions_in(ticks_of_call(0, 0, 0, do_nothing, stack + STACK_WORDS)) != 1000)
+            instructions_in(ticks_of_call(0, 0, 0, do_nothing, stack + STACK_WORDS)) !=
+        1000)
         return 1;
     MEASURE(sin_cos, TO_TWO, OURS(sin_cos), libm_sin_cos, -10, 10)
     MEASURE(sin, ONE, OURS(sin), LIBM(sin), -10, 10)

@@ -54,9 +54,8 @@ std::string obstacle(Operation operation, const std::vector<Slope>& operands) {
 // One walk over a formula.
 class SlopeWalk {
  public:
-  // With `constants` > 0 so many constants are variables, too, after those of the point.
-  SlopeWalk(const RealVector& point, const Node* other_side, Index constants)
-      : point_(point), other_side_(other_side), constants_(constants) {}
+  // At the tie `other_side`, if there is one, the other branch is taken.
+  SlopeWalk(const RealVector& point, const Node* other_side) : point_(point), other_side_(other_side) {}
 
   Slope walk(const Node& node) {
     if (fault_) return Slope(Real(1));
@@ -70,7 +69,8 @@ class SlopeWalk {
  private:
   Slope slope_there(const Node& node) {
     if (node.is_constant) return constant(node);
-    if (node.kind == Node::Kind::variable) return variable(point_(node.index), node.index);
+    if (node.kind == Node::Kind::variable)
+      return Slope::variable(point_(node.index), node.index, static_cast<int>(point_.size()));
     if (node.operation == Operation::power)
       if (const std::optional<int> exponent = expression::whole_exponent(*node.operands[1]))
         return whole_power(node, *exponent);
@@ -88,13 +88,10 @@ class SlopeWalk {
   void refuse(const Node& node, const std::string& reason) {
     if (!reason.empty() && !fault_) fault_ = NoSlope{node.at, reason};
   }
-  Slope variable(const Real& value, Index index) const {
-    return Slope::variable(value, static_cast<int>(index), static_cast<int>(point_.size() + constants_));
-  }
   Slope constant(const Node& node) {
     const Real value = values_(node);
     if (!isfinite(value)) refuse(node, "a number that has no value");
-    return constants_ == 0 ? Slope(value) : variable(value, point_.size() + next_++);
+    return Slope(value);
   }
   Slope whole_power(const Node& node, int exponent) {
     const Slope base = walk(*node.operands[0]);
@@ -110,20 +107,45 @@ class SlopeWalk {
   expression::Constants<Real> values_;
   const RealVector& point_;
   const Node* other_side_;
-  Index constants_, next_ = 0;
   std::optional<NoSlope> fault_;
   std::vector<const Node*> ties_;
 };
 
-// The constants in the order of SlopeWalk: a whole exponent is none.
-template <class Visit>
-void for_each_constant(const Node& node, const Visit& visit) {
-  if (node.is_constant) return visit(node);
-  const bool is_whole_power = node.kind == Node::Kind::operation && node.operation == Operation::power &&
-                              expression::whole_exponent(*node.operands[1]);
-  for (std::size_t i = 0; i < (is_whole_power ? 1 : node.operands.size()); ++i)
-    for_each_constant(*node.operands[i], visit);
-}
+// A value and the sum of the sizes of what it is made of, each through its own slope.
+struct Sized {
+  Real value, size;
+};
+
+class SizeWalk {
+ public:
+  explicit SizeWalk(const RealVector& point) : point_(point) {}
+
+  Sized walk(const Node& node) {
+    if (node.is_constant) return of_number(values_(node));
+    if (node.kind == Node::Kind::variable) return of_number(point_(node.index));
+    if (node.operation == Operation::power)
+      if (const std::optional<int> exponent = expression::whole_exponent(*node.operands[1])) {
+        const Sized base = walk(*node.operands[0]);
+        const Slope power = expression::whole_power(Slope::variable(base.value, 0, 1), *exponent);
+        return {power.value, Real(abs(power.slope(0)) * base.size)};
+      }
+    const Sized a = walk(*node.operands[0]);
+    if (node.operands.size() == 1) {
+      const Slope of_a = expression::value_of(node.operation, Slope::variable(a.value, 0, 1));
+      return {of_a.value, Real(abs(of_a.slope(0)) * a.size)};
+    }
+    const Sized b = walk(*node.operands[1]);
+    const Slope of_both =
+        expression::value_of(node.operation, Slope::variable(a.value, 0, 2), Slope::variable(b.value, 1, 2));
+    return {of_both.value, Real(abs(of_both.slope(0)) * a.size + abs(of_both.slope(1)) * b.size)};
+  }
+
+ private:
+  static Sized of_number(const Real& value) { return {value, Real(abs(value))}; }
+
+  expression::Constants<Real> values_;
+  const RealVector& point_;
+};
 
 bool is_same_slope(const Slope& a, const Slope& b, Index variables) {
   for (Index i = 0; i < variables; ++i)
@@ -139,13 +161,15 @@ bool is_finite(const Slope& slope) {
 }  // namespace
 
 std::variant<Slope, NoSlope> slope_of(const Node& formula, const RealVector& point, Kinks kinks) {
-  SlopeWalk walk(point, nullptr, 0);
+  SlopeWalk walk(point, nullptr);
   const Slope slope = walk.walk(formula);
   if (walk.fault()) return *walk.fault();
   if (!is_finite(slope)) return NoSlope{formula.at, "it has no finite value"};
   if (kinks == Kinks::take_a_side) return slope;
+  constexpr std::size_t most_ties = 100;
+  if (walk.ties().size() > most_ties) return NoSlope{formula.at, "more than 100 branches meet there"};
   for (const Node* tie : walk.ties()) {
-    const Slope beyond = SlopeWalk(point, tie, 0).walk(formula);
+    const Slope beyond = SlopeWalk(point, tie).walk(formula);
     if (!is_finite(beyond) || !is_same_slope(slope, beyond, point.size()))
       return NoSlope{tie->at, std::string(expression::name_of(tie->operation)) + " has a kink there"};
   }
@@ -153,15 +177,8 @@ std::variant<Slope, NoSlope> slope_of(const Node& formula, const RealVector& poi
 }
 
 Real size_of_terms(const Node& formula, const RealVector& point) {
-  std::vector<Real> values(point.data(), point.data() + point.size());
-  expression::Constants<Real> value_of;
-  for_each_constant(formula, [&](const Node& node) { values.push_back(value_of(node)); });
-  SlopeWalk walk(point, nullptr, static_cast<Index>(values.size()) - point.size());
-  const Slope slope = walk.walk(formula);
-  if (walk.fault() || !is_finite(slope)) return Real(0);
-  Real sum = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) sum += abs(slope.slope(static_cast<Index>(i)) * values[i]);
-  return sum;
+  const Real size = SizeWalk(point).walk(formula).size;
+  return isfinite(size) ? size : Real(0);
 }
 
 }  // namespace lqg::design

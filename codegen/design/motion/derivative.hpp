@@ -25,8 +25,8 @@ enum class Kinks { refuse, take_a_side };
 // The slopes are those over all variables: `point` has their values.
 std::variant<Slope, NoSlope> slope_of(const expression::Node& formula, const RealVector& point, Kinks kinks);
 
-// Σ |∂f/∂c| |c| over the numbers c that f is made of, those of `point` among them: what f changes by when each of them
-// changes by one part of itself. 0 where f has no slope.
+// Σ |∂f/∂c| |c| over the numbers c that stand in f, those of `point` among them, each time they do: what f changes by at
+// most when each of them changes by one part of itself. 0 where f has no slope. Of a point where slope_of found one.
 Real size_of_terms(const expression::Node& formula, const RealVector& point);
 
 }  // namespace lqg::design

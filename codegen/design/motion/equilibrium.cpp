@@ -80,14 +80,14 @@ RealVector Rest::sizes(const RealVector& point) const {
 }
 
 std::optional<RealVector> descended(const Rest& rest, RealVector point, const std::vector<Index>& unknown) {
-  constexpr int most_descents = 200;
+  constexpr int most_descents = 150;
   const Real nothing = negligible(1.6), small_step = negligible(0.8);
   Real damping = 1e-3;
+  if (!rest.at(point)) return std::nullopt;
   for (int k = 0; k < most_descents; ++k) {
     const RealVector sizes = rest.sizes(point);
     const std::optional<Scaled> here = scaled_at(rest, point, sizes, unknown);
-    if (!here) return k == 0 ? std::nullopt : std::optional<RealVector>(point);
-    if (here->squares < nothing) return point;
+    if (!here || here->squares < nothing) return point;
     bool has_moved = false;
     while (!has_moved && damping < 1e20) {
       const std::optional<RealMatrix> step = step_of(*here, damping);

@@ -22,7 +22,7 @@ class Rest {
   };
   // Nothing where one of them has no value.
   std::optional<At> at(const RealVector& point) const;
-  // What they are made of: see size_of_terms; 1 where that is 0.
+  // What they are made of: see size_of_terms; 1 where that is 0. Of a point where they have values.
   RealVector sizes(const RealVector& point) const;
   const std::vector<Index>& states() const { return states_; }
 

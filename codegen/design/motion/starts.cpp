@@ -29,7 +29,9 @@ std::vector<RealVector> starts_of(const WantedPoint& wanted, const RealVector& g
   }
   if (open.empty()) return {first};
   std::vector<RealVector> starts;
+  const bool are_many = open.size() > 8;
   for (const double value : ladder) {
+    if (are_many && starts.size() >= 5) return starts;
     for (const Index i : open) first(i) = value;
     starts.push_back(first);
   }

@@ -147,6 +147,8 @@ std::string update_body(const Controller& controller) {
   words["declare_deviations"] = declare_deviations(controller, 'y');
   words["given"] = deviations(controller, 'y');
   words["y"] = controller.has.range ? "said" : words["given"];
+  words["is_out_of_range"] = fill("({given}[i] < {NAME}_KALMAN_Y_MIN[i]) || ({NAME}_KALMAN_Y_MAX[i] < {given}[i])",
+                                  {{"given", words["given"]}, {"NAME", upper(controller.problem.name)}});
   return write_body(templates::compact_update, controller, words,
                     {{"copies_r", controller.size.nxi && copies_references(controller, false)}});
 }

@@ -181,6 +181,8 @@ std::string predict_function(const Controller& controller, const FunctionBodies&
 std::string control_function(const Controller& controller, const FunctionBodies& bodies) {
   const bool has_filter = controller.has.filter, writes = control_changes_state(controller);
   const bool limits = controller.problem.limits.has_value(), foresees = controller.has.foresight;
+  const Words common = common_words(controller);
+  const std::string u_at_rest = common.at("u_at_rest"), r_at_rest = common.at("r_at_rest");
   return (foresees ? law_function(controller, bodies.control) : "") +
          write_function(
              templates::control, controller,
@@ -190,12 +192,14 @@ std::string control_function(const Controller& controller, const FunctionBodies&
                                          : ""},
               {"delayed", controller.size.delayed ? "; after them the delayed inputs, the oldest first" : ""},
               {"limits", limits ? " and within the limits" : ""},
-              {"reference", controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as 0), " : ""},
-              {"limited",
-               foresees ? " (a limit holds an input, or it was not finite and set to 0), LQG_NOT_OPTIMAL (the limits "
-                          "contradict each other or took too many changes: the law is clipped)"
-               : limits ? " (at a limit, or not finite and set to 0)"
-                        : " (not finite and set to 0)"},
+              {"reference",
+               controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as " + r_at_rest + "), " : ""},
+              {"limited", foresees
+                              ? " (a limit holds an input, or it was not finite and set to " + u_at_rest +
+                                    "), LQG_NOT_OPTIMAL (the limits contradict each other or took too many changes: "
+                                    "the law is clipped)"
+                          : limits ? " (at a limit, or not finite and set to " + u_at_rest + ")"
+                                   : " (not finite and set to " + u_at_rest + ")"},
               {"reset", !has_filter && controller.has.servo && !foresees ? ", LQG_STATE_RESET" : ""},
               {"body", foresees ? foreseeing_control_body(controller) : bodies.control}},
              {{"writes_beside_filter", has_filter && writes},
@@ -234,8 +238,10 @@ std::string covariance_function(const Controller& controller) {
 std::string estimate_function(const Controller& controller) {
   if (!has_estimate(controller)) return "";
   return write_function(templates::estimate, controller,
-                        {{"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}},
-                        {{"is_modal", controller.modal.has_value()}});
+                        {{"what", controller.modal ? "x̂ = T z" : "x̂ in the plant's own units"},
+                         {"kept", controller.modal ? "z is what the filter keeps; only"
+                                                   : "The filter keeps what x̂ is beyond the operating point; only"},
+                         {"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}});
 }
 
 std::string set_state_function(const Controller& controller) {

@@ -54,23 +54,6 @@ std::string poles_line(const std::string& matrix, const design::Poles& of) {
 
 }  // namespace
 
-std::string describe_point(const Controller& controller) {
-  const auto& point = controller.problem.plant.operating_point;
-  if (!point) return "";
-  const design::Plant& plant = controller.problem.plant;
-  const auto line = [](const char* what, const std::vector<design::Signal>& of, const Eigen::VectorXd& values) {
-    std::string list;
-    for (std::size_t i = 0; i < of.size(); ++i)
-      list += (i ? ", " : "") + of[i].name + " = " + number(design::Real(values(static_cast<Eigen::Index>(i))), true) +
-              (of[i].unit.empty() ? "" : " " + of[i].unit);
-    return of.empty() ? "" : "  " + indented(trace::wrap(what + list, 0, 96)) + "\n";
-  };
-  return "\nOperating point: x, u and y of the matrices below are deviations from it. All that is handed over and\n"
-         "given back, and r, is in the plant's own units.\n\n" +
-         line("states   ", plant.states, point->x) + line("inputs   ", plant.inputs, point->u) +
-         line("outputs  ", plant.outputs, point->y);
-}
-
 std::string describe_plant(const Controller& controller) {
   if (controller::is_extended(controller)) return describe_extended_plant(controller);
   const design::SampledPlant& plant = controller.solution.plant;

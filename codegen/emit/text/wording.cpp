@@ -106,6 +106,8 @@ Words common_words(const Controller& controller) {
           {"nr", std::to_string(controller.size.nr)},
           {"nz", std::to_string(controller.size.nz)},
           {"file", controller.source.file},
+          {"u_at_rest", controller.point.u.size() ? "that of the operating point" : "0"},
+          {"r_at_rest", controller.point.r.size() ? "that of the operating point" : "0"},
           {"filter", filter_name(controller.filter)},
           {"law_row", row("self->sample", controller.laws.size(), upper(name) + "_LAST_LAW_ROW")},
           {"filter_row", row("self->gain_row", controller.filters.size(), upper(name) + "_LAST_GAIN_ROW")}};

@@ -17,7 +17,8 @@ class ExtendedPlant {
   // y while u acts.
   Eigen::VectorXd measure(const Eigen::VectorXd& u);
   void advance(const Eigen::VectorXd& u);
-  const Eigen::VectorXd& state() const { return x_; }
+  // x as the filter has it: in the plant's own units.
+  const Eigen::VectorXd& deviation() const { return x_; }
 
  private:
   step::Model<double> model_;

@@ -16,7 +16,10 @@ mp.mp.dps = 200
 DIFFERENCE = mp.mpf(10) ** -60  # central, with Richardson's extrapolation below
 
 FUNCTIONS = {
-    **{name: getattr(mp, name) for name in "sqrt sin cos tan asin acos atan atan2 exp log tanh".split()},
+    **{
+        name: getattr(mp, name)
+        for name in ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "tanh"]
+    },
     "abs": abs,
     "min": min,
     "max": max,
@@ -105,10 +108,7 @@ PLANTS = [
         "c",
         "a b",
         "u",
-        [
-            "u - max(a, b)*min(a, b)*abs(a - b) + tan(a)/3",
-            "asin(a/2) + acos(b/4) - atan(a^-3) + b^1.5 - 0.1^u",
-        ],
+        ["u - max(a, b)*min(a, b)*abs(a - b) + tan(a)/3", "asin(a/2) + acos(b/4) - atan(a^-3) + b^1.5 - 0.1^u"],
         ["a*b^3/exp(a)"],
         ["0.25", "?1", "?0"],
         None,
@@ -138,7 +138,16 @@ def rounded(value):
 
 
 def listed(texts):
-    return "{" + ", ".join(texts) + "}"
+    """In lines of at most 110 characters"""
+    lines = [""]
+    for text in texts:
+        begins = not lines[-1]
+        if not begins and len(lines[-1]) + len(text) > 100:
+            lines[-1] += ","
+            lines.append(text)
+        else:
+            lines[-1] += text if begins else ", " + text
+    return "{" + "\n      ".join(lines) + "}"
 
 
 def quoted(texts):
@@ -175,9 +184,7 @@ def row(plant):
     names = x + u
     fs, hs = [function(text, names) for text in f], [function(text, names) for text in h]
     at_rest = x if steady is None else steady.split()
-    rates = [
-        (lambda p, g=fs[i], i=i: g(p) - (p[i] if domain == "d" else 0)) for i in range(len(x)) if x[i] in at_rest
-    ]
+    rates = [(lambda p, g=fs[i], i=i: g(p) - (p[i] if domain == "d" else 0)) for i in range(len(x)) if x[i] in at_rest]
     point = solved(values, rates)
     slopes = [[rounded(slope(g, point, j)) for j in range(len(names))] for g in fs + hs]
     return (

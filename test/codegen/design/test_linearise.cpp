@@ -125,7 +125,12 @@ void test_only_named_states_have_to_be_at_rest() {
                  "plant.operating_point: nothing was found for \"?\" at which f is 0; nearest is u = 0.6, "
                  "where dp/dt = 2;");
   driving.point.is_steady = {false, true};
-  TEST_ASSERT_EQUAL_STRING("", findings_of(driving).c_str());
+  TEST_ASSERT_EQUAL_STRING(
+      "plant.operating_point: dp/dt = 2 at this point: the linear plant, and a filter of it, do not know of that\n",
+      findings_of(driving).c_str());
+  Case standing = continuous({"p", "v"}, {"u"}, {"v", "u - 0.3*v"}, {"0", "0", "?"});
+  standing.point.is_steady = {false, true};
+  TEST_ASSERT_EQUAL_STRING("", findings_of(standing).c_str());
 }
 
 void test_no_point_at_rest_is_refused_with_the_residual() {

@@ -48,7 +48,7 @@ std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
 std::string options(const lqg::emit::Controller& controller, const fs::path& folder) {
   std::string out =
       " -I" + folder.string() + " -I" LQG_INCLUDE_FOLDER " -isystem " LQG_UNITY_FOLDER " -DUNITY_INCLUDE_DOUBLE";
-  if (controller.style == lqg::design::Style::unrolled) return out;
+  if (controller.style == lqg::design::Style::unrolled && !controller.has.foresight) return out;
   return out + (controller.target.is_double ? " -DLQG_REAL_DOUBLE" : "") +
          (controller.target.is_fused ? " -DLQG_FUSED" : "");
 }

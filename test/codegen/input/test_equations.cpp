@@ -65,7 +65,8 @@ void test_equations_become_the_matrices_of_their_linearisation() {
 
 void test_names_without_a_list_are_those_of_matrices_and_a_plant_may_have_no_inputs() {
   const DesignFile file = input::parse_design(
-      "name = \"p\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\nf = [\"x0/2 + x1^2\", \"\"\"x1/3\n + 0*x0\"\"\"]\nh "
+      "name = \"p\"\n[plant]\ndomain = \"discrete\"\nsample_time = 1\n"
+      "f = [\"x0/2 + x1^2\", \"\"\"x1/3\n + 0*x0\"\"\"]\nh "
       "= [\"x0\"]\noperating_point = {}\n[kalman]\nprocess_noise = [1, 1]\nmeasurement_noise = [1]\n");
   TEST_ASSERT_TRUE_MESSAGE(file.problem.has_value(), all_findings(file).c_str());
   expect_equal(0.5, file.problem->plant.A(0, 0));
@@ -113,10 +114,10 @@ void test_names_that_clash_are_refused() {
            "f = [\"0\", \"0\"]\nh = [\"0\"]\noperating_point = {}\n";
   };
   expect_refusal(with_names("[\"l\", \"om\"]", "[\"u\"]"),
-                 "8:10: plant.states[0]: expected a name of its own in plant.f, found that of a parameter, \"l\"");
-  expect_refusal(with_names("[\"a\", \"sin\"]", "[\"u\"]"), "8:15: plant.states[1]: expected a name of its own in");
+                 "8:11: plant.states[0]: expected a name of its own in plant.f, found that of a parameter, \"l\"");
+  expect_refusal(with_names("[\"a\", \"sin\"]", "[\"u\"]"), "8:16: plant.states[1]: expected a name of its own in");
   expect_refusal(with_names("[\"a\", \"b\"]", "[\"a\"]"),
-                 "9:10: plant.inputs[0]: expected a name of its own in plant.f, found that of a state, \"a\"");
+                 "9:11: plant.inputs[0]: expected a name of its own in plant.f, found that of a state, \"a\"");
 }
 
 void test_units_have_to_be_those_of_the_signals() {
@@ -150,7 +151,8 @@ void test_a_scenario_has_other_parameters_of_equations_alone() {
   TEST_ASSERT_TRUE_MESSAGE(good.problem.has_value(), all_findings(good).c_str());
   expect_equal(1, good.problem->scenarios[0].plant.parameters.at("l"));
   TEST_ASSERT_EQUAL_STRING(
-      "p.toml:22:26: scenario[0].plant.parameters: expected the name of a parameter, found \"gravty\"; did you mean `gravity`?\n",
+      "p.toml:22:26: scenario[0].plant.parameters: expected the name of a parameter, found \"gravty\"; did you mean "
+      "`gravity`?\n",
       all_findings(read_with(names + equations + point, "gravty = 1")).c_str());
   const std::string matrices = "A = [[0, 1], [0, 0]]\nB = [[0], [1]]\nC = [[1, 0]]\n";
   TEST_ASSERT_TRUE(all_findings(read_with(names + matrices, "l = 1")).find("needs plant.f") != std::string::npos);
@@ -170,10 +172,47 @@ void test_matrices_of_stages_and_scenarios_need_a_plant_of_matrices() {
   expect(scenario + "spread = { A = 0.1 }\n", "scenario[0].spread.A: needs a plant of matrices");
 }
 
+std::string designs;
+
+// Whose matrices have 12 digits, computed from the same source by hand.
+void test_the_robot_from_its_equations_is_the_one_of_matrices() {
+  const auto plant_of = [](const char* name) {
+    const DesignFile file = input::read_design_file(designs + "/" + name);
+    TEST_ASSERT_TRUE_MESSAGE(file.problem.has_value(), all_findings(file).c_str());
+    return file.problem->plant;
+  };
+  const design::Plant by_hand = plant_of("balancing_robot.toml"), found = plant_of("balancing_robot_equations.toml");
+  const auto expect_same = [](const Eigen::MatrixXd& expected, const Eigen::MatrixXd& other, const char* what) {
+    for (Eigen::Index i = 0; i < expected.size(); ++i)
+      TEST_ASSERT_TRUE_MESSAGE(std::abs(other.data()[i] - expected.data()[i]) <= 5e-12 * std::abs(expected.data()[i]),
+                               what);
+  };
+  expect_same(by_hand.A, found.A, "A");
+  expect_same(by_hand.B, found.B, "B");
+  expect_same(by_hand.C, found.C, "C");
+  expect_same(by_hand.G, found.G, "G");
+}
+
+// A = [0 1 0; 980 0 −2.8; 0 0 −100] with i = 7 A; here i = √(mass g gap/K).
+void test_the_levitated_ball_is_that_of_its_source() {
+  const DesignFile file = input::read_design_file(designs + "/magnetic_levitation.toml");
+  TEST_ASSERT_TRUE_MESSAGE(file.problem.has_value(), all_findings(file).c_str());
+  const design::Plant& plant = file.problem->plant;
+  const double i = std::sqrt(0.05 * 9.81 * 0.01 / 0.0001);
+  TEST_ASSERT_TRUE(std::abs(plant.operating_point->x(2) - i) < 1e-14);
+  TEST_ASSERT_TRUE(std::abs(plant.A(1, 0) - 980 * i * i / 49) < 1.1);
+  TEST_ASSERT_TRUE(std::abs(plant.A(1, 2) + 2.8 * i / 7) < 1e-12);
+  expect_equal(-100, plant.A(2, 2));
+  expect_equal(100, plant.B(2, 0));
+}
+
 }  // namespace
 
-int main() {
+int main(int, char** arguments) {
+  designs = arguments[1];
   UNITY_BEGIN();
+  RUN_TEST(test_the_robot_from_its_equations_is_the_one_of_matrices);
+  RUN_TEST(test_the_levitated_ball_is_that_of_its_source);
   RUN_TEST(test_equations_become_the_matrices_of_their_linearisation);
   RUN_TEST(test_names_without_a_list_are_those_of_matrices_and_a_plant_may_have_no_inputs);
   RUN_TEST(test_short_names_are_states_and_parameters_like_others);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Extended Kalman filters with 60 digits, in matrices and with Jacobians by differences: python3 extended_reference.py >
-extended_reference.hpp.
+"""Extended Kalman filters with 60 digits, in matrices and with Jacobians by differences.
+
+Use: python3 extended_reference.py | clang-format-19 > extended_reference.hpp
 
 Nothing here is made as the code makes it: all outputs of a sample are one update, S is inverted as a matrix, and
 (f(x + h) - f(x - h))/2h with h = 1e-40 takes the place of dual numbers.
@@ -51,7 +52,7 @@ def extended_filter(step, outputs, wraps, W, V, x, P, y, u):
         there = [i for i, value in enumerate(measured) if value is not None]
         if there:
             h = outputs(x, applied)
-            C = jacobian(lambda at: outputs(at, applied), x)
+            C = jacobian(lambda at, u=applied: outputs(at, u), x)
             C = mp.matrix([[C[i, j] for j in range(len(x))] for i in there])
             differences = [mp.mpf(measured[i]) - h[i] for i in there]
             nu = mp.matrix([wrapped(d) if wraps[i] else d for i, d in zip(there, differences)])
@@ -59,7 +60,7 @@ def extended_filter(step, outputs, wraps, W, V, x, P, y, u):
             L = P * C.T * S**-1
             x = list(mp.matrix(x) + L * nu)
             P = P - L * C * P
-        A = jacobian(lambda at: step(at, applied), x)
+        A = jacobian(lambda at, u=applied: step(at, u), x)
         x = step(x, applied)
         P = A * P * A.T + W
         answers.append((x, P))

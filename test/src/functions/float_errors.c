@@ -6,7 +6,7 @@
  *   float_errors list                       the names of the functions
  *
  * Prints function, error, and argument of the largest; status 1: an error is above 2, or above ½ for sqrt; a NaN or an
- * infinity is not where it should be; or f(−x) is not ±f(x). */
+ * infinity is not where it should be; f(−x) is not ±f(x); or a result is beyond its limits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +22,8 @@ typedef struct {
     double (*expected)(double);
     float limit; /* beyond: NaN */
     int symmetry;
-    double error; /* largest allowed */
+    double error;          /* largest allowed */
+    float lowest, highest; /* result, as test/proof says */
 } function_t;
 
 static float sine_of_both(float x)
@@ -77,23 +78,41 @@ static double wrapped(double x)
     return fma(-turns, two_pi, x) - turns * rest;
 }
 
+/* What the proofs take for granted of the reduction: 1 where it is so. */
+static float reduction(float x)
+{
+    uint32_t n;
+    float rest, r;
+
+    if (!(fabsf(x) <= LQG_ANGLE_MAXF))
+        return NAN;
+    r = lqg_reducef(fabsf(x), &rest, &n);
+    return fabsf(r) <= 0.7855f && fabsf(rest) <= 1e-7f ? 1 : 0;
+}
+
+static double one(double x)
+{
+    return (void)x, 1;
+}
+
 static const function_t functions[] = {
-    {"sin", lqg_sinf, sin, LQG_ANGLE_MAXF, ODD, 2},
-    {"cos", lqg_cosf, cos, LQG_ANGLE_MAXF, EVEN, 2},
-    {"sin_of_both", sine_of_both, sin, LQG_ANGLE_MAXF, ODD, 2},
-    {"cos_of_both", cosine_of_both, cos, LQG_ANGLE_MAXF, EVEN, 2},
-    {"tan", lqg_tanf, tan, LQG_ANGLE_MAXF, ODD, 2},
-    {"asin", lqg_asinf, asin, 1, ODD, 2},
-    {"acos", lqg_acosf, acos, 1, NEITHER, 2},
-    {"atan", lqg_atanf, atan, INFINITY, ODD, 2},
-    {"steep_atan2", steep_angle, steep_angle_expected, INFINITY, ODD, 2},
-    {"flat_atan2", flat_angle, flat_angle_expected, INFINITY, NEITHER, 2},
-    {"any_atan2", any_angle, any_angle_expected, INFINITY, ODD, 2},
-    {"sqrt", lqg_sqrtf, sqrt, INFINITY, NEITHER, 0.5},
-    {"exp", lqg_expf, exp, INFINITY, NEITHER, 2},
-    {"log", lqg_logf, log, INFINITY, NEITHER, 2},
-    {"tanh", lqg_tanhf, tanh, INFINITY, ODD, 2},
-    {"wrap", lqg_wrapf, wrapped, LQG_ANGLE_MAXF, ODD, 2},
+    {"reduction", reduction, one, LQG_ANGLE_MAXF, EVEN, 0, 1, 1},
+    {"sin", lqg_sinf, sin, LQG_ANGLE_MAXF, ODD, 2, -1, 1},
+    {"cos", lqg_cosf, cos, LQG_ANGLE_MAXF, EVEN, 2, -1, 1},
+    {"sin_of_both", sine_of_both, sin, LQG_ANGLE_MAXF, ODD, 2, -1, 1},
+    {"cos_of_both", cosine_of_both, cos, LQG_ANGLE_MAXF, EVEN, 2, -1, 1},
+    {"tan", lqg_tanf, tan, LQG_ANGLE_MAXF, ODD, 2, -INFINITY, INFINITY},
+    {"asin", lqg_asinf, asin, 1, ODD, 2, -1.57079637f, 1.57079637f},
+    {"acos", lqg_acosf, acos, 1, NEITHER, 2, 0, 3.14159274f},
+    {"atan", lqg_atanf, atan, INFINITY, ODD, 2, -1.57079637f, 1.57079637f},
+    {"steep_atan2", steep_angle, steep_angle_expected, INFINITY, ODD, 2, -3.14159274f, 3.14159274f},
+    {"flat_atan2", flat_angle, flat_angle_expected, INFINITY, NEITHER, 2, 0, 3.14159274f},
+    {"any_atan2", any_angle, any_angle_expected, INFINITY, ODD, 2, -3.14159274f, 3.14159274f},
+    {"sqrt", lqg_sqrtf, sqrt, INFINITY, NEITHER, 0.5, 0, INFINITY},
+    {"exp", lqg_expf, exp, INFINITY, NEITHER, 2, 0, INFINITY},
+    {"log", lqg_logf, log, INFINITY, NEITHER, 2, -INFINITY, INFINITY},
+    {"tanh", lqg_tanhf, tanh, INFINITY, ODD, 2, -1, 1},
+    {"wrap", lqg_wrapf, wrapped, LQG_ANGLE_MAXF, ODD, 2, -3.1415925f, 3.1415925f},
 };
 
 static double unit_of(double value)
@@ -116,21 +135,30 @@ static double error_of(const function_t *f, float x, float found)
     return fabs((double)found - expected) / unit_of(expected);
 }
 
+static int is_within(const function_t *f, float found)
+{
+    return found != found || (found >= f->lowest && found <= f->highest);
+}
+
 static int is_symmetric(const function_t *f, float x, float found)
 {
     const float mirrored = f->found(-x), expected = f->symmetry == ODD ? -found : found;
 
-    return f->symmetry == NEITHER || found != found || memcmp(&mirrored, &expected, sizeof mirrored) == 0;
+    if (f->symmetry == NEITHER)
+        return 1;
+    return found == found ? memcmp(&mirrored, &expected, sizeof mirrored) == 0 : mirrored != mirrored;
 }
 
 static int look_at(const function_t *f, unsigned long stride)
 {
+    const unsigned long long end = f->symmetry == NEITHER ? 4294967296ull : 2147483648ull; /* the others mirrored */
     double largest = 0;
     float where = 0;
 
-    for (unsigned long long bits = 0; bits < 4294967296ull; bits += stride) {
+    for (unsigned long long bits = 0; bits < end; bits += stride) {
         const float x = lqg_of_bitsf((uint32_t)bits), found = f->found(x);
-        const double error = is_symmetric(f, x, found) ? error_of(f, x, found) : (double)INFINITY;
+        const int is_right = is_symmetric(f, x, found) && is_within(f, found);
+        const double error = is_right ? error_of(f, x, found) : (double)INFINITY;
         if (error > largest) {
             largest = error;
             where = x;
