@@ -148,9 +148,6 @@ void test_unit_that_is_not_known_is_noted_once_and_not_judged() {
 
 }  // namespace
 
-void setUp() {}
-void tearDown() {}
-
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_units_are_written_in_many_ways);
