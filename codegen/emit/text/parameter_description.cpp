@@ -16,7 +16,13 @@ constexpr std::size_t most_expressions = 40;
 
 std::string shortest(double value) { return number(design::Real(value), true); }
 
-// Columns side by side, but for the last one of a row.
+// An expression is in ASCII.
+std::string cut(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? text : text.substr(0, longest) + " …";
+}
+
+// Columns side by side, but for the last one of a row, which is cut.
 std::string lines_of(const TextTable& table) {
   std::vector<std::size_t> widths;
   for (const auto& row : table)
@@ -28,7 +34,7 @@ std::string lines_of(const TextTable& table) {
   for (const auto& row : table) {
     std::string line = " ";
     for (std::size_t j = 0; j < row.size(); ++j)
-      line += " " + row[j] + (j + 1 < row.size() ? std::string(widths[j] - columns(row[j]) + 1, ' ') : "");
+      line += " " + (j + 1 < row.size() ? row[j] + std::string(widths[j] - columns(row[j]) + 1, ' ') : cut(row[j]));
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return out;
@@ -37,7 +43,7 @@ std::string lines_of(const TextTable& table) {
 std::string origin_of(const design::Parameter& parameter) {
   const std::string set = parameter.is_set ? "set on the command line" : "";
   if (parameter.formula.empty()) return set;
-  return "= " + parameter.formula + (set.empty() ? "" : ", " + set);
+  return set + (set.empty() ? "" : ", ") + "= " + parameter.formula;
 }
 
 }  // namespace

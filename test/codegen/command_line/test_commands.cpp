@@ -148,10 +148,22 @@ void test_set_replaces_the_value_of_a_parameter_and_says_so() {
       "expression": "-k/m"
     })") != json.npos);
   TEST_ASSERT_TRUE_MESSAGE(header.find(" *   m  3.0 kg  set on the command line\n"
-                                       " *   k  1.5     = m/2, set on the command line\n") != header.npos,
+                                       " *   k  1.5     set on the command line, = m/2\n") != header.npos,
                            header.substr(0, 1500).c_str());
   for (const char* command : {"check", "simulate"})
     TEST_ASSERT_EQUAL_INT(written, run_lqgen({command, "p.toml", "--set", "m=3", "--quiet"}).status);
+}
+
+void test_long_expression_is_cut_in_the_header_alone() {
+  std::string sum = "1";
+  for (int i = 0; i < 200; ++i) sum += "+0*m";
+  std::string text = with_parameters;
+  text.replace(text.find("4*m"), 3, sum);
+  write_file(folder / "p.toml", text);
+  TEST_ASSERT_EQUAL_INT(written, run_lqgen({"p.toml", "--quiet"}).status);
+  TEST_ASSERT_TRUE(read_file(folder / "p.json").find(sum) != std::string::npos);
+  std::istringstream header(read_file(folder / "p.h"));
+  for (std::string line; std::getline(header, line);) TEST_ASSERT_TRUE_MESSAGE(line.size() < 200, line.c_str());
 }
 
 void test_setting_that_is_wrong_is_refused() {
@@ -277,6 +289,7 @@ int main(int, char** arguments) {
   RUN_TEST(test_new_says_which_starter_may_be_meant);
   RUN_TEST(test_set_replaces_the_value_of_a_parameter_and_says_so);
   RUN_TEST(test_setting_that_is_wrong_is_refused);
+  RUN_TEST(test_long_expression_is_cut_in_the_header_alone);
   RUN_TEST(test_misspelt_options_of_a_command_are_explained);
   RUN_TEST(test_check_says_what_lqgen_says_and_writes_nothing);
   RUN_TEST(test_check_refuses_what_lqgen_refuses);

@@ -363,9 +363,6 @@ void test_motor_of_parameters_is_the_motor_of_numbers() {
 
 }  // namespace
 
-void setUp() {}
-void tearDown() {}
-
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_an_entry_has_all_digits_of_its_expression_and_is_rounded_once);

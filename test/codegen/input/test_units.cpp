@@ -82,7 +82,8 @@ std::string lines(const std::string& parameters, const std::string& a = "0", con
       "name = \"d\"\n[plant]\ndomain = \"continuous\"\nsample_time = 0.01\nstates = [\"p [m]\", \"v [m/s]\"]\n"
       "inputs = [\"force [N]\"]\nA = [[0, 1], [" +
       a + ", 0]]\nB = [[0], [" + b + "]]\n" + more +
-      "\n[lqr]\nQ = [1, 1]\nR = [1]\n[parameters]\nm = { value = 2, unit = \"kg\" }\nk = { value = 8, unit = \"N/m\" }\n"
+      "\n[lqr]\nQ = [1, 1]\nR = [1]\n[parameters]\nm = { value = 2, unit = \"kg\" }\n"
+      "k = { value = 8, unit = \"N/m\" }\n"
       "h = { value = 1, unit = \"m\" }\nl = { value = 20, unit = \"mm\" }\nV = { value = 3, unit = \"V\" }\n"
       "a = { value = 3, unit = \"deg\" }\nq = 3\n" +
       parameters);
@@ -146,9 +147,6 @@ void test_unit_that_is_not_known_is_noted_once_and_not_judged() {
 }
 
 }  // namespace
-
-void setUp() {}
-void tearDown() {}
 
 int main() {
   UNITY_BEGIN();
