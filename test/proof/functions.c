@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The elementary functions, of arguments of any bits: undefined behaviour; and with PARTS, restated (restate_library.sh),
- * the limits of their results, NaN apart. */
+/* The elementary functions, of arguments of any bits: undefined behaviour; and with PARTS, restated by
+ * restate_library.sh, the limits of their results, NaN apart. */
 #include <math.h>
 
 #include "unknown.h"
@@ -39,7 +39,7 @@ static void call_others(void)
 }
 
 #ifndef PARTS
-#define look_at_float(result, low, high)  (void)(result)
+#define look_at_float(result, low, high) (void)(result)
 #define look_at_double(result, low, high) (void)(result)
 #endif
 
