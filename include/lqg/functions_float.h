@@ -15,7 +15,7 @@
 
 LQG_STRICT_BEGIN
 
-/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAXF: |r| ≤ 0.7855. The last two bits
+/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAXF: |r| ≤ 0.7862. The last two bits
  * of *n are those of n. π/2 is the sum of four parts. n has at most 13 bits, the first three parts 11 or fewer:
  * their products are exact, and so are the first two differences. r is rounded once; where that is not exact, rest is
  * far below it. */
