@@ -17,8 +17,9 @@
 #endif
 
 /* The instruction for a square root, where there is one: it rounds correctly, as IEEE 754 says. Not __builtin_sqrt(),
- * of which compilers make a call of libm, for errno. Frama-C gets the text without it. */
-#if defined __FRAMAC__ || !defined __GNUC__
+ * of which compilers make a call of libm, for errno. Frama-C gets the text without it, and who asks for that:
+ * LQG_ROOT_BY_DIGITS. */
+#if defined LQG_ROOT_BY_DIGITS || defined __FRAMAC__ || !defined __GNUC__
 #elif defined __AVX__
 #define LQG_ROOTF(root, x) __asm__("vsqrtss {%1, %1, %0|%0, %1, %1}" : "=x"(root) : "x"(x))
 #define LQG_ROOT(root, x)  __asm__("vsqrtsd {%1, %1, %0|%0, %1, %1}" : "=x"(root) : "x"(x))

@@ -16,9 +16,10 @@
 #if LQG_HAS_DOUBLE
 LQG_STRICT_BEGIN
 
-/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAX: |r| ≤ 0.7855. *n is n modulo 4, in its last
- * bits. π/2 is the sum of four parts. n has at most 20 bits, the first three parts 33 or fewer: their products are exact,
- * and so are the first two differences. r is rounded once; where that is not exact, rest is far below it. */
+/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAX: |r| ≤ 0.7855. The last two bits
+ * of *n are those of n. π/2 is the sum of four parts. n has at most 20 bits, the first three parts 33 or fewer:
+ * their products are exact, and so are the first two differences. r is rounded once; where that is not exact, rest is
+ * far below it. */
 static inline double lqg_reduce(double a, double *rest, uint32_t *n)
 {
     LQG_STRICT_BODY
@@ -27,7 +28,8 @@ static inline double lqg_reduce(double a, double *rest, uint32_t *n)
 
     *n = (uint32_t)lqg_bits(shifted);
     *rest = quarters * 2.9407886703873282e-27;
-    return ((a - quarters * 1.5707963267341256) - quarters * 6.0771054855024431e-11) + quarters * 4.9789962502207207e-17;
+    a = (a - quarters * 1.5707963267341256) - quarters * 6.0771054855024431e-11;
+    return a + quarters * 4.9789962502207207e-17;
 }
 
 /* sin, cos of the reduced angle r + rest, z = r². */
@@ -154,7 +156,8 @@ static inline double lqg_asin(double x)
     }
     z = (1.0 - lqg_of_bits(a)) * 0.5; /* asin a = π/2 − 2 asin √z */
     s = 2.0 * lqg_sqrt(z);
-    return lqg_change_sign(1.5707963267948966 - (s + (s * (z * lqg_asin_polynomial(z)) - 6.123233995736766e-17)), bits);
+    s = s + (s * (z * lqg_asin_polynomial(z)) - 6.123233995736766e-17);
+    return lqg_change_sign(1.5707963267948966 - s, bits);
 }
 
 static inline double lqg_acos(double x)

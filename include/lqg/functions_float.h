@@ -15,9 +15,10 @@
 
 LQG_STRICT_BEGIN
 
-/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAXF: |r| ≤ 0.7855. *n is n modulo 4, in its last
- * bits. π/2 is the sum of four parts. n has at most 13 bits, the first three parts 11 or fewer: their products are exact,
- * and so are the first two differences. r is rounded once; where that is not exact, rest is far below it. */
+/* r + rest = a − n π/2 of the integer n next to a·2/π, 0 ≤ a ≤ LQG_ANGLE_MAXF: |r| ≤ 0.7862. The last two bits
+ * of *n are those of n. π/2 is the sum of four parts. n has at most 13 bits, the first three parts 11 or fewer:
+ * their products are exact, and so are the first two differences. r is rounded once; where that is not exact, rest is
+ * far below it. */
 static inline float lqg_reducef(float a, float *rest, uint32_t *n)
 {
     LQG_STRICT_BODY
@@ -227,7 +228,8 @@ static inline float lqg_atan2f(float y, float x)
     return lqg_change_signf(t, y_bits);
 }
 
-/* eˣ, −104 ≤ x ≤ 88.8: 2ⁿ e^(x − n ln 2), in two factors, as 2ⁿ alone may be no float. n ln 2 is the sum of two parts. */
+/* eˣ, −104 ≤ x ≤ 88.8: 2ⁿ e^(x − n ln 2), in two factors, as 2ⁿ alone may be no float. ln 2 is the sum of two parts,
+ * the first of 15 bits: its product is exact. */
 static inline float lqg_exp_withinf(float x)
 {
     LQG_STRICT_BODY

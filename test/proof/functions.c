@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The elementary functions, of arguments of any bits: undefined behaviour; and with PARTS, restated (restate_library.sh),
- * the limits of their results, NaN apart. */
+/* The elementary functions, of arguments of any bits: undefined behaviour; and with PARTS, restated by
+ * restate_library.sh, the limits of their results, NaN apart. */
 #include <math.h>
 
 #include "unknown.h"

@@ -30,7 +30,7 @@ static inline float lqg_reducef(float a, float *rest, uint32_t *n)
     (void)a;
     *n = (uint32_t)any_int;
     *rest = any_float_within(-1e-7f, 1e-7f);
-    return any_float_within(-0.7855f, 0.7855f);
+    return any_float_within(-0.7862f, 0.7862f);
 }
 
 static inline float lqg_exp_withinf(float x)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Prints a hash of every bit of 1000 samples of all filters and of the elementary functions, and whether the compiler
- * contracts a*b + c where nobody tells it not to. The same text is built with contraction and without it: the first line
- * must be the same, the second must not. Nothing but the library computes here with more than one rounding. */
+ * contracts a*b + c where nobody tells it not to. The same text is built with contraction and without it: the first
+ * line must be the same, the second must not. Nothing but the library computes here with more than one rounding. */
 #include <stdio.h>
 
 #include "bits.h"

@@ -168,6 +168,21 @@ static void test_wrap_stays_within_half_a_turn_and_keeps_what_is_there(void)
     }
 }
 
+/* Next to odd multiples of π/4, where the nearest multiple of π/2 is found only nearly. test/proof rests on it. */
+static void test_reduced_angles_are_hardly_beyond_an_eighth_of_a_turn(void)
+{
+    for (uint32_t n = 1; n < 5200; n += 7) {
+        const uint32_t middle = lqg_bitsf(((float)n + 0.5f) * 1.57079637f);
+        for (uint32_t bits = middle - 3; bits <= middle + 3; bits++) {
+            uint32_t quarters;
+            float rest;
+            const float r = lqg_reducef(lqg_of_bitsf(bits), &rest, &quarters);
+            TEST_ASSERT_TRUE(-0.7862f <= r && r <= 0.7862f);
+            TEST_ASSERT_TRUE(-1e-7f <= rest && rest <= 1e-7f);
+        }
+    }
+}
+
 #if LQG_HAS_DOUBLE
 static void assert_bits_of_double(double expected, double found)
 {
@@ -214,6 +229,7 @@ int main(void)
     RUN_TEST(test_atan2_knows_each_quadrant_zero_and_infinity);
     RUN_TEST(test_tanh_rises_to_one_and_stays);
     RUN_TEST(test_wrap_stays_within_half_a_turn_and_keeps_what_is_there);
+    RUN_TEST(test_reduced_angles_are_hardly_beyond_an_eighth_of_a_turn);
 #if LQG_HAS_DOUBLE
     RUN_TEST(test_double_is_special_where_float_is);
 #endif

@@ -87,7 +87,7 @@ static float reduction(float x)
     if (!(fabsf(x) <= LQG_ANGLE_MAXF))
         return NAN;
     r = lqg_reducef(fabsf(x), &rest, &n);
-    return fabsf(r) <= 0.7855f && fabsf(rest) <= 1e-7f ? 1 : 0;
+    return fabsf(r) <= 0.7862f && fabsf(rest) <= 1e-7f ? 1 : 0;
 }
 
 static double one(double x)
