@@ -10,16 +10,14 @@ namespace {
 
 using Kind = Measure::Kind;
 
-constexpr Measure::Kind no_unit = Kind::free;
-
 class Measurer {
  public:
   explicit Measurer(const MeasureOf& measure_of_name) : measure_of_name_(measure_of_name) {}
 
   Measure measure(const Node& node) {
     switch (node.kind) {
-      case Node::Kind::number:
-      case Node::Kind::pi: return {no_unit};
+      case Node::Kind::number: return {node.number == 1 ? Kind::pure : Kind::free};
+      case Node::Kind::pi: return {Kind::free};
       case Node::Kind::operation: break;
       default: return measure_of_name_(node);
     }
@@ -41,7 +39,7 @@ class Measurer {
     if (a.kind == Kind::known && !is_pure(a.unit))
       complain(node.operands[0]->at, std::string(name_of(node.operation)) + " needs a pure number (or rad), found " +
                                          in_words(a.unit) + advice(a.unit));
-    return a.kind == Kind::free ? a : Measure{Kind::known, {}};
+    return {Kind::pure};
   }
 
   Measure of_two(const Node& node, const Measure& a, const Measure& b) {
@@ -53,14 +51,18 @@ class Measurer {
       default: break;
     }
     if (is_known && !is_same(a.unit, b.unit)) complain_of_sum(node, a.unit, b.unit);
-    if (node.operation == Operation::atan2) return {is_known ? Kind::known : Kind::unknown, {}};
-    return a.kind == Kind::known ? a : b.kind == Kind::known ? b : a.kind == Kind::unknown ? a : b;
+    if (node.operation == Operation::atan2) return {Kind::pure};
+    for (const Kind kind : {Kind::known, Kind::unknown, Kind::free})
+      if (a.kind == kind || b.kind == kind) return a.kind == kind ? a : b;
+    return {Kind::pure};
   }
 
   template <class Join>
   static Measure of_product(const Measure& a, const Measure& b, const Join& join) {
     if (a.kind == Kind::unknown || b.kind == Kind::unknown) return {};
-    if (a.kind == Kind::free && b.kind == Kind::free) return {Kind::free};
+    const bool is_known = a.kind == Kind::known || b.kind == Kind::known;
+    if (a.kind == Kind::free || b.kind == Kind::free) return {is_known ? Kind::unknown : Kind::free};
+    if (!is_known) return {Kind::pure};
     return {Kind::known, join(a.unit, b.unit)};
   }
 

@@ -14,7 +14,8 @@ namespace lqg::expression {
 // What is known of the unit of a value.
 struct Measure {
   enum class Kind {
-    free,     // of numbers alone: pure in a product, anything in a sum
+    free,     // of numbers alone: they may stand for something with any unit
+    pure,     // of 1 and of sin, exp and their kind: pure in a product, anything in a sum
     unknown,  // of something without a unit: not judged
     known
   };

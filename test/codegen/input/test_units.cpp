@@ -96,7 +96,8 @@ std::string lines(const std::string& parameters, const std::string& a = "0", con
 void test_what_goes_together_is_not_remarked() {
   for (const char* good :
        {"k/m", "-k/m + 1", "k/m + q", "2*k/m - k/(3*m)", "sqrt(k^2/m^2)", "q", "h*q", "k/m*sin(h/h)",
-        "max(k/m, 0)*cos(atan2(h, 2*h))", "k^2/m^2*m/k", "abs(-k)/m*2^3", "k/m*exp(log(h/h))", "(k/m)^(1/2)*sqrt(k/m)"})
+        "max(k/m, 0)*cos(atan2(h, 2*h))", "k^2/m^2*m/k", "abs(-k)/m*2^3", "k/m*exp(log(h/h))", "(k/m)^(1/2)*sqrt(k/m)",
+        "9.81*m/h + k/m", "sin(h/h) + k/m", "0.5*V + m"})
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", lines("", "\"" + std::string(good) + "\"").c_str(), good);
 }
 
@@ -110,6 +111,8 @@ void test_sums_and_functions_of_different_units_are_refused_with_their_place() {
       {"cos(a)", "cos needs a pure number (or rad), found deg: convert it"},
       {"2^h", "an exponent is a pure number, found m"},
       {"h^2 + h", "a sum of m² and m"},
+      {"1/m + 1/h", "a sum of 1/kg and 1/m"},
+      {"m*sin(h/h) - h", "a sum of kg and m"},
       {"sin(h/l)", "sin needs a pure number (or rad), found m/mm: convert it"}};
   for (const auto& [text, message] : wrong) {
     const std::string line = lines("", "\"" + std::string(text) + "\"");
