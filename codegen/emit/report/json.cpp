@@ -83,6 +83,10 @@ Json plant(const Controller& controller) {
   return out;
 }
 
+Json operating_point(const design::OperatingPoint& point) {
+  return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
+}
+
 Json parameters(const std::vector<design::Parameter>& all) {
   Json out = Json::object();
   for (const design::Parameter& parameter : all) {
