@@ -13,6 +13,7 @@
 
 #include "design/operating_point.hpp"
 #include "input/assemble.hpp"
+#include "input/changed_parameters.hpp"
 #include "input/consistency.hpp"
 #include "input/document.hpp"
 #include "input/equations.hpp"
@@ -118,6 +119,7 @@ DesignFile parse_design(const std::string& text, const std::optional<std::filesy
   const Formulas formulas = read_formulas(std::get<Node>(document), parameters, places, exact, report);
   Values values = read_values(std::get<Node>(document), formulas.wrong, report);
   read_equations(std::get<Node>(document), parameters, places, exact, values, report);
+  read_changed_parameters(std::get<Node>(document), parameters, places, exact, values, report);
   check_consistency(values, report);
   check_units(formulas, parameters, values, places, report);
   if (!design::has_error(file.findings)) {

@@ -29,6 +29,8 @@ const Node* value_in(const Node* table, const std::string& name) {
 
 std::string entry_key(const std::string& key, std::size_t i) { return key + "[" + std::to_string(i) + "]"; }
 
+std::string value_in_words(const Node& node) { return node.kind == Kind::number ? shown(node.number) : describe(node); }
+
 // Equations and operating point of one file.
 class EquationsReader {
  public:
@@ -36,22 +38,6 @@ class EquationsReader {
                   Values& values, Report& report)
       : plant_(value_in(&document, "plant")), parameters_(parameters), places_(places), exact_(exact), values_(values),
         report_(report), states_(signal_names(values, Size::nx)), inputs_(signal_names(values, Size::nu)) {}
-
-  // What the plants of scenarios have in place of the design's parameters.
-  void read_changes(const Node& document) {
-    const Node* scenarios = value_in(&document, "scenario");
-    for (std::size_t i = 0; scenarios != nullptr && i < scenarios->items.size(); ++i) {
-      const std::string key = entry_key("scenario", i) + ".plant.parameters";
-      const Node* changes = value_in(value_in(&scenarios->items[i], "plant"), "parameters");
-      if (changes == nullptr) continue;
-      if (!values_.has("plant.f"))
-        report_.error(key, "needs plant.f: parameters of matrices are those of the design");
-      else if (changes->kind != Kind::table)
-        report_.error(key, "expected a table of parameters, found " + describe(*changes));
-      else
-        for (std::size_t j = 0; j < changes->keys.size(); ++j) read_change(key, changes->keys[j], changes->items[j]);
-    }
-  }
 
   void read() {
     if (!values_.has("plant.f")) return refuse_without_f();
@@ -67,32 +53,6 @@ class EquationsReader {
   }
 
  private:
-  void read_change(const std::string& key, const Key& name, const Node& node) {
-    Names known;
-    for (const Parameter& parameter : parameters_.all) known.push_back(parameter.name);
-    if (std::find(known.begin(), known.end(), name.name) == known.end()) {
-      if (parameters_.wrong.count(name.name) != 0) return;  // that has been said
-      const std::string near = nearest_word(known, name.name);
-      return report_.error(key, name.where,
-                           "expected the name of a parameter, found " + in_quotes(name.name) +
-                               (near.empty() ? "" : "; did you mean `" + near + "`?"));
-    }
-    const std::string one = key + "." + name.name;
-    report_.place(one, node.where);
-    const bool is_number = node.kind == Kind::number && std::isfinite(node.number);
-    const Tree tree = is_number                 ? expression::number(node.number)
-                      : node.kind == Kind::text ? formula(one, node, 0, false)
-                                                : nullptr;
-    if (!is_number && node.kind != Kind::text)
-      report_.error(one, "expected a number or a formula, found " +
-                             (node.kind == Kind::number ? shown(node.number) : describe(node)));
-    if (!tree) return;
-    const auto value = exact_(*tree);
-    if (const auto* fault = std::get_if<expression::Fault>(&value))
-      return report_.error(one, places_.of(node, fault->at), fault->message);
-    values_.named[key][name.name] = design::to_double(std::get<design::Real>(value));
-  }
-
   void refuse_without_f() {
     if (values_.has("plant.h")) report_.error("plant.h", "needs plant.f");
     if (values_.has("plant.operating_point.steady")) report_.error("plant.operating_point.steady", "needs plant.f");
@@ -116,19 +76,22 @@ class EquationsReader {
 
   // Arrays, and no longer than a plant may be.
   bool check_lists() {
-    bool good = true;
-    for (const char* part : {"f", "h", "inputs"}) {
+    for (const std::string part : {"f", "h", "inputs"}) {
       const Node* list = value_in(plant_, part);
-      const std::string key = "plant." + std::string(part);
-      if (list == nullptr || (list->kind != Kind::array && key == "plant.inputs")) continue;
+      if (list == nullptr) continue;
       const bool is_list = list->kind == Kind::array && !list->items.empty();
-      if (is_list && list->items.size() <= most_signals) continue;
-      good = false;
-      report_.error(key, is_list ? "expected at most " + std::to_string(most_signals) + ", found " +
-                                       std::to_string(list->items.size())
-                                 : "expected an array of formulas in quotes, found " + describe(*list));
+      if (!is_list && part != "inputs")
+        return refuse_list(part, "an array of formulas in quotes, found " + describe(*list));
+      if (list->items.size() > most_signals)
+        return refuse_list(part,
+                           "at most " + std::to_string(most_signals) + ", found " + std::to_string(list->items.size()));
     }
-    return good;
+    return true;
+  }
+
+  bool refuse_list(const std::string& part, const std::string& expected) {
+    report_.error("plant." + part, "expected " + expected);
+    return false;
   }
 
   // Wrong ones have been reported.
@@ -298,8 +261,7 @@ class EquationsReader {
       return true;
     }
     if (node.kind != Kind::text) {
-      report_.error(key, "expected a number, a formula or \"?\", found " +
-                             (node.kind == Kind::number ? shown(node.number) : describe(node)));
+      report_.error(key, "expected a number, a formula or \"?\", found " + value_in_words(node));
       return false;
     }
     const std::size_t mark = node.text.find_first_not_of(' ');
@@ -350,9 +312,7 @@ class EquationsReader {
 
 void read_equations(const Node& document, const Parameters& parameters, const FormulaPlaces& places, ExactValues& exact,
                     Values& values, Report& report) {
-  EquationsReader reader(document, parameters, places, exact, values, report);
-  reader.read();
-  reader.read_changes(document);
+  EquationsReader(document, parameters, places, exact, values, report).read();
 }
 
 }  // namespace lqg::input

@@ -203,7 +203,7 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
   const auto length = [&](const char* key, int absent) {
     const auto node = nodes.find(key);
     if (node == nodes.end()) return absent;
-    return is_array(*node->second) && !node->second->items.empty() ? static_cast<int>(node->second->items.size()) : -1;
+    return is_array(*node->second) ? static_cast<int>(node->second->items.size()) : -1;
   };
   std::map<Size, int> sizes{{Size::none, 1}};
   if (nodes.count("plant.f") != 0) {

@@ -360,8 +360,8 @@ double Values::number(const std::string& key, double absent) const {
   return found == numbers.end() ? absent : found->second;
 }
 
-bool Values::has_inputs() const { return has(has("plant.f") ? "plant.inputs" : "plant.B"); }
-bool Values::has_outputs() const { return has(has("plant.f") ? "plant.h" : "plant.C"); }
+bool Values::has_inputs() const { return has("plant.f") ? sizes.at(Size::nu) != 0 : has("plant.B"); }
+bool Values::has_outputs() const { return has("plant.f") ? sizes.at(Size::ny) != 0 : has("plant.C"); }
 
 const std::vector<std::string>& Values::tables_like(const std::string& rule) const {
   static const std::vector<std::string> none;

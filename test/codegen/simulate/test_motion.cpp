@@ -65,8 +65,9 @@ void test_a_linear_plant_moves_as_its_exact_samples_with_lag_and_loads() {
 
 void test_states_inputs_and_outputs_are_deviations_from_the_operating_point() {
   design::Plant plant = plant_of(Domain::continuous, {"x"}, {"u"}, {"-x^2 + u"}, {"x^2 + u"});
-  plant.operating_point = design::OperatingPoint{
-      VectorXd::Constant(1, 3), VectorXd::Constant(1, 9), VectorXd::Constant(1, 18), {}, {}, {}, {}};
+  design::OperatingPoint point;
+  point.x = VectorXd::Constant(1, 3), point.u = VectorXd::Constant(1, 9), point.y = VectorXd::Constant(1, 18);
+  plant.operating_point = point;
   const Motion motion(plant, {}, {});
   VectorXd x = VectorXd::Zero(1);
   motion.move(held(0), 10, x);
