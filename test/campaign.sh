@@ -52,7 +52,7 @@ test/campaign.sh <build> <campaign>             on two processors
   flips [count]     default all of each part    2 minutes
   proofs                                        15 minutes
   foresight [states] default 1000000             6 minutes
-  functions [share] default 1: all floats       10 minutes
+  functions [share] default 1: all floats       half an hour
 END
 }
 
