@@ -52,7 +52,7 @@ test/campaign.sh <build> <campaign>             on two processors
   flips [count]     default all of each part    2 minutes
   proofs                                        15 minutes
   foresight [states] default 1000000             6 minutes
-  functions [share] default 1: all floats       10 minutes
+  functions [share] default 1: all floats       half an hour
 END
 }
 
@@ -308,19 +308,19 @@ foresight() {
 
 # A part for each function of each scalar. PARTS as above.
 functions() {
-  local share parts=() part name programs=$build/test/src/functions
+  local share parts=() part name tests=$build/test/src/functions
   share=$(number 1 "$@")
   for name in float double; do
-    [ -x "$programs/${name}_errors" ] || refuse "Not found: $programs/${name}_errors"
+    [ -x "$tests/${name}_errors" ] || refuse "Not found: $tests/${name}_errors"
     while read -r part; do
       parts+=("$name.$part")
-    done < <("$programs/${name}_errors" list)
+    done < <("$tests/${name}_errors" list)
   done
   keep_parts
   for part in "${parts[@]}"; do
     case $part in
-      float.*) start "$part" "$programs/float_errors" "$share" "${part#*.}" ;;
-      double.*) start "$part" "$programs/double_errors" $((1000000 / share + 1)) "${part#*.}" ;;
+      float.*) start "$part" "$tests/float_errors" "$share" "${part#*.}" ;;
+      double.*) start "$part" "$tests/double_errors" $((1000000 / share + 1)) "${part#*.}" ;;
     esac
   done
 }
