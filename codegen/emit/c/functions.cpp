@@ -237,10 +237,11 @@ std::string covariance_function(const Controller& controller) {
 // Only where what the filter keeps is not x̂ there is something to compute.
 std::string estimate_function(const Controller& controller) {
   if (!has_estimate(controller)) return "";
+  const char* const kept = controller.modal ? " z is what the filter keeps; only\n * who asks for x̂ pays for it."
+                                            : "\n * The filter keeps its deviation from the operating point.";
   return write_function(templates::estimate, controller,
                         {{"what", controller.modal ? "x̂ = T z" : "x̂ in the plant's own units"},
-                         {"kept", controller.modal ? "z is what the filter keeps; only"
-                                                   : "The filter keeps what x̂ is beyond the operating point; only"},
+                         {"kept", kept},
                          {"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}});
 }
 
