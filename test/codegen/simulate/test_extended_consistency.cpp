@@ -142,10 +142,12 @@ Eigen::VectorXd angle_errors_of_attitude(const ScenarioRun& run) {
   return errors;
 }
 
-// Turned about the axis of roll.
-ScenarioRun run_of_attitude(const Controller& controller, double angle) {
+enum Axis { roll = 1, heading = 3 };
+
+ScenarioRun run_of_attitude(const Controller& controller, double angle, Axis axis = roll) {
   Eigen::VectorXd x0(7);
-  x0 << std::cos(angle / 2), std::sin(angle / 2), 0, 0, 0.03, -0.04, 0.02;
+  x0 << std::cos(angle / 2), 0, 0, 0, 0.03, -0.04, 0.02;
+  x0(axis) = std::sin(angle / 2);
   return run_from(controller, x0);
 }
 
@@ -161,6 +163,7 @@ void test_an_attitude_far_off_is_let_in() {
     TEST_ASSERT_TRUE(back_at(angle_errors_of_attitude(run), 0.035) <= 300);
     TEST_ASSERT_TRUE(run.numbers.resets == 0 && run.numbers.covariance_resets == 0);
   }
+  TEST_ASSERT_TRUE(back_at(angle_errors_of_attitude(run_of_attitude(controller, 2, heading)), 0.12) <= 900);
 }
 
 // 30 standard deviations of P0 are beyond what a linearisation bears: what is let in now and then spoils the bias. No
@@ -174,23 +177,26 @@ void test_an_attitude_that_stands_on_its_head_does_not_come_back() {
 }
 
 // An angle that grows by 1 rad a sample, seen by its sine and cosine.
-ScenarioRun run_of_turning(const std::string& next) {
+ScenarioRun run_of_turning(const std::string& next, const std::string& next_rate = "rate") {
   const Controller controller = lqg_test::controller_of(
       "name = \"turning\"\n[plant]\ndomain = \"discrete\"\nsample_time = 0.01\nstates = [\"angle\", \"rate\"]\n"
       "outputs = [\"c\", \"s\"]\nf = [\"" +
-      next +
-      "\", \"rate\"]\nh = [\"cos(angle)\", \"sin(angle)\"]\n"
+      next + "\", \"" + next_rate +
+      "\"]\nh = [\"cos(angle)\", \"sin(angle)\"]\n"
       "[kalman]\ngain = \"extended\"\nprocess_noise = [1e-6, 1e-6]\nmeasurement_noise = [1e-4, 1e-4]\n"
       "initial_state = [0, 100]\ninitial_covariance = [0.01, 0.01]\n"
       "[[scenario]]\nname = \"long\"\nduration = 100\nx0 = [0, 100]\n");
   return simulate::run_scenario(controller, controller.problem.scenarios[0]);
 }
 
-// Beyond 8192 rad sin and cos of float have no value, and each output is left out. f of a discrete plant can wrap.
+// Beyond 8192 rad sin and cos of float have no value: each output is left out, or, in f, all begins anew. f of a
+// discrete plant can wrap.
 void test_an_angle_that_grows_leaves_the_range_and_one_that_f_wraps_does_not() {
   const ScenarioRun grown = run_of_turning("angle + 0.01*rate");
   const Index lost = (grown.estimate.row(0).array() > 8193).count();
   TEST_ASSERT_TRUE(lost > 1000 && samples_left_out(grown) >= lost);
+  TEST_ASSERT_TRUE(grown.numbers.resets == 0);
+  TEST_ASSERT_TRUE(run_of_turning("angle + 0.01*rate", "rate + 1e-9*sin(angle)").numbers.resets > 0);
   const ScenarioRun wrapped = run_of_turning("atan2(sin(angle + 0.01*rate), cos(angle + 0.01*rate))");
   TEST_ASSERT_TRUE(samples_left_out(wrapped) == 0 && wrapped.numbers.resets == 0);
   const Index last = wrapped.times.size() - 1;
