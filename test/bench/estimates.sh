@@ -8,8 +8,8 @@
 # Without design files: the shipped ones, each in both styles and both reals; COUNT random designs beside them (default
 # 0), of seed 1 … or SEED …, whose dimensions, filters, styles and arithmetic random_design.awk draws. Prints a line for
 # each: stated, compiled, by how many per cent more was stated. Fails where less is stated than was compiled, or more
-# than 15 % and 24 bytes more, 20 % of an extended filter in double: a frame grows by 8 bytes at once, and small ones are
-# of 24.
+# than 15 % and 24 bytes more, 20 % of an extended filter in double: a frame grows by 8 bytes at once, and small ones
+# are of 24.
 #
 # Flash is what the linker brings for init and step, as in run.sh. Stack is the deepest reach of step below its caller
 # along all calls that there are, taken or not: a reset is among them. In the compact style, whose step makes the calls
