@@ -112,12 +112,16 @@ start_controllers_of_forms() {
   done
 }
 
+# has_style <design> <style>: the loops of compact code are of x̂, and of matrices.
+has_style() { [ "$2" = unrolled ] || ! grep -qE '^(realisation|gain *= *"extended")' "$1"; }
+
 make_controllers_of_designs() {
   local design real style
   for design in "${designs[@]}"; do
     real=$(design_value "$design" real)
     for style in unrolled compact; do
-      start_controller "$(design_value "$design" name)" "$design" $style "${real:-float}"
+      ! has_style "$design" $style ||
+        start_controller "$(design_value "$design" name)" "$design" $style "${real:-float}"
     done
   done
   wait_for_all
@@ -136,9 +140,7 @@ make_controllers() {
     for design in "$lqg_root"/codegen/designs/*.toml; do
       if [ -n "$all" ] || [ $real = float ] || [ "$(design_value "$design" real)" = double ]; then
         for style in unrolled compact; do
-          # Those loops are of x̂, and of matrices.
-          if [ $style = compact ] && grep -qE '^(realisation|gain *= *"extended")' "$design"; then continue; fi
-          start_controller "$(design_value "$design" name)" "$design" $style $real
+          ! has_style "$design" $style || start_controller "$(design_value "$design" name)" "$design" $style $real
         done
       fi
     done
