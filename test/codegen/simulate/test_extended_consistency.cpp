@@ -10,6 +10,7 @@
 
 #include "../emit/design_text.hpp"
 #include "simulate/monte_carlo.hpp"
+#include "simulate/replay.hpp"
 #include "simulate/scenario_run.hpp"
 
 using namespace lqg;
@@ -80,6 +81,18 @@ void test_filters_know_their_error() {
     const double samples = static_cast<double>(result.nees_counts.size()) * study.runs;
     expect_consistent(study.file + ", NEES", simulate::nees_of(result), samples / study.memory, study.nees);
     expect_consistent(study.file + ", NIS", simulate::nis_of(result), samples, study.nis);
+  }
+}
+
+void test_the_log_of_a_run_gives_what_the_run_says_of_the_filter() {
+  for (const std::string& file : {motor, attitude}) {
+    const Controller controller = lqg_test::controller_of(text_of(file));
+    const ScenarioRun run = simulate::run_scenario(controller, controller.problem.scenarios.at(1));
+    const simulate::ReplayRun replay = simulate::replay(controller, {run.times, run.y, run.u, run.r});
+    TEST_ASSERT_TRUE((replay.estimate.array() == run.estimate.array()).all());
+    TEST_ASSERT_TRUE((replay.sigma.array() == run.sigma.array()).all());
+    TEST_ASSERT_TRUE((replay.nis.array() == run.nis.array()).all());
+    TEST_ASSERT_TRUE(run.left_out.any() && run.nis.maxCoeff() > 0);
   }
 }
 
@@ -211,6 +224,7 @@ void tearDown() {}
 int main() {
   UNITY_BEGIN();
   RUN_TEST(test_filters_know_their_error);
+  RUN_TEST(test_the_log_of_a_run_gives_what_the_run_says_of_the_filter);
   RUN_TEST(test_a_motor_that_is_too_hot_is_found_out);
   RUN_TEST(test_a_motor_finds_its_rotor_from_every_angle);
   RUN_TEST(test_an_attitude_far_off_is_let_in);
