@@ -8,8 +8,18 @@
 #include <stdbool.h>
 #include <string.h>
 
+#ifdef TINYEKF /* before sqrt has another meaning */
+#define EKF_N NX
+#define EKF_M NY
+#define _float_t real_t
+#include TINYEKF
+typedef ekf_t filter_t;
+#define predict ekf_predict
+#define update ekf_update
+#endif
+
 /* newlib's tgmath.h lacks long double */
-#define OF_REAL(name) _Generic((real_t)0, float : name##f, double : name)
+#define OF_REAL(name) _Generic((real_t)0, float: name##f, double: name)
 #define sin(x) OF_REAL(sin)(x)
 #define cos(x) OF_REAL(cos)(x)
 #define sqrt(x) OF_REAL(sqrt)(x)
@@ -29,16 +39,7 @@ static void multiply(const real_t *a, const real_t *b, real_t *product, int rows
         }
 }
 
-#ifdef TINYEKF
-#define EKF_N NX
-#define EKF_M NY
-#define _float_t real_t
-#include TINYEKF
-typedef ekf_t filter_t;
-#define predict ekf_predict
-#define update ekf_update
-#else
-
+#ifndef TINYEKF
 typedef struct {
     real_t x[NX], P[NX * NX];
 } filter_t;

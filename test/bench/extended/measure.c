@@ -44,8 +44,8 @@ int main(void)
 
         start_counting();
         none = ticks_of_call(NULL, NULL, NULL, do_nothing, stack + STACK_WORDS);
-        counts[k] = instructions_in(ticks_of_call((void *)u_in[k], y_in[k], NULL, (function *)peer_sample,
-                                                  stack + STACK_WORDS)) -
+        counts[k] = instructions_in(
+                        ticks_of_call((void *)u_in[k], y_in[k], NULL, (function *)peer_sample, stack + STACK_WORDS)) -
                     instructions_in(none) + 1; /* 1: do_nothing's own */
         was_in_range = was_in_range && !has_gone_around();
         peer_estimate(x, P);

@@ -9,7 +9,6 @@ import sys
 
 import numpy
 import sympy
-
 from formulas import Formulas
 
 SAMPLES = 301

@@ -5,6 +5,8 @@
 #
 #   test/bench/extended/run.sh [core]… [model]…    prints the tables
 #   test/bench/extended/run.sh --update            writes record.md, too
+#   test/bench/extended/run.sh --check             answers and times of the pendulum on this PC, where SymForce, SymPy and
+#                                                  NumPy are installed already, for python3 or in FOLDER
 #
 # A core is one of cortex-m0, cortex-m3, cortex-m4f, cortex-m7 and x86-64; a model one of models/: a pendulum, a cart
 # with a pole (both with a Runge-Kutta step a sample), a robot that is seen from a beacon (discrete, with atan2 and
@@ -13,8 +15,9 @@
 # Contestants. TinyLQG: `step` of the emitted header with the covariance as it is (plain), with fused multiply-adds
 # where the hardware has them (fused), and as U diag(d) Uᵀ (ud). SymForce's C++ of the same filter (symforce_code.py),
 # with the Jacobian of the Runge-Kutta step as a whole (symforce) and by the chain rule (staged). Loops over matrices in
-# the manner of TinyEKF with Jacobians by hand (loops.c), which is code of this benchmark's own; TINYEKF names a tinyekf.h,
-# which then competes, too. sin, cos, atan2 and sqrt are those of lqg/functions.h for TinyLQG, newlib's for all others,
+# the manner of TinyEKF with Jacobians by hand (loops.c), which is code of this benchmark's own. TinyEKF itself is in no
+# registry: where TINYEKF names a tinyekf.h (github.com/simondlevy/TinyEKF; the record has that of the commit 1442ecb),
+# it competes, too, with the same Jacobians. sin, cos, atan2 and sqrt are those of lqg/functions.h for TinyLQG, newlib's for all others,
 # glibc's on x86-64. The compiler fuses multiply-adds of all but TinyLQG where it can. Only the emitted code checks
 # anything: measurements, bounds, resets.
 #
@@ -85,7 +88,7 @@ compile_contestant() {
       "${cxx[@]}" "${flags[@]}" -isystem "$eigen" -I"$folder/$model/symforce" -c "$here/symforce.cpp" -o "$made.o"
       ;;
     *)
-      [ "$1" != tinyekf ] || flags+=("-DTINYEKF=\"$(realpath "$TINYEKF")\"")
+      [ "$1" != tinyekf ] || flags+=(-w "-DTINYEKF=\"$(realpath "$TINYEKF")\"")
       "${compiler[@]}" "${flags[@]}" -fno-math-errno "-DHAND_WRITTEN=\"models/$model.h\"" -c "$here/loops.c" \
         -o "$made.o"
       ;;
@@ -160,19 +163,28 @@ measure() {
   done
 }
 
+# What --check uses.
+find_python() {
+  for python in "$folder/venv/bin/python" python3; do
+    ! { "$python" -c 'import numpy, symforce, sympy' && [ -e "$eigen/Eigen" ]; } 2>/dev/null || return 0
+  done
+  return 1
+}
+
 # ---- the command line --------------------------------------------------------------------------------------------
 
 print_versions() {
   echo "Made by \`test/bench/extended/run.sh --update\`, which says what is compared and measured, with"
   echo "$(arm-none-eabi-gcc --version | head -n 1) and $(gcc --version | head -n 1), ${options[*]};"
   echo "lqgen $("$LQGEN" --version | head -n 1)," \
-    "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")."
+    "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")${TINYEKF:+, TinyEKF 1442ecb}."
 }
 
-options=(-O2) eigen=/usr/include/eigen3 update='' cores=() models=()
+options=(-O2) eigen=/usr/include/eigen3 update='' check='' cores=() models=()
 for argument in "$@"; do
   case $argument in
     --update) update=yes ;;
+    --check) check=yes ;;
     -h | --help) lqg_print_help "${BASH_SOURCE[0]}" && exit ;;
     *)
       if [[ " ${every_target[*]} " == *" $argument "* ]]; then
@@ -180,21 +192,26 @@ for argument in "$@"; do
       elif [[ " ${every_model[*]} " == *" $argument "* ]]; then
         models+=("$argument")
       else
-        lqg_stop "expected --update, a core (${every_target[*]}) or a model (${every_model[*]}), found $argument"
+        lqg_stop "expected --update, --check, a core (${every_target[*]}) or a model (${every_model[*]}), found $argument"
       fi
       ;;
   esac
 done
-[ -z "$update" ] || [ $# = 1 ] || lqg_stop "--update writes the record of all cores and models: expected nothing else"
+[ -z "$update$check" ] || [ $# = 1 ] || lqg_stop "expected nothing beside --update and --check"
+[ -z "$check" ] || { cores=(x86-64) && models=(pendulum); }
 [ ${#cores[@]} -gt 0 ] || cores=("${every_target[@]}")
 [ ${#models[@]} -gt 0 ] || models=("${every_model[@]}")
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
-select_core cortex-m4f
-absent=$(missing_tools)
-[ -z "$absent" ] || lqg_stop "Not found:$absent"
+if [ -n "$check" ]; then
+  find_python || { echo "Nothing to compare: no SymForce, SymPy and NumPy, or no Eigen" && exit; }
+else
+  select_core cortex-m4f
+  absent=$(missing_tools)
+  [ -z "$absent" ] || lqg_stop "Not found:$absent"
+  fetch_python
+fi
 lqg_find_lqgen
-fetch_python
 for model in "${models[@]}"; do
   make_model
 done

@@ -30,7 +30,7 @@ void peer_init(void) {
   for (int i = 0; i < NX; ++i) P(i * (i + 3) / 2) = P0[i];
 }
 
-void peer_sample(const real_t u[NU], const real_t y[NY]) {
+__attribute__((flatten)) void peer_sample(const real_t u[NU], const real_t y[NY]) {
   Vector<NX> corrected;
   Vector<NX*(NX + 1) / 2> corrected_P;
   sym::Update<real_t>(x, P, vector_of(constants), vector_of(V), Eigen::Map<const Vector<NY>>(y), &corrected,
