@@ -130,7 +130,7 @@ parts_of() {
     for style in unrolled compact; do
       case $style in
         unrolled) ! grep -q '^\[\[stage\]\]' "$name" || continue ;;
-        compact) ! grep -q '^realisation' "$name" || continue ;;
+        compact) ! grep -qE '^(realisation|gain *= *"extended")' "$name" || continue ;;
       esac
       parts+=("$(basename "$name" .toml).$style")
     done

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A matrix of the file, whose entries may be more exact than doubles.
 //
-// An entry that is written as a number is the double that it reads as. One that a formula gives, or the linearisation of
-// equations, is a number of many digits; the double is what rounding leaves of it. `real` of such a matrix has all digits,
-// so that the design rounds once, at its end.
+// An entry that is written as a number is the double that it reads as. One that a formula gives, or the linearisation
+// of equations, is a number of many digits; the double is what rounding leaves of it. `real` of such a matrix has all
+// digits, so that the design rounds once, at its end.
 #pragma once
 
 #include <Eigen/Core>

@@ -7,8 +7,8 @@
 //     power   = atom [ "^" signed ]                  a^b^c = a^(b^c), −a^b = −(a^b)
 //     atom    = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
 //
-// A number is written as in C: 1, 0.5, .5, 2e-3. A name has letters, digits and _, and does not begin with a digit; `pi`
-// and the names of the functions are reserved.
+// A number is written as in C: 1, 0.5, .5, 2e-3. A name has letters, digits and _, and does not begin with a digit;
+// `pi` and the names of the functions are reserved.
 #pragma once
 
 #include <string>

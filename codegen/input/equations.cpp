@@ -55,7 +55,8 @@ class EquationsReader {
  private:
   void refuse_without_f() {
     if (values_.has("plant.h")) report_.error("plant.h", "needs plant.f");
-    if (values_.has("plant.operating_point.steady")) report_.error("plant.operating_point.steady", "needs plant.f");
+    for (const char* key : {"plant.operating_point.steady", "plant.steady"})
+      if (values_.has(key)) report_.error(key, "needs plant.f");
     read_point_of_matrices("states", states_, Size::nx);
     read_point_of_matrices("inputs", inputs_, Size::nu);
   }
@@ -274,8 +275,13 @@ class EquationsReader {
   }
 
   bool read_steady(design::WantedPoint& point) {
-    const std::string key = std::string(point_key) + ".steady";
-    const Node* list = value_in(value_in(plant_, "operating_point"), "steady");
+    const Node* of_point = value_in(value_in(plant_, "operating_point"), "steady");
+    const Node* list = of_point != nullptr ? of_point : value_in(plant_, "steady");
+    const std::string key = of_point != nullptr ? std::string(point_key) + ".steady" : "plant.steady";
+    if (of_point != nullptr && values_.has("plant.steady")) {
+      report_.error("plant.steady", "says the same as operating_point.steady: expected one of the two");
+      return false;
+    }
     point.is_steady.assign(states_.size(), list == nullptr);
     if (list == nullptr) return true;
     if (list->kind != Kind::array) {

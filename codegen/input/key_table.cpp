@@ -88,6 +88,7 @@ std::vector<KeyRule> keys_of_the_loop() {
        "The outputs there, of a plant of matrices. References begin with them.", "0"},
       {"plant.operating_point.steady", Type::states, nx, no, optional, {},
        "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
+      {"plant.steady", Type::states, nx, no, optional, {}, "The same as `operating_point.steady`.", "all"},
 
       {"lqr", Type::table, no, no, optional, {},
        "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
@@ -173,8 +174,8 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"kalman.form", Type::word, no, no, optional, {"filter", "predictor"},
        "`filter`: u[k] uses y[k]. `predictor`: u[k] uses y[k−1], which leaves one sample for the computation."},
       {"kalman.covariance", Type::word, no, no, optional, {"ud", "plain"},
-       "Form of P with `gain = \"online\"` or `\"extended\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
-       "`plain`: P itself, which is cheaper."},
+       "Form of P with `gain = \"online\"` or `\"extended\"`. `ud`: factors U diag(d) Uᵀ, which stay positive "
+       "definite. `plain`: P itself, which is cheaper."},
       {"kalman.initial_state", Type::vector, nx, no, optional, {},
        "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.",
        "0, or `plant.operating_point`"},

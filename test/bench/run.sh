@@ -136,7 +136,8 @@ make_controllers() {
     for design in "$lqg_root"/codegen/designs/*.toml; do
       if [ -n "$all" ] || [ $real = float ] || [ "$(design_value "$design" real)" = double ]; then
         for style in unrolled compact; do
-          if [ $style = compact ] && grep -q '^realisation' "$design"; then continue; fi  # those loops are of x̂
+          # Those loops are of x̂, and of matrices.
+          if [ $style = compact ] && grep -qE '^(realisation|gain *= *"extended")' "$design"; then continue; fi
           start_controller "$(design_value "$design" name)" "$design" $style $real
         done
       fi

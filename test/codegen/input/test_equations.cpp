@@ -151,6 +151,10 @@ void test_the_point_has_its_form() {
   expect_refusal(with_point("{ states = [0, 0], steady = [\"thh\"] }"),
                  "12:48: plant.operating_point.steady[0]: expected the name of a state, found \"thh\"; did you mean "
                  "`th`?");
+  expect_refusal(with_point("{ steady = [\"th\"] }\nsteady = [\"th\"]"),
+                 "13:10: plant.steady: says the same as operating_point.steady: expected one of the two");
+  expect_refusal(with_point("{}\nsteady = [\"thh\"]"),
+                 "13:11: plant.steady[0]: expected the name of a state, found \"thh\"; did you mean `th`?");
   expect_refusal(with_point("{ states = [0.5, 0], inputs = [0] }"),
                  "12:19: plant.operating_point: expected a point at rest, found dom/dt = -9.406");
   expect_equal(0, accepted(with_point("{ states = [\"? 0.1\", \"?\"] }")).plant.operating_point->x(0));
