@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A filter in the manner of TinyEKF, written for this comparison: loops over matrices whose sizes the compiler knows,
- * the inverse of S by Cholesky, (I − L C) P in full, and Jacobians by hand. With TINYEKF, the path of a tinyekf.h, it is
- * TinyEKF itself. */
+ * the inverse of S by Cholesky, (I − L C) P in full, and Jacobians by hand. With TINYEKF, the path of a tinyekf.h, it
+ * is TinyEKF itself. */
 #include "peer.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""model.py DESIGN.toml > model.h: the numbers of a model, what goes in, and x̂ and P that are expected to come out. They
-are those of a filter in double that shares nothing with the contestants: Jacobians by SymPy, the step's by the chain
-rule in NumPy, all outputs at once."""
+"""model.py DESIGN.toml > model.h: the numbers of a model, what goes in, and x̂ and P that are expected to come out.
+They are those of a filter in double that shares nothing with the contestants: Jacobians by SymPy, the step's by the
+chain rule in NumPy, all outputs at once."""
 
 import math
 import random

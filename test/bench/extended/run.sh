@@ -5,8 +5,8 @@
 #
 #   test/bench/extended/run.sh [core]… [model]…    prints the tables
 #   test/bench/extended/run.sh --update            writes record.md, too
-#   test/bench/extended/run.sh --check             answers and times of the pendulum on this PC, where SymForce, SymPy and
-#                                                  NumPy are installed already, for python3 or in FOLDER
+#   test/bench/extended/run.sh --check             answers and times of the pendulum on this PC, where SymForce, SymPy
+#                                                  and NumPy are installed already, for python3 or in FOLDER
 #
 # A core is one of cortex-m0, cortex-m3, cortex-m4f, cortex-m7 and x86-64; a model one of models/: a pendulum, a cart
 # with a pole (both with a Runge-Kutta step a sample), a robot that is seen from a beacon (discrete, with atan2 and
@@ -17,9 +17,9 @@
 # with the Jacobian of the Runge-Kutta step as a whole (symforce) and by the chain rule (staged). Loops over matrices in
 # the manner of TinyEKF with Jacobians by hand (loops.c), which is code of this benchmark's own. TinyEKF itself is in no
 # registry: where TINYEKF names a tinyekf.h (github.com/simondlevy/TinyEKF; the record has that of the commit 1442ecb),
-# it competes, too, with the same Jacobians. sin, cos, atan2 and sqrt are those of lqg/functions.h for TinyLQG, newlib's for all others,
-# glibc's on x86-64. The compiler fuses multiply-adds of all but TinyLQG where it can. Only the emitted code checks
-# anything: measurements, bounds, resets.
+# it competes, too, with the same Jacobians. sin, cos, atan2 and sqrt are those of lqg/functions.h for TinyLQG,
+# newlib's for all others, glibc's on x86-64. The compiler fuses multiply-adds of all but TinyLQG where it can. Only the
+# emitted code checks anything: measurements, bounds, resets.
 #
 # Answers. The reference is a filter in double with Jacobians by SymPy (model.py). What differs at most in 301 samples,
 # in standard deviations of x̂, and of P relative to its diagonal: less than 5 thousandths in float, 1e-9 in double.
@@ -173,11 +173,15 @@ find_python() {
 
 # ---- the command line --------------------------------------------------------------------------------------------
 
+tinyekf_version() {
+  [ -z "${TINYEKF:-}" ] || echo ", a tinyekf.h with the SHA-256 $(sha256sum "$TINYEKF" | cut -c 1-12)…"
+}
+
 print_versions() {
   echo "Made by \`test/bench/extended/run.sh --update\`, which says what is compared and measured, with"
   echo "$(arm-none-eabi-gcc --version | head -n 1) and $(gcc --version | head -n 1), ${options[*]};"
   echo "lqgen $("$LQGEN" --version | head -n 1)," \
-    "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")${TINYEKF:+, TinyEKF 1442ecb}."
+    "SymForce $(sed -n 's/^symforce==\([0-9.]*\).*/\1/p' "$peers/requirements.txt")$(tinyekf_version)."
 }
 
 options=(-O2) eigen=/usr/include/eigen3 update='' check='' cores=() models=()
@@ -192,7 +196,7 @@ for argument in "$@"; do
       elif [[ " ${every_model[*]} " == *" $argument "* ]]; then
         models+=("$argument")
       else
-        lqg_stop "expected --update, --check, a core (${every_target[*]}) or a model (${every_model[*]}), found $argument"
+        lqg_stop "expected an option, a core (${every_target[*]}) or a model (${every_model[*]}), found $argument"
       fi
       ;;
   esac
