@@ -36,7 +36,7 @@ class Model:
     def __init__(self, path):
         names = list(Formulas(path, {}).numbers)
         self.constants = vector("a", len(names) + 1)
-        # a number over a function without epsilon: SymForce's own guard against division by zero is not asked for
+        # without epsilon, SymForce's guard where atan2 has no slopes: the answers would differ
         library = {"sin": sf.sin, "cos": sf.cos, "sqrt": sf.sqrt, "atan2": lambda y, x: sf.atan2(y, x, epsilon=0)}
         self.formulas = Formulas(path, library, dict(zip(names, self.constants)))
         self.numbers = [*self.formulas.numbers.values(), self.formulas.plant["sample_time"]]
