@@ -59,6 +59,43 @@ FormulaDuals<S> rates(const Equations<S>& equations, const FormulaDuals<S>& x, c
   return out;
 }
 
+// J D: the slopes of k, which have been taken by the state of a stage, by the variables of that state x.
+template <class S>
+S slope_by_variable(const FormulaDual<S>& k, const FormulaDuals<S>& x, Eigen::Index variable) {
+  S sum(0);
+  bool is_first = true;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const S of_rate(OfFormula<S>::number(k.slope(static_cast<Eigen::Index>(i))));
+    const S of_stage(OfFormula<S>::number(x[i].slope(variable)));
+    if (is_zero(of_rate) || is_zero(of_stage)) continue;
+    sum = is_first ? S(of_rate * of_stage) : multiply_add(of_rate, of_stage, sum);
+    is_first = false;
+  }
+  return sum;
+}
+
+// The rates at a stage x. The formulas run over slopes by the stage itself, of which most are 0, and one product with
+// those of the stage follows: fewer operations than with those in each of them.
+template <class S, class Listener>
+FormulaDuals<S> rates_of_stage(const Equations<S>& equations, const FormulaDuals<S>& x, const Vector<S>& u,
+                               const char* name, const char* slope, const char* product, Listener& listener) {
+  using Scalar = typename OfFormula<S>::Scalar;
+  const auto count = static_cast<Eigen::Index>(x.size());
+  Vector<S> values(count);
+  for (Eigen::Index i = 0; i < count; ++i) values(i) = S(OfFormula<S>::number(x[static_cast<std::size_t>(i)].value));
+  FormulaDuals<S> out = rates(equations, variables(values), u, name, slope, listener);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    typename FormulaDual<S>::Slopes slopes(count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const S by_variable = slope_by_variable<S>(out[i], x, j);
+      listener.hint(by_variable, product, of_entry(static_cast<int>(i), static_cast<int>(j)));
+      slopes(j) = Scalar(by_variable);
+    }
+    out[i].slopes = std::move(slopes);
+  }
+  return out;
+}
+
 // x + c k
 template <class S>
 FormulaDuals<S> moved(const FormulaDuals<S>& x, const S& c, const FormulaDuals<S>& k) {
@@ -85,11 +122,11 @@ FormulaDuals<S> runge_kutta_step(const Equations<S>& equations, const FormulaDua
                                  Listener& listener) {
   const FormulaDuals<S> k1 = rates(equations, x, u, "k1", "J1", listener);
   const FormulaDuals<S> x2 = moved<S>(x, equations.T_half, k1, "x2", "D2", listener);
-  const FormulaDuals<S> k2 = rates(equations, x2, u, "k2", "J2", listener);
+  const FormulaDuals<S> k2 = rates_of_stage(equations, x2, u, "k2", "J2", "JD2", listener);
   const FormulaDuals<S> x3 = moved<S>(x, equations.T_half, k2, "x3", "D3", listener);
-  const FormulaDuals<S> k3 = rates(equations, x3, u, "k3", "J3", listener);
+  const FormulaDuals<S> k3 = rates_of_stage(equations, x3, u, "k3", "J3", "JD3", listener);
   const FormulaDuals<S> x4 = moved<S>(x, equations.T, k3, "x4", "D4", listener);
-  const FormulaDuals<S> k4 = rates(equations, x4, u, "k4", "J4", listener);
+  const FormulaDuals<S> k4 = rates_of_stage(equations, x4, u, "k4", "J4", "JD4", listener);
   FormulaDuals<S> outer, inner;
   for (std::size_t i = 0; i < x.size(); ++i) {
     outer.push_back(k1[i] + k4[i]);
