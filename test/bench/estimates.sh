@@ -8,8 +8,7 @@
 # Without design files: the shipped ones, each in both styles and both reals; COUNT random designs beside them (default
 # 0), of seed 1 … or SEED …, whose dimensions, filters, styles and arithmetic random_design.awk draws. Prints a line for
 # each: stated, compiled, by how many per cent more was stated. Fails where less is stated than was compiled, or more
-# than 15 % and 24 bytes more, 20 % of an extended filter in double: a frame grows by 8 bytes at once, and small ones
-# are of 24.
+# than 15 % and 24 bytes more: a frame grows by 8 bytes at once, and small ones are of 24.
 #
 # Flash is what the linker brings for init and step, as in run.sh. Stack is the deepest reach of step below its caller
 # along all calls that there are, taken or not: a reset is among them. In the compact style, whose step makes the calls
@@ -58,7 +57,7 @@ find_library() {
 
 # compare <title> <design> <option of lqgen>…
 compare() {
-  local title=$1 design=$2 name roots made library variant=() names stated_flash stated_stack flash stack most_here
+  local title=$1 design=$2 name roots made library variant=() names stated_flash stated_stack flash stack
   shift 2
   name=$(sed -n '/^\[/q;s/^[[:space:]]*name *= *"\([a-z0-9_]*\)".*/\1/p' "$design")
   made=$folder/controller
@@ -83,13 +82,9 @@ compare() {
     awk '$1 ~ /^\.(text|rodata|data|ARM\.exidx)/ { sum += $2 } END { print sum }')
   stack=$(arm-none-eabi-objdump -d --no-show-raw-insn "$folder/footprint.elf" |
     awk -f "$bench/stack.awk" -v roots="$roots")
-  most_here="$most_flash $most_stack"
-  if grep -q '"real": "double"' "$made/$name.json" && grep -qE '^gain *= *"extended"' "$design"; then
-    most_here="20 20"
-  fi
   stated_flash=$(json_value "$made/$name.json" flash) stated_stack=$(json_value "$made/$name.json" stack)
   awk -v title="$title" -v a="$stated_flash" -v b="$flash" -v c="$stated_stack" -v d="$stack" \
-    -v most_flash="${most_here% *}" -v most_stack="${most_here#* }" -v allowed=$allowed '
+    -v most_flash=$most_flash -v most_stack=$most_stack -v allowed=$allowed '
     function fault(stated, compiled, most) {
       return stated < compiled ? " too little |" : stated > compiled * (1 + most / 100) + allowed ? " too much |" : ""
     }
