@@ -116,7 +116,6 @@ Counted absolute(const Counted& a) { return counted(std::abs(a.value)); }
 bool is_zero(const Counted& a) { return a.value == 0; }
 bool is_less(const Counted& a, const Counted& b) { return a.value < b.value; }
 // What formulas of an extended filter would ask for.
-Counted operator-(const Counted& a) { return counted(-a.value); }
 Counted sqrt(const Counted& a) { return counted(std::sqrt(a.value)); }
 Counted sin(const Counted& a) { return counted(std::sin(a.value)); }
 Counted cos(const Counted& a) { return counted(std::cos(a.value)); }
