@@ -96,14 +96,14 @@ std::string lines(const std::string& parameters, const std::string& a = "0", con
 void test_what_goes_together_is_not_remarked() {
   for (const char* good : {"k/m", "-k/m + 1", "k/m + q", "2*k/m - k/(3*m)", "sqrt(k^2/m^2)", "q", "h*q", "k/m*sin(h/h)",
                            "max(k/m, 0)*cos(atan2(h, 2*h))", "k^2/m^2*m/k", "abs(-k)/m*2^3", "k/m*exp(log(h/h))",
-                           "(k/m)^(1/2)*sqrt(k/m)", "9.81*m/h + k/m", "sin(h/h) + k/m", "0.5*V + m"})
+                           "(k/m)^(1/2)*sqrt(k/m)", "9.81*m/h + k/m", "sin(h/h) + k/m", "0.5*V + k/m"})
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", lines("", "\"" + std::string(good) + "\"").c_str(), good);
 }
 
 void test_sums_and_functions_of_different_units_are_refused_with_their_place() {
   const std::pair<const char*, const char*> wrong[] = {
       {"m + V", "a sum of kg and V"},
-      {"l - 3*h", "a sum of different units, mm and m: convert one to the other"},
+      {"l - h", "a sum of different units, mm and m: convert one to the other"},
       {"min(h, V)", "min of m and V"},
       {"atan2(h, m)", "atan2 of m and kg"},
       {"sin(h)", "sin needs a pure number (or rad), found m"},

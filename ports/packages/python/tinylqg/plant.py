@@ -70,6 +70,8 @@ def timed(matrices, dt):
     if dt is True:
         raise expected("plant.dt", "the sample time in s", "True, a discrete plant of unknown sample time")
     dt = scalar("sample_time", dt)
+    if isinstance(dt, str):
+        raise expected("plant.sample_time", "a number", repr(dt))
     if dt == 0:
         return {"domain": "continuous", **matrices}
     if not dt > 0:
