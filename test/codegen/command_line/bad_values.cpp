@@ -82,7 +82,7 @@ std::vector<BadDesign> wrong_values() {
       {"words of [kalman] misspelt",
        {{26, "noise = \"white\"\ngain = \"\"\nform = \"F\"\ncovariance = \"UD\"", 29}},
        {"26:9: kalman.noise: expected \"discrete\" or \"continuous\", found \"white\"",
-        "27:8: kalman.gain: expected \"steady\", \"schedule\" or \"online\", found \"\"",
+        "27:8: kalman.gain: expected \"steady\", \"schedule\", \"online\" or \"extended\", found \"\"",
         "28:8: kalman.form: expected \"filter\" or \"predictor\", found \"F\"",
         "29:14: kalman.covariance: expected \"ud\" or \"plain\", found \"UD\""}},
       {"cost misspelt",
