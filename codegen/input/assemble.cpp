@@ -23,6 +23,12 @@ ExactMatrix empty_or(const Values& values, const std::string& key) {
   return matrix != nullptr ? *matrix : ExactMatrix();
 }
 
+// Of what is made of zeros and ones, or is no part of the design's own numbers.
+Eigen::MatrixXd doubles_or_empty(const Values& values, const std::string& key) {
+  const Eigen::MatrixXd* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : Eigen::MatrixXd();
+}
+
 Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
   const Eigen::MatrixXd* matrix = values.matrix(key);
   return matrix != nullptr ? Eigen::VectorXd(matrix->col(0)) : Eigen::VectorXd();
@@ -131,7 +137,7 @@ design::Regulator regulator(const Values& values, const design::Plant& plant) {
   result.settling_time = optional_number(values, "lqr.settling_time");
   result.horizon = whole(values, "lqr.horizon");
   result.Q_final = empty_or(values, "lqr.Q_final");
-  result.structure = empty_or(values, "lqr.structure");
+  result.structure = doubles_or_empty(values, "lqr.structure");
   if (values.has("lqr.integral"))
     result.integral = design::Integral{indices(values, "lqr.integral.outputs"), *values.matrix("lqr.integral.Q")};
   result.track = indices(values, "lqr.track");
@@ -198,7 +204,7 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
     result.output_max = bounds("kalman.output_max", infinity);
   }
   if (values.has("kalman.spike")) result.spike = values.number("kalman.spike", 0);
-  result.structure = empty_or(values, "kalman.structure");
+  result.structure = doubles_or_empty(values, "kalman.structure");
   if (values.has("kalman.recovery"))
     result.recovery = design::TransferRecovery{values.number("kalman.recovery", 0), says("kalman.recovery", "auto")};
   result.form = says("kalman.form", "predictor") ? design::Form::predictor : design::Form::filter;
@@ -235,7 +241,7 @@ Eigen::VectorXd prices(const Values& values, Size size) {
 }
 
 design::SoftLimits soft_limits(const Values& values, const std::string& key, Size size) {
-  return {empty_or(values, key), prices(values, size)};
+  return {doubles_or_empty(values, key), prices(values, size)};
 }
 
 design::Limits limits(const Values& values) {

@@ -46,7 +46,7 @@ class ParameterReader {
   Parameters read(const Node& table, const Settings& settings) {
     for (std::size_t i = 0; i < table.keys.size(); ++i) state(table.keys[i], table.items[i]);
     for (const Setting& setting : settings) set(setting, table.where);
-    for (std::size_t i = 0; i < stated_.size(); ++i) parse(stated_[i]);
+    for (Stated& one : stated_) parse(one);
     for (std::size_t i = 0; i < stated_.size(); ++i) resolve(i);
     for (const Stated& one : stated_)
       if (const auto found = done_.find(one.parameter.name); found != done_.end()) result_.all.push_back(found->second);
