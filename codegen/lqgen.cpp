@@ -48,6 +48,7 @@ struct Arguments {
   std::string folder = ".";
   std::vector<std::string> only = {"h", "test", "json", "html"};
   std::string style, real;
+  std::vector<std::string> settings;  // "R=2.5"
   bool quiet = false;
   std::optional<unsigned> time_limit;  // s
 };
@@ -59,6 +60,18 @@ bool wants(const Arguments& arguments, const char* what) {
 // The design file as messages and headers name it.
 std::string shown_path(const Arguments& arguments) {
   return arguments.design_file == "-" ? "standard input" : arguments.design_file;
+}
+
+input::Settings settings_of(const Arguments& arguments) {
+  input::Settings settings;
+  for (const std::string& text : arguments.settings)
+    if (const auto setting = input::setting_of(text)) settings.push_back(*setting);
+  return settings;
+}
+
+// What is wrong with a text that is no setting; else nothing.
+std::string refuse_setting(const std::string& text) {
+  return input::setting_of(text) ? "" : "expected NAME=VALUE, found " + input::in_quotes(text);
 }
 
 void report(const Arguments& arguments, const input::DesignFile& file, const design::Findings& findings) {
@@ -135,14 +148,14 @@ std::optional<emit::Controller> controller_of(const Arguments& arguments, const 
 
 std::optional<emit::Controller> design_controller(const Arguments& arguments, Watch& watch, int& status,
                                                   design::Findings& findings) {
-  return controller_of(arguments, input::read_design_file(arguments.design_file), Requires::all, watch, status,
-                       findings);
+  return controller_of(arguments, input::read_design_file(arguments.design_file, settings_of(arguments)), Requires::all,
+                       watch, status, findings);
 }
 
 // `lqgen check`: nothing is written but to the terminal.
 int check(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  const input::DesignFile file = input::read_design_file(arguments.design_file, settings_of(arguments));
   design::Findings findings;
   int status = written;
   const std::optional<emit::Controller> controller =
@@ -189,7 +202,7 @@ int generate(const Arguments& arguments) {
 // `lqgen --orders`: a table on standard output, and no file.
 int show_orders(const Arguments& arguments) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  const input::DesignFile file = input::read_design_file(arguments.design_file, settings_of(arguments));
   report(arguments, file, file.findings);
   if (!file.readable) return unreadable;
   if (!file.problem || design::has_error(file.findings)) return wrong;
@@ -245,7 +258,7 @@ bool write_simulations(const Arguments& arguments, const commands::SimulateArgum
 // shown, too: then the status tells.
 int simulate_design(const Arguments& arguments, const commands::SimulateArguments& wanted) {
   Watch watch(shown_path(arguments), arguments.quiet, arguments.time_limit);
-  const input::DesignFile file = input::read_design_file(arguments.design_file);
+  const input::DesignFile file = input::read_design_file(arguments.design_file, settings_of(arguments));
   design::Findings findings;
   int status = written;
   const std::optional<emit::Controller> controller =
@@ -346,6 +359,11 @@ void add_design_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--real", arguments.real, "instead of code.real of the design")
       ->check(CLI::IsMember({"float", "double"}))
       ->option_text("float|double");
+  app.add_option("--set", arguments.settings,
+                 "a number or an expression in place of a parameter's value; again for more")
+      ->allow_extra_args(false)
+      ->check(CLI::Validator(refuse_setting, ""))
+      ->option_text("NAME=VALUE");
   app.add_option("--time-limit", arguments.time_limit, "end without a result when so many seconds have passed")
       ->check(CLI::Range(1u, 1000000u))
       ->option_text("S");

@@ -22,6 +22,9 @@
 #   test/campaign.sh <build> foresight [states]  random states of every design whose limits are foreseen, in float and
 #                                                double, by the conditions of an optimum, and a thousandth as many by
 #                                                another solver: default 1000000; test/foresight
+#   test/campaign.sh <build> functions [share]   the error of each function of lqg/functions.h for all floats, or for
+#                                                every share-th, and for 7 million doubles, or a share of them;
+#                                                test/src/functions
 #
 # <build> is a build with tests, as test/run.sh leaves it in build/. For fuzz it has to be by clang: CC=clang-19
 # test/run.sh. A campaign has parts, of which as many run side by side as there are processors. It ends at the first
@@ -49,6 +52,7 @@ test/campaign.sh <build> <campaign>             on two processors
   flips [count]     default all of each part    2 minutes
   proofs                                        15 minutes
   foresight [states] default 1000000             6 minutes
+  functions [share] default 1: all floats       half an hour
 END
 }
 
@@ -126,7 +130,7 @@ parts_of() {
     for style in unrolled compact; do
       case $style in
         unrolled) ! grep -q '^\[\[stage\]\]' "$name" || continue ;;
-        compact) ! grep -q '^realisation' "$name" || continue ;;
+        compact) ! grep -qE '^(realisation|gain *= *"extended")' "$name" || continue ;;
       esac
       parts+=("$(basename "$name" .toml).$style")
     done
@@ -302,6 +306,25 @@ foresight() {
   done
 }
 
+# A part for each function of each scalar. PARTS as above.
+functions() {
+  local share parts=() part name tests=$build/test/src/functions
+  share=$(number 1 "$@")
+  for name in float double; do
+    [ -x "$tests/${name}_errors" ] || refuse "Not found: $tests/${name}_errors"
+    while read -r part; do
+      parts+=("$name.$part")
+    done < <("$tests/${name}_errors" list)
+  done
+  keep_parts
+  for part in "${parts[@]}"; do
+    case $part in
+      float.*) start "$part" "$tests/float_errors" "$share" "${part#*.}" ;;
+      double.*) start "$part" "$tests/double_errors" $((1000000 / share + 1)) "${part#*.}" ;;
+    esac
+  done
+}
+
 # A part for each design and style. PARTS as above.
 proofs() {
   local parts=() part design
@@ -330,7 +353,7 @@ main() {
   build=$(cd "$1" && pwd) campaign=$2
   shift 2
   case $campaign in
-    soak | random | fuzz | options | spikes | mutants | flips | foresight)
+    soak | random | fuzz | options | spikes | mutants | flips | foresight | functions)
       [ $# -le 1 ] || refuse "$campaign: expected one number at most, found: $*"
       ;;
     bits) ;;
@@ -353,6 +376,7 @@ main() {
     mutants) mutants "$@" ;;
     flips) flips "$@" ;;
     foresight) foresight "$@" ;;
+    functions) functions "$@" ;;
     proofs) proofs ;;
   esac
   finish_all

@@ -31,10 +31,12 @@ if(LQG_BUILD_CODEGEN)
   install(FILES codegen/controller/bounds.hpp codegen/controller/controller.hpp codegen/controller/gate.hpp
                 codegen/controller/recovery.hpp codegen/controller/worth.hpp
           DESTINATION ${include_dir}/controller)
+  install(FILES codegen/expression/tree.hpp DESTINATION ${include_dir}/expression)
   install(FILES codegen/simulate/simulation.hpp DESTINATION ${include_dir}/simulate)
-  install(FILES codegen/step/model.hpp codegen/step/scalar.hpp DESTINATION ${include_dir}/step)
+  install(FILES codegen/step/equations.hpp codegen/step/model.hpp codegen/step/scalar.hpp
+          DESTINATION ${include_dir}/step)
   target_include_directories(tinylqg_design INTERFACE $<INSTALL_INTERFACE:${include_dir}>)
-  install(TARGETS tinylqg_design lqg_design lqg_step lqg_controller lqg_simulate EXPORT tinylqg_design)
+  install(TARGETS tinylqg_design lqg_expression lqg_design lqg_step lqg_controller lqg_simulate EXPORT tinylqg_design)
   install(EXPORT tinylqg_design NAMESPACE tinylqg:: FILE tinylqgDesignTargets.cmake DESTINATION ${package_dir})
   install(FILES codegen/cmake/LqgDesignDependencies.cmake DESTINATION ${package_dir})
   install(FILES codegen/lqgen.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -63,7 +63,8 @@ class Scales {
   VectorXd output_limits(const MatrixXd& C, const MatrixXd& D, const VectorXd& V, const std::vector<int>& x) const {
     const std::vector<double> bounds = powers_of_two(x);
     const VectorXd reach = C.cwiseAbs() * Eigen::Map<const VectorXd>(bounds.data(), C.cols());
-    const VectorXd others = V.cwiseMax(0).cwiseSqrt() + D.cwiseAbs() * inputs_;
+    VectorXd others = V.cwiseMax(0).cwiseSqrt() + D.cwiseAbs() * inputs_;
+    if (is_extended(controller_)) others = others.cwiseMax(1);
     VectorXd limits(C.rows());
     for (int i = 0; i < limits.size(); ++i)
       limits(i) = std::ldexp(1.0, exponent_of(reach(i) + std::ldexp(others(i), range_.margin), range_));
@@ -78,7 +79,8 @@ class Scales {
     scales = scales.cwiseMax(design::to_doubles(kept_start(controller_)).cwiseAbs());
     if (controller_.solution.estimator && controller_.solution.estimator->P_prior.size())
       scales = scales.cwiseMax(deviations(kept_prior()));
-    return scales;
+    // Where an extended filter goes no matrix tells: at least one of each unit.
+    return is_extended(controller_) ? VectorXd(scales.cwiseMax(1)) : scales;
   }
 
   // The covariance before an update, in the steady state.

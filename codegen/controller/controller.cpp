@@ -7,6 +7,7 @@
 #include "controller/gains.hpp"
 #include "controller/gate.hpp"
 #include "controller/numbers.hpp"
+#include "controller/operating_point.hpp"
 #include "controller/recovery.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/finding.hpp"
@@ -14,6 +15,7 @@
 #include "design/rounding.hpp"
 #include "design/sampled/added_states.hpp"
 #include "design/sampled/reference.hpp"
+#include "expression/bind.hpp"
 
 namespace lqg::controller {
 
@@ -69,13 +71,26 @@ std::vector<std::size_t> stage_starts_of(const Controller& controller) {
   return starts;
 }
 
+// h has an input in it.
+bool has_input_in_outputs(const Controller& controller) {
+  const auto& formulas = controller.problem.plant.equations->h;
+  return std::any_of(formulas.begin(), formulas.end(), [&](const expression::Tree& formula) {
+    const std::vector<int> variables = expression::variables_in(formula);
+    return !variables.empty() && variables.back() >= controller.size.nx;
+  });
+}
+
 bool has_feedthrough(const Controller& controller) {
+  if (is_extended(controller)) return has_input_in_outputs(controller);
   return controller.has.filter &&
          in_any_stage(controller, [&](std::size_t at) { return !is_zero(plant_at(controller, at).D); });
 }
 
+// In the numbers of the controller.
 Eigen::VectorXd start_of(const Controller& controller) {
   if (!controller.has.filter) return {};
+  if (is_extended(controller) && controller.problem.estimator->extended->own_x0.size())
+    return controller.problem.estimator->extended->own_x0;
   return design::to_doubles(controller.solution.start->x0).col(0);
 }
 
@@ -106,6 +121,7 @@ Controller described(design::Problem problem, design::Solution solution, Source 
   controller.stage_starts = stage_starts_of(controller);
   controller.has.feedthrough = has_feedthrough(controller);
   controller.x0 = start_of(controller);
+  controller.point = point_of(controller);
   return controller;
 }
 
@@ -181,6 +197,7 @@ std::optional<Controller> controller_of(design::Problem problem, design::Solutio
                                         design::Findings& findings) {
   Controller controller = described(std::move(problem), std::move(solution), std::move(source));
   check_emittable(controller, findings);
+  check_point(controller, findings);
   if (design::has_error(findings)) return std::nullopt;
   controller.laws = law_gains(controller);
   controller.filters = filter_gains(controller);
@@ -255,6 +272,10 @@ std::string name_of(design::Realisation realisation) {
     case design::Realisation::modal: return "modal";
     default: return "physical";
   }
+}
+
+bool has_estimate(const Controller& controller) {
+  return controller.linear || controller.modal || (controller.has.filter && controller.point.x.size() > 0);
 }
 
 bool can_set_input(const Controller& controller) {

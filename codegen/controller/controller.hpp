@@ -66,6 +66,12 @@ struct Memory {
   bool gain_row = false;    // which of the filter's gains is in force
 };
 
+// What the caller's numbers are where those of the controller, which are deviations from it, are 0: the operating point
+// in the target's numbers. Each part is empty where all of it is 0.
+struct Point {
+  Eigen::VectorXd x, u, y, r;  // nx, nu, ny, nr
+};
+
 // The gains of one sample: of a law {K, Nbar, H, H_input}, of a filter with given gains {L, M, variances of the
 // innovations if a gate needs them}.
 using Gains = std::vector<design::RealMatrix>;
@@ -124,6 +130,7 @@ struct Controller {
   Dimensions size;
   Terms has;
   Memory keeps;
+  Point point;                            // empty without an operating point
   Eigen::VectorXd x0;                     // nx, with zeros for inputs on their way; empty without a filter
   std::vector<int> integrated;            // the outputs that are integrated, ξ by ξ
   std::vector<int> references;            // the outputs that r names, rising
@@ -169,6 +176,11 @@ inline bool carries_covariance(const Controller& controller) {
   return controller.filter == step::Filter::plain || controller.filter == step::Filter::ud;
 }
 
+// It is of the plant's equations, linearised at the estimate.
+inline bool is_extended(const Controller& controller) {
+  return controller.problem.estimator && controller.problem.estimator->extended;
+}
+
 // "x", or "z" of a filter that keeps that in its place: the name of it in the header.
 inline const char* kept_name(const Controller& controller) { return controller.modal ? "z" : "x"; }
 
@@ -178,6 +190,8 @@ inline bool has_law_table(const Controller& controller) { return controller.laws
 inline bool control_changes_state(const Controller& controller) {
   return controller.has.feedthrough || controller.size.nxi > 0;
 }
+// There is a function for x̂: what is kept in its place is something else.
+bool has_estimate(const Controller& controller);
 // An input that was set by hand tells the controller something.
 bool can_set_input(const Controller& controller);
 // No other output is needed to make the noise of this one independent.

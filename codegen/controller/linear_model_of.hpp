@@ -22,6 +22,7 @@ step::LinearModel<S> linear_model_of(const Controller& controller, Round round) 
   model.of_state = convert<S>(form.of_state, round);
   model.keep = convert<S>(form.keep, round);
   model.z0 = convert<S>(form.z0, round);
+  model.point = convert_point<S>(controller.point);
   if (!model.predictor_form) return model;
   model.D.resize(controller.size.nu, 0);
   model.heard.resize(controller.size.nx, 0);

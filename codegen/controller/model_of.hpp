@@ -7,6 +7,9 @@
 #include <limits>
 
 #include "controller/controller.hpp"
+#include "controller/equations_of.hpp"
+#include "controller/limit_of_target.hpp"
+#include "controller/operating_point.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "design/rounding.hpp"
@@ -29,6 +32,7 @@ void convert_online(const Controller& controller, Round round, std::size_t sampl
   model.E = convert<S>(online.E, round);
   model.C = convert<S>(online.C, round);
   if (controller.has.feedthrough) model.D = convert<S>(online.D, round);
+  if (controller.problem.estimator->extended) model.equations = equations_of<S>(controller, round);
   if (controller.keeps.innovation) model.M = convert<S>(online.M, round);
   model.V = convert<S>(online.V, round);
   model.A_free = convert<S>(online.A_free, round);
@@ -65,15 +69,6 @@ void convert_steady(const Controller& controller, Round round, std::size_t sampl
     model.variance = convert<S>(controller.solution.estimator->S.diagonal(), round);
 }
 
-// The number of the target next to `limit` that does not lie outside it (`inward` is −1 for u_max, +1 for u_min);
-// an infinite limit stays infinite.
-inline double limit_of_target(double limit, int inward, bool is_double) {
-  if (is_double || std::isinf(limit)) return limit;
-  const float near = static_cast<float>(limit);
-  const bool outside = inward < 0 ? static_cast<double>(near) > limit : static_cast<double>(near) < limit;
-  return outside ? std::nextafter(near, inward < 0 ? -INFINITY : INFINITY) : near;
-}
-
 template <class S>
 step::Vector<S> convert_limits(const Eigen::VectorXd& from, int inward, bool is_double) {
   step::Vector<S> to(from.size());
@@ -100,9 +95,37 @@ step::LimitedLaw<S> limited_law_of(const Controller& controller, Round round) {
   law.scale = convert<S>(rows.scale, round);
   law.low = convert_limits<S>(design::to_doubles(rows.low), +1, is_double);
   law.high = convert_limits<S>(design::to_doubles(rows.high), -1, is_double);
+  if (controller.point.u.size()) {
+    law.low.head(law.nu) = input_limits(controller, +1).template cast<S>();
+    law.high.head(law.nu) = input_limits(controller, -1).template cast<S>();
+  }
   law.tolerance = convert<S>(rows.tolerance, round);
   if (controller.has.rate_limit) law.u_step = convert_limits<S>(rate_steps(controller), -1, is_double);
   return law;
+}
+
+// u + K x of the operating point: the law of an extended filter is u − K (x̂ − x).
+template <class S, class Round>
+step::Vector<S> begin_law(const Controller& controller, Round round) {
+  const Point point = stated_point(controller);
+  const design::Digits digits(std::max(controller.solution.numerics.digits, 50u));
+  const design::RealMatrix& K = controller.solution.regulator->K;
+  step::Vector<S> begun(controller.size.nu);
+  for (Eigen::Index i = 0; i < begun.size(); ++i) {
+    design::Real sum = point.u.size() ? point.u(i) : 0.0;
+    for (Eigen::Index j = 0; j < point.x.size(); ++j) sum += K(i, j) * design::Real(point.x(j));
+    begun(i) = round(sum);
+  }
+  return begun;
+}
+
+// The input at the operating point of an extended filter, where it is not 0.
+template <class S, class Round>
+step::Vector<S> start_of_input(const Controller& controller, Round round) {
+  const Eigen::VectorXd u = stated_point(controller).u;
+  step::Vector<S> start(u.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) start(i) = round(design::Real(u(i)));
+  return start;
 }
 
 template <class S, class Round>
@@ -112,8 +135,8 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
   if (controller.has.foresight) model.foreseen = limited_law_of<S>(controller, round);
   const auto& limits = controller.problem.limits;
   if (limits && limits->u_min.size() && !controller.has.foresight) {
-    model.u_min = convert_limits<S>(limits->u_min, +1, controller.target.is_double);
-    model.u_max = convert_limits<S>(limits->u_max, -1, controller.target.is_double);
+    model.u_min = input_limits(controller, +1).template cast<S>();
+    model.u_max = input_limits(controller, -1).template cast<S>();
   }
   if (controller.has.rate_limit && !controller.has.foresight)
     model.u_step = convert_limits<S>(rate_steps(controller), -1, controller.target.is_double);
@@ -128,6 +151,7 @@ void convert_regulator(const Controller& controller, Round round, std::size_t sa
     model.wanted.push_back(
         static_cast<int>(std::find(references.begin(), references.end(), output) - references.begin()));
   model.T = round(design::Real(controller.problem.plant.sample_time));
+  if (is_extended(controller)) model.law_begun = begin_law<S>(controller, round);
   model.xi_bound = controller.bounds.xi;
   model.error_limit = controller.bounds.error.template cast<S>();
   if (controller.has.filter || model.integral.empty()) return;
@@ -151,17 +175,19 @@ step::Model<S> model_of(const Controller& controller, Round round, std::size_t s
   model.B = convert<S>(kept_plant_at(controller, sample).B, round);
   model.D.resize(model.ny, 0);
   model.M.resize(model.nx, 0);
+  model.point = convert_point<S>(controller.point);
   if (controller.has.filter) {
     model.x0 = convert<S>(kept_start(controller), round);
+    if (is_extended(controller)) model.u0 = start_of_input<S>(controller, round);
     if (controller.modal) {
       model.to_estimate = convert<S>(controller.modal->T, round);
       model.of_estimate = convert<S>(controller.modal->inverse, round);
     }
     model.x_bound = controller.bounds.x;
     model.nu_limit = controller.bounds.innovation.template cast<S>();
-    if (const design::Estimator& estimator = *controller.problem.estimator; estimator.output_min.size()) {
-      model.y_min = convert_limits<S>(estimator.output_min, +1, controller.target.is_double);
-      model.y_max = convert_limits<S>(estimator.output_max, -1, controller.target.is_double);
+    if (controller.has.range) {
+      model.y_min = output_range(controller, +1).template cast<S>();
+      model.y_max = output_range(controller, -1).template cast<S>();
     }
     if (controller.has.gate) {
       model.gate = round(design::Real(controller.gate.sigma));

@@ -239,7 +239,7 @@ VectorXd farthest(const Controller& controller) {
 }  // namespace
 
 Recovery recovery_of(const Controller& controller) {
-  if (!controller.has.filter) return {};
+  if (!controller.has.filter || is_extended(controller)) return {};  // what is said of it is said of matrices
   Recovery recovery;
   recovery.lasting = lasting_states(controller);
   const Steady steady = steady_of(controller, recovery.lasting);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A control problem as a design file states it: the doubles of the file, nothing computed yet.
+// A control problem as a design file states it: the numbers of the file, nothing computed yet.
 //
 // Shapes and finiteness hold when a Problem leaves `input`; what the file left out has its default here:
 // D = 0, G = I, H = 0, N = 0, cross noise = 0, x0 = 0, P0 = I. A matrix with no rows or columns says "there is none".
@@ -7,10 +7,13 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "design/equations_of_motion.hpp"
+#include "design/exact_matrix.hpp"
 #include "design/scenario.hpp"
 
 namespace lqg::design {
@@ -22,21 +25,32 @@ struct Signal {
 
 enum class Domain { continuous, discrete };
 
+// Where the linear plant is the plant: its x, u and y are deviations from these. In the plant's own units, as is what
+// the file states beside it; when a Problem leaves `input`, its limits, ranges and initial state are deviations, too.
+struct OperatingPoint {
+  Eigen::VectorXd x, u, y;  // nx, nu, ny
+  // Of Limits and Estimator, as the file states them.
+  Eigen::VectorXd u_min, u_max, output_min, output_max;
+  Eigen::MatrixXd states_range, outputs_range;
+};
+
 // ẋ = A x + B u + G w  (continuous)  or  x⁺ = A x + B u + G w  (discrete);  y = C x + D u + H w + v.
 struct Plant {
   Domain domain = Domain::continuous;
   double sample_time = 0;        // s
-  Eigen::MatrixXd A;             // nx × nx
-  Eigen::MatrixXd B;             // nx × nu, nu may be 0: an estimator alone
-  Eigen::MatrixXd C;             // ny × nx, ny may be 0: a regulator alone
-  Eigen::MatrixXd D;             // ny × nu
-  Eigen::MatrixXd G;             // nx × nw
-  Eigen::MatrixXd H;             // ny × nw
+  ExactMatrix A;                 // nx × nx
+  ExactMatrix B;                 // nx × nu, nu may be 0: an estimator alone
+  ExactMatrix C;                 // ny × nx, ny may be 0: a regulator alone
+  ExactMatrix D;                 // ny × nu
+  ExactMatrix G;                 // nx × nw
+  ExactMatrix H;                 // ny × nw
   double delay = 0;              // s from sampling y to u taking effect; whole periods of a discrete plant
   Eigen::VectorXd output_delay;  // ny, s by which the filter hears each output late, whole periods; or empty: none
   Eigen::VectorXd dropout;       // ny, the probability that C x of an output is 0 in a sample; or empty: never
   double jitter = 0;             // s, rms of the deviation of each period from sample_time
   std::vector<Signal> states, inputs, outputs;
+  std::optional<OperatingPoint> operating_point = {};  // not given: 0
+  std::shared_ptr<const Equations> equations = {};     // of a plant that is stated so; A, B, C, D are its linearisation
 };
 
 // Wanted poles, conjugates side by side; `continuous`: of the s plane, mapped by z = e^(sT).
@@ -57,7 +71,7 @@ struct Bryson {
 // ξ⁺ = ξ + T (r − y) for these outputs; Q weighs ξ.
 struct Integral {
   std::vector<int> outputs;
-  Eigen::MatrixXd Q;
+  ExactMatrix Q;
 };
 
 // Samples that may have gains of their own: of a horizon, of a schedule, until the last stage. More take hours.
@@ -67,19 +81,19 @@ constexpr int most_steps = 100000;
 enum class AntiWindup { model, conditioning };
 
 struct Regulator {
-  Eigen::MatrixXd Q, R, N;       // Q and R are empty where Q_output or bryson give them
-  Eigen::MatrixXd Q_output;      // ny × ny instead of Q, or empty: yᵀ Q_output y with y = Cx + Du
+  ExactMatrix Q, R, N;           // Q and R are empty where Q_output or bryson give them
+  ExactMatrix Q_output;          // ny × ny instead of Q, or empty: yᵀ Q_output y with y = Cx + Du
   std::optional<Bryson> bryson;  // instead of Q and R
   Cost cost = Cost::sampled;
   std::optional<double> decay;          // α: every closed-loop pole inside |z| < 1/α, or left of −α 1/s
   std::optional<double> settling_time;  // s, to 1 %: α = 100^(T/ts), or ln(100)/ts
   int horizon = 0;                      // 0: infinite
-  Eigen::MatrixXd Q_final;              // nx × nx, or empty: 0
+  ExactMatrix Q_final;                  // nx × nx, or empty: 0
   Eigen::MatrixXd structure;            // nu × nx of 0 and 1, or empty: the entries of K that may differ from 0
   std::optional<Integral> integral;
   std::vector<int> track;                      // outputs that follow r by feed-forward
   AntiWindup anti_windup = AntiWindup::model;  // what ξ is made true to where a limit holds u: the state, or u
-  Eigen::MatrixXd input_rate;                  // nu × nu, or empty: the weight on Δu, a sample
+  ExactMatrix input_rate;                      // nu × nu, or empty: the weight on Δu, a sample
   std::optional<WantedPoles> poles;            // [pole_placement]: K has these poles; no weight is there then
 };
 
@@ -103,9 +117,19 @@ struct TransferRecovery {
   bool is_automatic = false;  // instead of q: the smallest one with which the loop has what is required of it
 };
 
+// How the filter goes over the equations of a continuous plant from one sample to the next, with u held.
+enum class Integrator { rk4, euler };
+
+// An extended filter: with Gain::online, over the equations of the plant, linearised at its own estimate.
+struct Extended {
+  Integrator integrator = Integrator::rk4;
+  std::vector<int> wraps;       // outputs that are angles, in rad: their innovations lie in [−π, π)
+  Eigen::VectorXd own_x0 = {};  // the initial state in the plant's own units, where that of the filter is a deviation
+};
+
 // E[w wᵀ] = W, E[v vᵀ] = V, E[w vᵀ] = Swv: covariances of samples, or power spectral densities.
 struct Estimator {
-  Eigen::MatrixXd W, V, Swv;
+  ExactMatrix W, V, Swv;
   Eigen::VectorXd process_correlation_time, measurement_correlation_time;  // s, or empty: W and V are densities
   Noise noise = Noise::continuous;
   Gain gain = Gain::steady;
@@ -113,7 +137,7 @@ struct Estimator {
   Form form = Form::filter;
   Covariance covariance = Covariance::ud;
   Eigen::VectorXd x0;
-  Eigen::MatrixXd P0;
+  ExactMatrix P0;
   double gate = 0;                         // σ; 0: none
   Eigen::VectorXd output_min, output_max;  // what a sensor can say at all, or empty; infinite: anything
   std::optional<double> spike;       // σ, or infinite for none; not given: that of the default where there can be one
@@ -121,6 +145,7 @@ struct Estimator {
   std::optional<WantedPoles> poles;  // [observer]: L has these poles; no noise is there then
   std::vector<InputDisturbance> disturbance;  // estimated, too, and by the regulator cancelled; each input once
   std::optional<TransferRecovery> recovery;
+  std::optional<Extended> extended;  // with a plant that has equations
 };
 
 // Placed poles need no noise.
@@ -149,7 +174,7 @@ inline bool foresees(const std::optional<Limits>& limits) { return limits && lim
 // before.
 struct Stage {
   int from = 0;
-  Eigen::MatrixXd A, B, C, D, G, Q, R, N, W, V;
+  ExactMatrix A, B, C, D, G, Q, R, N, W, V;
 };
 
 // What the closed loop has to reach.
@@ -172,7 +197,7 @@ struct Requirements {
 // What one white parameter γ of the file adds to the plant at its samples: A + γ A₁, B + γ B₁, C + γ C₁ with E γ = 0,
 // E γ² = 1, in each sample independent of all others. Empty: 0.
 struct Uncertain {
-  Eigen::MatrixXd A, B, C;  // nx × nx, nx × nu, ny × nx
+  ExactMatrix A, B, C;  // nx × nx, nx × nu, ny × nx
 };
 
 // A compensator of that many states in place of a filter and a law.
@@ -195,6 +220,21 @@ struct Code {
   long flash = 16384;  // bytes
 };
 
+// A name of the file for a number, and a formula where it has one.
+struct Parameter {
+  std::string name;
+  double value = 0;
+  std::string unit, formula;  // as they are written, or empty
+  bool is_set = false;        // on the command line, in place of what the file says
+};
+
+// A number of the file that is written as a formula.
+struct Formula {
+  std::string key;  // "plant.A[1][0]"
+  std::string text;
+  double value = 0;
+};
+
 struct Problem {
   std::string name;
   std::string brief;
@@ -208,6 +248,8 @@ struct Problem {
   std::vector<Scenario> scenarios;
   Requirements requirements;
   Code code;
+  std::vector<Parameter> parameters;
+  std::vector<Formula> formulas;
 };
 
 // The plant has parameters that are random from sample to sample.

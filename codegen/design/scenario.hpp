@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,7 @@ struct PlantChange {
   Eigen::MatrixXd A, B, C;
   std::optional<double> delay;  // s, in place of plant.delay
   std::vector<ScaledEntries> scale;
+  std::map<std::string, double> parameters;  // of the plant's equations, in place of the design's
 };
 
 // Of a Monte Carlo run: what differs from run to run.

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "design/checks/extended_rules.hpp"
 #include "design/checks/order_rules.hpp"
 #include "design/checks/representable.hpp"
 #include "design/checks/requirements.hpp"
@@ -131,6 +132,7 @@ void check_matrices(const Problem& problem, Findings& findings) {
 bool is_well_posed(const Problem& problem, Findings& findings) {
   check_kinds(problem, findings);
   check_order_and_white(problem, findings);
+  check_extended(problem, findings);
   check_structure(problem, findings);
   check_recovery(problem, findings);
   check_matrices(problem, findings);

@@ -3,19 +3,28 @@
 
 #include <limits>
 
+#include "design/rounding.hpp"
 #include "input/disturbances.hpp"
 #include "input/scenarios.hpp"
 
 namespace lqg::input {
 namespace {
 
-Eigen::MatrixXd zero_or(const Values& values, const std::string& key, int rows, int columns) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd::Zero(rows, columns);
+using design::ExactMatrix;
+
+ExactMatrix zero_or(const Values& values, const std::string& key, int rows, int columns) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix(Eigen::MatrixXd::Zero(rows, columns));
 }
 
 // 0 × 0 when there is none.
-Eigen::MatrixXd empty_or(const Values& values, const std::string& key) {
+ExactMatrix empty_or(const Values& values, const std::string& key) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix();
+}
+
+// Of what is made of zeros and ones, or is no part of the design's own numbers.
+Eigen::MatrixXd doubles_or_empty(const Values& values, const std::string& key) {
   const Eigen::MatrixXd* matrix = values.matrix(key);
   return matrix != nullptr ? *matrix : Eigen::MatrixXd();
 }
@@ -25,9 +34,9 @@ Eigen::VectorXd vector_or_empty(const Values& values, const std::string& key) {
   return matrix != nullptr ? Eigen::VectorXd(matrix->col(0)) : Eigen::VectorXd();
 }
 
-Eigen::MatrixXd identity_or(const Values& values, const std::string& key, int size) {
-  const Eigen::MatrixXd* matrix = values.matrix(key);
-  return matrix != nullptr ? *matrix : Eigen::MatrixXd::Identity(size, size);
+ExactMatrix identity_or(const Values& values, const std::string& key, int size) {
+  const ExactMatrix* matrix = values.matrix(key);
+  return matrix != nullptr ? *matrix : ExactMatrix(Eigen::MatrixXd::Identity(size, size));
 }
 
 // Names of the file, or "x0", "x1" …
@@ -39,6 +48,28 @@ std::vector<design::Signal> signals(const Values& values, const std::string& key
   return result;
 }
 
+// What is left out is 0.
+std::optional<design::OperatingPoint> operating_point(const Values& values, const design::Plant& plant) {
+  const std::string table = "plant.operating_point";
+  if (!values.has(table)) return std::nullopt;
+  const auto part = [&](const char* key, Eigen::Index size) {
+    return Eigen::VectorXd(zero_or(values, table + key, static_cast<int>(size), 1).col(0));
+  };
+  design::OperatingPoint point;
+  point.x = part(".states", plant.A.rows());
+  point.u = part(".inputs", plant.B.cols());
+  point.y = part(".outputs", plant.C.rows());
+  return point;
+}
+
+// With all digits.
+void linearise(const design::Linearisation& linearisation, design::Plant& plant) {
+  plant.A = design::ExactMatrix::of(linearisation.A);
+  plant.B = design::ExactMatrix::of(linearisation.B);
+  plant.C = design::ExactMatrix::of(linearisation.C);
+  plant.D = design::ExactMatrix::of(linearisation.D);
+}
+
 design::Plant plant(const Values& values) {
   const int nx = values.sizes.at(Size::nx);
   const int nu = values.sizes.at(Size::nu);
@@ -47,10 +78,15 @@ design::Plant plant(const Values& values) {
   const bool discrete = values.text("plant.domain") == "discrete";
   result.domain = discrete ? design::Domain::discrete : design::Domain::continuous;
   result.sample_time = values.numbers.at("plant.sample_time");
-  result.A = *values.matrix("plant.A");
-  result.B = zero_or(values, "plant.B", nx, nu);
-  result.C = zero_or(values, "plant.C", ny, nx);
-  result.D = zero_or(values, "plant.D", ny, nu);
+  result.equations = values.equations;
+  if (values.linearisation) {
+    linearise(*values.linearisation, result);
+  } else {
+    result.A = zero_or(values, "plant.A", nx, nx);  // of equations without a linearisation 0
+    result.B = zero_or(values, "plant.B", nx, nu);
+    result.C = zero_or(values, "plant.C", ny, nx);
+    result.D = zero_or(values, "plant.D", ny, nu);
+  }
   result.G = identity_or(values, "plant.G", nx);
   result.H = zero_or(values, "plant.H", ny, static_cast<int>(result.G.cols()));
   result.delay = values.number("plant.delay", 0);
@@ -60,6 +96,7 @@ design::Plant plant(const Values& values) {
   result.states = signals(values, "plant.states", "x", nx);
   result.inputs = signals(values, "plant.inputs", "u", nu);
   result.outputs = signals(values, "plant.outputs", "y", ny);
+  result.operating_point = operating_point(values, result);
   return result;
 }
 
@@ -100,7 +137,7 @@ design::Regulator regulator(const Values& values, const design::Plant& plant) {
   result.settling_time = optional_number(values, "lqr.settling_time");
   result.horizon = whole(values, "lqr.horizon");
   result.Q_final = empty_or(values, "lqr.Q_final");
-  result.structure = empty_or(values, "lqr.structure");
+  result.structure = doubles_or_empty(values, "lqr.structure");
   if (values.has("lqr.integral"))
     result.integral = design::Integral{indices(values, "lqr.integral.outputs"), *values.matrix("lqr.integral.Q")};
   result.track = indices(values, "lqr.track");
@@ -145,9 +182,14 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
   const bool discrete = noise.empty() ? plant.domain == design::Domain::discrete : noise == "discrete";
   result.noise = discrete ? design::Noise::discrete : design::Noise::continuous;
   const auto says = [&](const char* key, const char* word) { return values.text(key) == word; };
-  result.gain = says("kalman.gain", "online")     ? design::Gain::online
-                : says("kalman.gain", "schedule") ? design::Gain::schedule
-                                                  : design::Gain::steady;
+  const bool is_extended = says("kalman.gain", "extended");
+  result.gain = is_extended || says("kalman.gain", "online") ? design::Gain::online
+                : says("kalman.gain", "schedule")            ? design::Gain::schedule
+                                                             : design::Gain::steady;
+  if (is_extended)
+    result.extended =
+        design::Extended{says("kalman.integrator", "euler") ? design::Integrator::euler : design::Integrator::rk4,
+                         values.has("kalman.wraps") ? indices(values, "kalman.wraps") : std::vector<int>()};
   result.horizon = whole(values, "kalman.horizon");
   result.process_correlation_time = vector_or_empty(values, "kalman.process_correlation_time");
   result.measurement_correlation_time = vector_or_empty(values, "kalman.measurement_correlation_time");
@@ -162,7 +204,7 @@ design::Estimator estimator(const Values& values, const design::Plant& plant) {
     result.output_max = bounds("kalman.output_max", infinity);
   }
   if (values.has("kalman.spike")) result.spike = values.number("kalman.spike", 0);
-  result.structure = empty_or(values, "kalman.structure");
+  result.structure = doubles_or_empty(values, "kalman.structure");
   if (values.has("kalman.recovery"))
     result.recovery = design::TransferRecovery{values.number("kalman.recovery", 0), says("kalman.recovery", "auto")};
   result.form = says("kalman.form", "predictor") ? design::Form::predictor : design::Form::filter;
@@ -199,7 +241,7 @@ Eigen::VectorXd prices(const Values& values, Size size) {
 }
 
 design::SoftLimits soft_limits(const Values& values, const std::string& key, Size size) {
-  return {empty_or(values, key), prices(values, size)};
+  return {doubles_or_empty(values, key), prices(values, size)};
 }
 
 design::Limits limits(const Values& values) {
@@ -301,6 +343,11 @@ design::Problem assemble(const Values& values) {
   problem.requirements = requirements(values);
   problem.code = code(values);
   return problem;
+}
+
+void begin_at_operating_point(const Values& values, design::Problem& problem) {
+  const auto& point = problem.plant.operating_point;
+  if (point && problem.estimator && !values.has("kalman.initial_state")) problem.estimator->x0 = point->x;
 }
 
 }  // namespace lqg::input

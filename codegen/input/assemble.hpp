@@ -9,4 +9,7 @@ namespace lqg::input {
 
 design::Problem assemble(const Values& values);
 
+// Where the file does not say in which state the filter begins, it begins there.
+void begin_at_operating_point(const Values& values, design::Problem& problem);
+
 }  // namespace lqg::input

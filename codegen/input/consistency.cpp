@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "design/numeric/digits.hpp"
 #include "input/definite.hpp"
 #include "input/disturbances.hpp"
 #include "input/matrices.hpp"
@@ -36,9 +37,11 @@ void check_tables(const Values& values, Report& report) {
     report.error("limits", "expected u_min, u_max or another limit, found none");
   if (values.tables.count("plant") == 0) return;
   for (const char* key : {"lqr", "pole_placement", "kalman.disturbance"})
-    if (values.has(key) && !values.has("plant.B")) report.error(key, "needs plant.B");
+    if (values.has(key) && !values.has_inputs())
+      report.error(key, values.has("plant.f") ? "needs plant.inputs" : "needs plant.B");
   for (const char* key : {"kalman", "observer", "lqr.Q_output", "lqr.bryson.outputs", "lqr.integral", "lqr.track"})
-    if (values.has(key) && !values.has("plant.C")) report.error(key, "needs plant.C");
+    if (values.has(key) && !values.has_outputs())
+      report.error(key, values.has("plant.f") ? "needs plant.h" : "needs plant.C");
 }
 
 // Nothing is said of a table that is not there.
@@ -85,7 +88,11 @@ void check_companions(const Values& values, Report& report) {
   needs("kalman.structure", gain.empty() || gain == "steady", "kalman.gain = \"steady\"");
   needs("kalman.recovery", has_any(values, {"lqr", "pole_placement"}),
         "[lqr] or [pole_placement]: without a regulator there is no loop");
-  needs("kalman.recovery", gain != "online",
+  for (const char* key : {"kalman.integrator", "kalman.wraps"})
+    needs(key, gain == "extended", "kalman.gain = \"extended\"");
+  needs("kalman.integrator", values.text("plant.domain") != "discrete",
+        "plant.domain = \"continuous\": plant.f of a discrete plant is the step itself");
+  needs("kalman.recovery", gain != "online" && gain != "extended",
         "kalman.gain = \"steady\" or \"schedule\": a covariance that is carried with noise that is not there would not "
         "be that of the error");
   needs("kalman.recovery", !values.has("kalman.structure"),
@@ -93,6 +100,8 @@ void check_companions(const Values& values, Report& report) {
   needs("kalman.recovery", values.text("kalman.recovery") != "auto" || requires_of_loop(values),
         "a margin or max_pole in [require] for \"auto\": without one there is nothing to meet");
   for (const std::string& stage : values.tables_of("stage")) {
+    for (const char* key : {".A", ".B", ".C", ".D"})
+      needs((stage + key).c_str(), !values.has("plant.f"), "a plant of matrices: plant.f is one for all samples");
     for (const char* key : {".Q", ".R", ".N"}) needs((stage + key).c_str(), values.has("lqr"), "[lqr]");
     for (const char* key : {".process_noise", ".measurement_noise"})
       needs((stage + key).c_str(), values.has("kalman"), "[kalman]");
@@ -202,8 +211,17 @@ void note_unused(const Values& values, Report& report) {
     report.note("plant.C", "not used without [kalman]: u = −K x of the measured states");
   for (const char* key : {"plant.G", "plant.H"})
     if (values.has(key) && !values.has("kalman")) report.note(key, "not used without [kalman]");
-  if (values.text("kalman.covariance") == "plain" && values.text("kalman.gain") != "online")
-    report.note("kalman.covariance", "not used without gain = \"online\"");
+  const std::string gain = values.text("kalman.gain");
+  if (values.text("kalman.covariance") == "plain" && gain != "online" && gain != "extended")
+    report.note("kalman.covariance", "not used without gain = \"online\" or \"extended\"");
+}
+
+// With all digits that its entries have.
+design::ExactMatrix symmetric(const design::ExactMatrix& Q) {
+  const design::RealMatrix* exact = Q.exact();
+  if (exact == nullptr) return symmetrised(Q);
+  const design::Digits scope(design::exact_digits);
+  return design::ExactMatrix::of(*exact + (exact->transpose() - *exact) / design::Real(2));
 }
 
 // False, and nothing reported, when there is no such matrix.
@@ -220,7 +238,7 @@ bool make_symmetric(Values& values, const std::string& key, Report& report) {
     return false;
   }
   if (worst.size > 0) report.note(key, "symmetrised: found " + entry + " and " + mirror);
-  found->second = symmetrised(found->second);
+  found->second = symmetric(found->second);
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "design/finding.hpp"
 #include "design/problem.hpp"
@@ -24,12 +25,22 @@ struct DesignFile {
   std::string text;                           // the bytes of the file, for its hash
 };
 
+// What stands in place of the value of one of the file's parameters: a number or a formula.
+struct Setting {
+  std::string name, value;
+};
+using Settings = std::vector<Setting>;
+
+// "R=2.5" as a setting; nothing of what has no name before a =.
+std::optional<Setting> setting_of(const std::string& text);
+
 // Reads the file at `path`, or standard input where that is "-". Never throws for what stands in the file, whatever its
 // bytes.
-DesignFile read_design_file(const std::string& path);
+DesignFile read_design_file(const std::string& path, const Settings& settings = {});
 
 // The same for a text already in memory. Files that it names are sought from `folder` on; without one it may name none.
-DesignFile parse_design(const std::string& text, const std::optional<std::filesystem::path>& folder = {});
+DesignFile parse_design(const std::string& text, const std::optional<std::filesystem::path>& folder = {},
+                        const Settings& settings = {});
 
 // Where `key` stands, or else the nearest key above it, or else the first character of the file.
 Location locate(const DesignFile& file, const std::string& key);

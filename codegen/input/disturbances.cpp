@@ -18,8 +18,18 @@ double entry_of(const Values& values, const char* key, int i) {
   return std::isfinite(value) ? value : 0;
 }
 
+// Of a limit its distance from the operating point.
+double reach_of(const Values& values, const char* key, int input) {
+  const Eigen::MatrixXd* limits = values.matrix(key);
+  const Eigen::MatrixXd* point = values.matrix("plant.operating_point.inputs");
+  if (limits == nullptr || point == nullptr || input >= std::min(limits->rows(), point->rows()))
+    return entry_of(values, key, input);
+  const double reach = std::abs((*limits)(input, 0) - (*point)(input, 0));
+  return std::isfinite(reach) ? reach : 0;
+}
+
 double size_of_input(const Values& values, int input) {
-  const double limit = std::max(entry_of(values, "limits.u_min", input), entry_of(values, "limits.u_max", input));
+  const double limit = std::max(reach_of(values, "limits.u_min", input), reach_of(values, "limits.u_max", input));
   return limit > 0 ? limit : entry_of(values, "lqr.bryson.inputs", input);
 }
 

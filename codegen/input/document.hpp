@@ -2,6 +2,7 @@
 // A TOML text as a tree of values with their places. The one file that sees toml++ is document.cpp.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +18,8 @@ struct Key {
   Location where;
 };
 
+struct Formula;
+
 // `items` are an array's values, or a table's with their `keys` beside them, in the order of the file.
 struct Node {
   Kind kind = Kind::table;
@@ -25,6 +28,7 @@ struct Node {
   std::string text;
   std::vector<Key> keys;
   std::vector<Node> items;
+  std::shared_ptr<const Formula> formula = {};  // of a number that was a text; put there by read_formulas
 };
 
 // "a string", "an array": what a message says was found.

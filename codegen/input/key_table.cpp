@@ -23,6 +23,12 @@ std::vector<KeyRule> keys_of_the_loop() {
       {"brief", Type::line, no, no, optional, {},
        "One line that says what the controller is. It is repeated in the emitted files.", "empty"},
 
+      {"parameters", Type::parameters, no, no, optional, {},
+       "Names for numbers, which expressions are over: each a number, an expression in quotes, or "
+       "`{ value = 2.32, unit = \"ohm\" }`. Wherever a key takes a number it takes an expression in quotes, too: "
+       "`A = [[0, 1], [0, \"-Kt*Ke/(R*J)\"]]`.",
+       "none", "README.md#parameters-and-expressions"},
+
       {"plant", Type::table, no, no, required, {},
        "The plant: ẋ = A x + B u + G w (continuous) or x⁺ = A x + B u + G w (discrete), with y = C x + D u + H w + v. "
        "w is the process noise, v the measurement noise."},
@@ -30,7 +36,14 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`continuous`: the matrices are those of ẋ; lqgen samples them. `discrete`: they are those of x⁺.",
        "`\"continuous\"`, with a note"},
       {"plant.sample_time", Type::positive, no, no, required, {}, "Sampling period of the loop, in s."},
-      {"plant.A", Type::matrix, nx, nx, required, {}, "System matrix."},
+      {"plant.f", Type::formulas, nx, no, optional, {},
+       "The plant as equations, in place of `A`, `B`, `C` and `D`: of each state its derivative, or its value in the "
+       "next sample with a discrete plant, as a formula over states, inputs and parameters.",
+       "the plant is linear", "README.md#plants-as-equations"},
+      {"plant.h", Type::formulas, ny, no, optional, {},
+       "Of each output its formula. Without it lqgen designs a regulator alone.", "no outputs",
+       "README.md#plants-as-equations"},
+      {"plant.A", Type::matrix, nx, nx, optional, {}, "System matrix. One of `A` and `f` is required."},
       {"plant.B", Type::matrix, nx, nu, optional, {},
        "Input matrix. Without it lqgen designs an estimator alone.", "no inputs"},
       {"plant.C", Type::matrix, ny, nx, optional, {},
@@ -60,6 +73,22 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`x0`, `x1`, …"},
       {"plant.inputs", Type::signals, nu, no, optional, {}, "Names of the inputs, with units.", "`u0`, `u1`, …"},
       {"plant.outputs", Type::signals, ny, no, optional, {}, "Names of the outputs, with units.", "`y0`, `y1`, …"},
+      {"plant.operating_point", Type::table, no, no, optional, {},
+       "Where the matrices are the linearisation of the plant, or where `f` and `h` are linearised: x, u and y of the "
+       "design are deviations from this point. All the rest of the file, and all that firmware hands over and gets, is "
+       "in the plant's own units: limits, ranges, initial states, references, y, u and x. Weights, noises and what "
+       "[lqr.bryson] accepts are of deviations.",
+       "x, u and y are those of the matrices", "README.md#operating-point"},
+      {"plant.operating_point.states", Type::point, nx, no, optional, {},
+       "The states there: numbers or formulas; of `plant.f` also `\"?\"` for what is found so that f = 0. "
+       "`\"? 0.5\"` says where the search begins.", "0"},
+      {"plant.operating_point.inputs", Type::point, nu, no, optional, {},
+       "The inputs that keep the plant there, likewise.", "0"},
+      {"plant.operating_point.outputs", Type::vector, ny, no, optional, {},
+       "The outputs there, of a plant of matrices. References begin with them.", "0"},
+      {"plant.operating_point.steady", Type::states, nx, no, optional, {},
+       "Names of the states that are at rest there: whose f is 0, or with a discrete plant the state itself.", "all"},
+      {"plant.steady", Type::states, nx, no, optional, {}, "The same as `operating_point.steady`.", "all"},
 
       {"lqr", Type::table, no, no, optional, {},
        "The regulator. It minimises J = Σ xᵀQx + uᵀRu + 2xᵀNu. [Q N; Nᵀ R] is positive semidefinite."},
@@ -128,16 +157,28 @@ std::vector<KeyRule> keys_of_the_loop() {
        "`discrete`: the covariances are those of samples, w is held between samples. "
        "`continuous`: they are power spectral densities.",
        "the plant's domain"},
-      {"kalman.gain", Type::word, no, no, optional, {"steady", "schedule", "online"},
+      {"kalman.gain", Type::word, no, no, optional, {"steady", "schedule", "online", "extended"},
        "`steady`: the constant gain of the steady filter. `schedule`: a table of gains for the transient from P0, then "
-       "the steady gain. `online`: the covariance is updated on the target in every sample."},
+       "the steady gain. `online`: the covariance is updated on the target in every sample. `extended`: likewise, over "
+       "the equations `plant.f` and `plant.h`, linearised at the estimate.",
+       "", "README.md#extended-kalman-filters"},
+      {"kalman.integrator", Type::word, no, no, optional, {"rk4", "euler"},
+       "How an extended filter goes over `plant.f` of a continuous plant from one sample to the next, with u held. "
+       "`rk4`: one classical step of fourth order. `euler`: one step of first order. A takes the Jacobian of that "
+       "very step.",
+       "", "README.md#extended-kalman-filters"},
+      {"kalman.wraps", Type::indices, ny, no, optional, {},
+       "Outputs of an extended filter that are angles in rad, by name or by number from 0: y − h(x̂) is taken in "
+       "[−π, π).",
+       "none", "README.md#extended-kalman-filters"},
       {"kalman.form", Type::word, no, no, optional, {"filter", "predictor"},
        "`filter`: u[k] uses y[k]. `predictor`: u[k] uses y[k−1], which leaves one sample for the computation."},
       {"kalman.covariance", Type::word, no, no, optional, {"ud", "plain"},
-       "Form of P with `gain = \"online\"`. `ud`: factors U diag(d) Uᵀ, which stay positive definite. "
-       "`plain`: P itself, which is cheaper."},
+       "Form of P with `gain = \"online\"` or `\"extended\"`. `ud`: factors U diag(d) Uᵀ, which stay positive "
+       "definite. `plain`: P itself, which is cheaper."},
       {"kalman.initial_state", Type::vector, nx, no, optional, {},
-       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.", "0"},
+       "x̂ before the first update. A tool whose initial state already includes y[0] begins with `predict`.",
+       "0, or `plant.operating_point`"},
       {"kalman.initial_covariance", Type::weight, nx, nx, optional, {},
        "P0 = P(0|−1), the covariance of that x̂.", "identity"},
       {"kalman.process_correlation_time", Type::positives, nw, no, optional, {},
@@ -308,6 +349,7 @@ const std::vector<KeyRule>& key_rules() {
 
 const std::vector<Alternatives>& alternatives() {
   static const std::vector<Alternatives> all = {
+      {"plant", {"A", "f"}, Need::required},
       {"lqr", {"Q", "Q_output", "bryson"}, Need::required},
       {"lqr.bryson", {"states", "outputs"}, Need::required},
       {"lqr", {"decay", "settling_time"}, Need::optional},

@@ -45,10 +45,12 @@ std::vector<KeyRule> scenario_keys() {
       {"scenario.name", Type::line, no, no, required, {}, "Name of the scenario, different from the others."},
       {"scenario.duration", Type::positive, no, no, required, {}, "Length in s; at most 1,000,000 samples."},
       {"scenario.x0", Type::vector, nx, no, optional, {},
-       "State of the plant at the start. x̂ begins with `kalman.initial_state`.", "0"},
+       "State of the plant at the start. x̂ begins with `kalman.initial_state`.", "0, or `plant.operating_point`"},
       {"scenario.noise", Type::flag, no, no, optional, {}, "`false`: without the noises of the design.", "true"},
       {"scenario.reference", Type::tables, no, no, optional, {},
-       "References r of outputs that are in `lqr.track` or `lqr.integral.outputs`. Several add up."},
+       "References r of outputs that are in `lqr.track` or `lqr.integral.outputs`. Several add up. With "
+       "`plant.operating_point` r begins with the output there and `value` is what it becomes; what adds up are the "
+       "changes, and a sine is one."},
       {"scenario.reference.output", Type::signal, ny, no, required, {}, "The output."},
   };
   append(keys, course("scenario.reference"));
@@ -100,6 +102,8 @@ std::vector<KeyRule> scenario_keys() {
       {"scenario.plant.A", Type::matrix, nx, nx, optional, {}, "In place of `plant.A`.", "unchanged"},
       {"scenario.plant.B", Type::matrix, nx, nu, optional, {}, "In place of `plant.B`.", "unchanged"},
       {"scenario.plant.C", Type::matrix, ny, nx, optional, {}, "In place of `plant.C`.", "unchanged"},
+      {"scenario.plant.parameters", Type::parameters, no, no, optional, {},
+       "Parameters that are others in the equations of this plant: `{ mass = 0.7 }`.", "those of the design"},
       {"scenario.plant.delay", Type::not_negative, no, no, optional, {},
        "In s, in place of `plant.delay`; with a discrete plant it is a whole number of periods.", "unchanged"},
       {"scenario.plant.continuous", Type::flag, no, no, optional, {},

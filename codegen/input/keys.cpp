@@ -96,6 +96,15 @@ std::string rule_path(const std::string& path) {
   return out;
 }
 
+std::string path_of(const std::string& parent, const std::string& name) {
+  constexpr std::size_t longest = 60;
+  const bool is_bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  const std::string segment = is_bare && name.size() <= longest ? name : in_quotes(name);
+  return parent.empty() ? segment : parent + "." + segment;
+}
+
 const KeyRule* find_rule(const std::string& path) {
   for (const KeyRule& rule : key_rules())
     if (rule.path == path) return &rule;

@@ -37,7 +37,11 @@ enum class Type {
   signal,     // one of the signals that `rows` counts: its name, or its number from 0
   entry,      // the same of a row or column whose signals another key tells
   poles,      // an array of numbers and of [re, im], conjugates in pairs
-  signals     // an array of "name [unit]"
+  formulas,   // an array of formulas in quotes, one for each of `rows`
+  point,      // an array of numbers, formulas, "?" and "? start"
+  states,     // an array of names of states
+  signals,    // an array of "name [unit]"
+  parameters  // a table: of names each a number, a formula, or { value, unit }
 };
 
 // The dimensions that shapes are given in: states, inputs, outputs, process noises, integrated outputs.
@@ -69,6 +73,9 @@ const std::vector<Alternatives>& alternatives();
 
 // "stage.A" of "stage[3].A": tables of one array share their rows.
 std::string rule_path(const std::string& path);
+
+// "lqr.Q" of the key "Q" in "lqr"; in quotes, and cut, what is no bare key.
+std::string path_of(const std::string& parent, const std::string& name);
 
 // nullptr for a path that is not on the page.
 const KeyRule* find_rule(const std::string& path);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "design/problem.hpp"
+#include "input/formulas.hpp"
 #include "input/matrices.hpp"
 #include "input/text.hpp"
 #include "input/values.hpp"
@@ -103,10 +104,10 @@ std::optional<std::vector<int>> read_counts(const std::string& key, const Node& 
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
     const bool is_number = item.kind == Kind::number;
-    if (!is_number || !(item.number >= 1 && item.number <= most) || item.number != std::floor(item.number)) {
+    if (!is_number || !(item.number >= 1 && item.number <= most) || !is_whole(item)) {
       report.error(item_of(key, i), item.where,
                    "expected a whole number from 1 to " + std::to_string(design::most_steps) + ", found " +
-                       (is_number ? shown(item.number) : describe(item)));
+                       (is_number ? shown(item) : describe(item)));
       return {};
     }
     counts.push_back(static_cast<int>(item.number));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "input/formulas.hpp"
 #include "input/values.hpp"
 
 namespace lqg::input {
@@ -160,6 +161,24 @@ class MatrixReader {
   Report& report_;
 };
 
+bool has_formulas(const Node& node) {
+  return node.formula || std::any_of(node.items.begin(), node.items.end(), has_formulas);
+}
+
+// The matrix that was read as `doubles`, its formulas with all of their digits.
+design::RealMatrix with_formulas(const Node& node, const Eigen::MatrixXd& doubles) {
+  const bool is_list = !is_array(node.items[0]);
+  const bool is_diagonal = is_list && doubles.cols() > 1;
+  design::RealMatrix exact = doubles.cast<design::Real>();
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (is_list) exact(row, is_diagonal ? row : 0) = exact_value(node.items[i]);
+    for (std::size_t j = 0; !is_list && j < node.items[i].items.size(); ++j)
+      exact(row, static_cast<Eigen::Index>(j)) = exact_value(node.items[i].items[j]);
+  }
+  return exact;
+}
+
 }  // namespace
 
 std::string name_of(Size size) {
@@ -180,22 +199,36 @@ std::map<Size, int> measure(const std::map<std::string, const Node*>& nodes) {
     return node == nodes.end() ? std::pair(absent, absent) : shape_of(*node->second);
   };
   const auto limited = [](int size) { return size > most_signals ? -1 : size; };
-  const auto [nx, columns] = shape("plant.A", -1);
+  // Entries of an array; −1 of anything else.
+  const auto length = [&](const char* key, int absent) {
+    const auto node = nodes.find(key);
+    if (node == nodes.end()) return absent;
+    return is_array(*node->second) ? static_cast<int>(node->second->items.size()) : -1;
+  };
   std::map<Size, int> sizes{{Size::none, 1}};
-  sizes[Size::nx] = limited(nx == columns ? nx : -1);
-  // A row where a column was meant, as of one input, tells no number of inputs.
-  const auto [rows_of_B, columns_of_B] = shape("plant.B", 0);
-  sizes[Size::nu] = rows_of_B != nx && columns_of_B == nx ? -1 : limited(columns_of_B);
-  sizes[Size::ny] = limited(shape("plant.C", 0).first);
+  if (nodes.count("plant.f") != 0) {
+    sizes[Size::nx] = limited(length("plant.f", -1));
+    sizes[Size::nu] = limited(length("plant.inputs", 0));
+    sizes[Size::ny] = limited(length("plant.h", 0));
+  } else {
+    const auto [nx, columns] = shape("plant.A", -1);
+    sizes[Size::nx] = limited(nx == columns ? nx : -1);
+    // A row where a column was meant, as of one input, tells no number of inputs.
+    const auto [rows_of_B, columns_of_B] = shape("plant.B", 0);
+    sizes[Size::nu] = rows_of_B != nx && columns_of_B == nx ? -1 : limited(columns_of_B);
+    sizes[Size::ny] = limited(shape("plant.C", 0).first);
+  }
   const auto integrated = nodes.find("lqr.integral.outputs");
   sizes[Size::integrals] = integrated == nodes.end() ? 0 : limited(static_cast<int>(integrated->second->items.size()));
   sizes[Size::nw] = limited(shape("plant.G", sizes[Size::nx]).second);
   return sizes;
 }
 
-std::optional<Eigen::MatrixXd> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
-                                           Report& report) {
-  return MatrixReader(rule, sizes, report).read(node);
+std::optional<design::ExactMatrix> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                               Report& report) {
+  const std::optional<Eigen::MatrixXd> doubles = MatrixReader(rule, sizes, report).read(node);
+  if (!doubles) return {};
+  return has_formulas(node) ? design::ExactMatrix::of(with_formulas(node, *doubles)) : design::ExactMatrix(*doubles);
 }
 
 }  // namespace lqg::input

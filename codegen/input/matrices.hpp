@@ -2,11 +2,11 @@
 // Matrices and vectors of a design file: their form, their entries, their shape.
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "design/exact_matrix.hpp"
 #include "input/document.hpp"
 #include "input/keys.hpp"
 #include "input/report.hpp"
@@ -25,7 +25,7 @@ std::string name_of(Size size);
 
 // The matrix of a key of type matrix, weight, vector or bounds, in its shape; nothing, and what is wrong
 // reported, when it cannot be had. A dimension that is not known is not checked.
-std::optional<Eigen::MatrixXd> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
-                                           Report& report);
+std::optional<design::ExactMatrix> read_matrix(const KeyRule& rule, const Node& node, const std::map<Size, int>& sizes,
+                                               Report& report);
 
 }  // namespace lqg::input

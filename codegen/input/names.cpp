@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "expression/tree.hpp"
 #include "input/text.hpp"
 
 namespace lqg::input {
@@ -119,6 +120,13 @@ Complaint check_design_name(const std::string& name) {
     return "expected a name that leaves " + in_quotes(name + "_…") + " to the functions of C libraries" + found(name);
   if (name == "lqg" || name.rfind("lqg_", 0) == 0)
     return "expected a name that does not begin with the library's prefix lqg_" + found(name);
+  return {};
+}
+
+Complaint check_parameter_name(const std::string& name) {
+  if (const Complaint complaint = check_identifier(name)) return complaint;
+  if (name == "pi" || expression::function_of(name))
+    return "expected a name that no function has, and not pi" + found(name);
   return {};
 }
 

@@ -19,6 +19,9 @@ using Complaint = std::optional<std::string>;
 // The design's name: prefix of every emitted symbol and the name of the files.
 Complaint check_design_name(const std::string& name);
 
+// A name in [parameters]: no function has it, and it is not pi.
+Complaint check_parameter_name(const std::string& name);
+
 // Text that stands in a comment of the generated code: one line that cannot end the comment, continue it, or
 // open one.
 Complaint check_comment_text(const std::string& text);

@@ -113,6 +113,12 @@ void check_plant(const Values& values, const std::string& scenario, Report& repo
   const bool is_continuous = is_true(values, plant + ".continuous", false);
   if (is_continuous && !is_discrete(values)) report.error(plant + ".continuous", "needs plant.domain = \"discrete\"");
   if (is_continuous && !values.has(plant + ".A")) report.error(plant + ".A", "missing: of the continuous plant");
+  for (const char* key : {".A", ".B", ".C", ".continuous", ".scale"})
+    if (values.has(plant + key) && values.has("plant.f"))
+      report.error(plant + key, "needs a plant of matrices; of plant.f `parameters` may be others");
+  for (const char* key : {".A", ".B", ".C"})
+    if (values.has(scenario + ".spread" + key) && values.has("plant.f"))
+      report.error(scenario + ".spread" + key, "needs a plant of matrices: that of plant.f is simulated as it is");
   if (is_continuous && values.has("plant.B") && !values.has(plant + ".B"))
     report.error(plant + ".B", "missing: of the continuous plant");
   for (const char* key : {".A", ".B", ".C"})
@@ -128,7 +134,8 @@ void check_owners(const Values& values, const std::string& scenario, Report& rep
   for (const char* key : {".dropout", ".outlier", ".sensor"})
     if (values.has(scenario + key) && !estimates) report.error(scenario + key, "needs [kalman] or [observer]");
   for (const char* key : {".load", ".input", ".actuator"})
-    if (values.has(scenario + key) && !values.has("plant.B")) report.error(scenario + key, "needs plant.B");
+    if (values.has(scenario + key) && !values.has_inputs())
+      report.error(scenario + key, values.has("plant.f") ? "needs plant.inputs" : "needs plant.B");
   if (values.has(scenario + ".input") && regulates)
     report.error(scenario + ".input", "needs a design without [lqr]: the regulator makes u; `load` adds to it");
 }
@@ -217,6 +224,8 @@ design::PlantChange plant_change(const Values& values, const std::string& plant)
   result.A = given_matrix(values, plant + ".A");
   result.B = given_matrix(values, plant + ".B");
   result.C = given_matrix(values, plant + ".C");
+  if (const auto changed = values.named.find(plant + ".parameters"); changed != values.named.end())
+    result.parameters = changed->second;
   if (values.has(plant + ".delay")) result.delay = values.number(plant + ".delay", 0);
   for (const std::string& table : tables_in(values, plant, "scale"))
     result.scale.push_back({values.text(table + ".matrix")[0], entry_of(values, table, true),

@@ -30,6 +30,9 @@ std::string printable(std::string_view text);
 // The same, quoted and cut after 60 characters.
 std::string in_quotes(std::string_view text);
 
+// On one line: each stretch of blanks and line breaks as one blank.
+std::string on_one_line(std::string_view text);
+
 // With a to z in place of A to Z.
 std::string in_lower_case(std::string_view text);
 

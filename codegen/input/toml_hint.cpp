@@ -36,7 +36,7 @@ std::string toml_hint(std::string_view line) {
       has(value, "^\\s*(eye|diag|zeros|ones)\\("))
     return "expected a matrix as an array of rows, [[1, 2], [3, 4]], found MATLAB's notation";
   if (has(value, "[0-9.)]\\s*[*/^]|[*/^]\\s*[0-9.(]|[0-9.)]\\s+[-+]\\s*[0-9.(]|\\b(pi|sqrt|exp|sin|cos)\\b"))
-    return "expected numbers, found arithmetic: write its result";
+    return "expected numbers, found arithmetic: it stands in quotes, \"2*pi*50\"";
   if (has(value, "(^|[\\s\\[,])[-+]?[0-9][0-9_.]*(e[-+]?[0-9]+)?\\s*[A-Za-z%][A-Za-z/]*[0-9]?\\s*($|[,\\]])"))
     return "expected a number without a unit; units are SI, and may stand in a comment behind it or "
            "in the names of signals, \"dy1 [m]\"";

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
+#include "input/formulas.hpp"
 #include "input/lists.hpp"
 #include "input/matrices.hpp"
 #include "input/named.hpp"
@@ -18,17 +20,6 @@ namespace lqg::input {
 namespace {
 
 using Nodes = std::map<std::string, const Node*>;
-
-bool is_bare_key(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
-
-std::string joined(const std::string& parent, const std::string& name) {
-  const std::string segment = is_bare_key(name) && name.size() <= 60 ? name : in_quotes(name);
-  return parent.empty() ? segment : parent + "." + segment;
-}
 
 // "Q" of "lqr.Q"
 std::string name_in_table(const std::string& path) { return path.substr(path.rfind('.') + 1); }
@@ -42,15 +33,16 @@ Location start_of(const Key& key, const Node& node) {
 // Walks the tables: known keys into `nodes`, the rest is reported.
 class Collector {
  public:
-  Collector(Nodes& nodes, Values& values, Report& report) : nodes_(nodes), values_(values), report_(report) {}
+  Collector(Nodes& nodes, Values& values, const std::set<std::string>& wrong, Report& report)
+      : nodes_(nodes), values_(values), wrong_(wrong), report_(report) {}
 
   void walk(const Node& table, const std::string& parent) {
     values_.tables.insert(parent);
     values_.instances[rule_path(parent)].push_back(parent);
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
-      const std::string path = joined(parent, table.keys[i].name);
+      const std::string path = path_of(parent, table.keys[i].name);
       const KeyRule* rule = find_rule(rule_path(path));
-      report_.place(path, table.items[i].where);
+      if (wrong_.count(path) == 0) report_.place(path, table.items[i].where);  // else it is where it goes wrong
       values_.present.insert(path);
       if (rule == nullptr)
         report_unknown(table.keys[i], table.items[i], parent, path);
@@ -67,7 +59,7 @@ class Collector {
   void report_unknown(const Key& key, const Node& node, const std::string& parent, const std::string& path) {
     const Suggestion suggestion = suggest(rule_path(parent), key.name);
     const bool is_here = parent_of(suggestion.path) == rule_path(parent);
-    values_.present.insert(is_here ? joined(parent, name_in_table(suggestion.path)) : suggestion.path);
+    values_.present.insert(is_here ? path_of(parent, name_in_table(suggestion.path)) : suggestion.path);
     report_.error(path, start_of(key, node), suggestion.message);
   }
 
@@ -90,6 +82,7 @@ class Collector {
 
   Nodes& nodes_;
   Values& values_;
+  const std::set<std::string>& wrong_;
   Report& report_;
 };
 
@@ -173,8 +166,12 @@ class ValueReader {
       case Type::bounds:
         if (auto matrix = read_matrix(rule, node, values_.sizes, report_)) values_.matrices[rule.path] = *matrix;
         break;
+      case Type::formulas:  // by read_equations
+      case Type::point:
+      case Type::states:
       case Type::table:
-      case Type::tables: break;
+      case Type::tables:
+      case Type::parameters: break;
     }
   }
 
@@ -217,9 +214,14 @@ class ValueReader {
   // False where the key speaks of inputs or outputs and there are none. For the tables [lqr], [limits],
   // [kalman] that is said once for all of their keys.
   bool has_its_matrix(const KeyRule& rule) {
-    for (const auto& [size, matrix] : {std::pair(Size::nu, "plant.B"), std::pair(Size::ny, "plant.C")}) {
-      if ((rule.rows != size && rule.columns != size) || values_.has(matrix)) continue;
-      if (parent_of(rule.path) == "plant") report_.error(rule.path, "needs " + std::string(matrix));
+    const bool is_of_f = values_.has("plant.f");
+    if (is_of_f && (rule.path == "plant.inputs" || rule.type == Type::formulas || rule.type == Type::point))
+      return true;
+    for (const auto& [size, matrix, otherwise] :
+         {std::tuple(Size::nu, "plant.B", "plant.inputs"), std::tuple(Size::ny, "plant.C", "plant.h")}) {
+      const char* const source = is_of_f ? otherwise : matrix;
+      if ((rule.rows != size && rule.columns != size) || values_.has(source)) continue;
+      if (parent_of(rule.path) == "plant") report_.error(rule.path, "needs " + std::string(source));
       return false;
     }
     return true;
@@ -280,8 +282,7 @@ class ValueReader {
   void read_whole(const KeyRule& rule, const Node& node, int least, int most) {
     const std::string wanted = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
     if (node.kind != Kind::number) return expected(rule, wanted, describe(node));
-    const bool good = node.number >= least && node.number <= most && node.number == std::floor(node.number);
-    if (!good) return expected(rule, wanted, shown(node.number));
+    if (!is_whole(node) || node.number < least || node.number > most) return expected(rule, wanted, shown(node));
     values_.numbers[rule.path] = node.number;
   }
 
@@ -344,7 +345,7 @@ std::string decimal(std::to_chars_result (*print)(char*, char*, double, int), do
 
 }  // namespace
 
-const Eigen::MatrixXd* Values::matrix(const std::string& key) const {
+const design::ExactMatrix* Values::matrix(const std::string& key) const {
   const auto found = matrices.find(key);
   return found == matrices.end() ? nullptr : &found->second;
 }
@@ -358,6 +359,9 @@ double Values::number(const std::string& key, double absent) const {
   const auto found = numbers.find(key);
   return found == numbers.end() ? absent : found->second;
 }
+
+bool Values::has_inputs() const { return has("plant.f") ? sizes.at(Size::nu) != 0 : has("plant.B"); }
+bool Values::has_outputs() const { return has("plant.f") ? sizes.at(Size::ny) != 0 : has("plant.C"); }
 
 const std::vector<std::string>& Values::tables_like(const std::string& rule) const {
   static const std::vector<std::string> none;
@@ -385,17 +389,18 @@ std::vector<std::string> signal_names(const Values& values, Size size) {
   return names;
 }
 
-Values read_values(const Node& document, Report& report) {
+Values read_values(const Node& document, const std::set<std::string>& wrong, Report& report) {
   Values values;
   Nodes nodes;
-  Collector(nodes, values, report).walk(document, "");
+  Collector(nodes, values, wrong, report).walk(document, "");
   values.sizes = measure(nodes);
   ValueReader reader(values, report);
   for (const KeyRule& rule : key_rules()) {
     for (const std::string& table : values.tables_like(parent_of(rule.path))) {
       KeyRule instance = rule;
       instance.path = joined_rule(table, rule);
-      if (const auto node = nodes.find(instance.path); node != nodes.end()) reader.read(instance, *node->second);
+      const auto node = nodes.find(instance.path);
+      if (node != nodes.end() && wrong.count(instance.path) == 0) reader.read(instance, *node->second);
     }
   }
   report_missing(values, report);
@@ -408,6 +413,12 @@ std::string counted(long count, const std::string& noun) {
 
 std::string shown(double number) {
   return decimal([](char* first, char* last, double x, int) { return std::to_chars(first, last, x); }, number, 0);
+}
+
+std::string shown(const Node& number) {
+  constexpr int enough_digits = 25;
+  const design::Real exact = exact_value(number);
+  return exact == number.number ? shown(number.number) : exact.str(enough_digits);
 }
 
 std::string shown(double number, int digits) {

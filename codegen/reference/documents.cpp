@@ -15,7 +15,7 @@ constexpr char introduction[] = R"(# Keys of the design file
 
 A design file is [TOML](https://toml.io). Each key belongs to one table. The rules that hold for all keys are in
 [README.md](README.md#the-design-file), examples in [designs/](designs). Sizes: nx states, nu inputs, ny outputs,
-nw process noises.
+nw process noises. A number may be an [expression in quotes](README.md#parameters-and-expressions), everywhere.
 
 lqgen reads design files by the table from which this page is made. `lqgen --keys` prints the page, `lqgen --schema` the
 JSON Schema for editors, [design.schema.json](design.schema.json).
@@ -56,6 +56,7 @@ std::string rows_of(const std::string& table) {
   std::string out;
   for (const KeyRule& rule : input::key_rules())
     if (input::parent_of(rule.path) == table && !is_table(rule)) out += row(rule);
+  if (out.empty()) return "";
   return "\n| key | value | what it is | default |\n| --- | --- | --- | --- |\n" + out;
 }
 

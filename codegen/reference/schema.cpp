@@ -4,6 +4,7 @@
 #include "design/problem.hpp"
 #include "input/matrices.hpp"
 #include "input/names.hpp"
+#include "input/parameters.hpp"
 #include "reference/documents.hpp"
 #include "reference/wording.hpp"
 
@@ -22,13 +23,26 @@ Json array_of(const Json& items) {
 
 Json text(const char* pattern) { return {{"type", "string"}, {"pattern", pattern}}; }
 
-Json whole(int least, int most) { return {{"type", "integer"}, {"minimum", least}, {"maximum", most}}; }
+Json index(int most) { return {{"type", "integer"}, {"minimum", 0}, {"maximum", most}}; }
+
+// Strings are expressions: what is said of numbers holds for numbers alone.
+Json or_expression(const Json& types, const Json& rules) {
+  Json out = {{"type", types}, {"pattern", R"(^[-+*/^(),.0-9A-Za-z_ \t\r\n]+$)"}};
+  out.update(rules);
+  return out;
+}
+
+Json whole(int least) { return or_expression({"integer", "string"}, {{"minimum", least}}); }
+Json whole(int least, int most) {
+  return or_expression({"integer", "string"}, {{"minimum", least}, {"maximum", most}});
+}
 
 // JSON has no infinity: tools that turn TOML into JSON make it null.
-Json number_or_infinity() { return {{"type", {"number", "null"}}}; }
+Json number_or_infinity() { return or_expression({"number", "string", "null"}, Json::object()); }
 
-const Json number = {{"type", "number"}};
-const Json number_above_0 = {{"type", "number"}, {"exclusiveMinimum", 0}};
+const Json number = or_expression({"number", "string"}, Json::object());
+const Json number_above_0 = or_expression({"number", "string"}, {{"exclusiveMinimum", 0}});
+const Json number_from_0 = or_expression({"number", "string"}, {{"minimum", 0}});
 const Json matrix = array_of(array_of(number));
 
 Json pair_of(const Json& items) {
@@ -50,9 +64,21 @@ Json mask() {
 }
 
 Json indices() {
-  Json list = array_of({{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}});
+  Json list = array_of({{"anyOf", {index(input::most_signals - 1), {{"type", "string"}}}}});
   list["uniqueItems"] = true;
   return list;
+}
+
+// A table of names, each a number or an expression, with its unit or without.
+Json parameters() {
+  const Json with_unit = {{"type", "object"},
+                          {"required", {"value"}},
+                          {"additionalProperties", false},
+                          {"properties", {{"value", number}, {"unit", {{"type", "string"}}}}}};
+  return {{"type", "object"},
+          {"propertyNames", text("^[A-Za-z][A-Za-z0-9_]*$")},
+          {"maxProperties", input::most_parameters},
+          {"additionalProperties", {{"anyOf", {number, with_unit}}}}};
 }
 
 Json threshold() {
@@ -74,29 +100,33 @@ Json value_schema(const KeyRule& rule) {
     case Type::line: return text(R"(^[^\\\u0000-\u001f\u007f]*$)");
     case Type::word: return {{"enum", rule.words}};
     case Type::positive: return number_above_0;
-    case Type::not_negative: return {{"type", "number"}, {"minimum", 0}};
+    case Type::not_negative: return number_from_0;
     case Type::real: return number;
     case Type::flag: return {{"type", "boolean"}};
     case Type::threshold: return threshold();
-    case Type::amount: return {{"anyOf", {{{"type", "number"}, {"minimum", 0}}, {{"enum", rule.words}}}}};
-    case Type::whole: return {{"type", "integer"}, {"minimum", 1}};
+    case Type::amount: return {{"anyOf", {number_from_0, {{"enum", rule.words}}}}};
+    case Type::whole: return whole(1);
     case Type::steps: return whole(0, design::most_steps);
     case Type::step: return whole(1, design::most_steps);
     case Type::matrix: return matrix;
-    case Type::weight: return {{"anyOf", {array_of({{"type", "number"}, {"minimum", 0}}), matrix}}};
+    case Type::weight: return {{"anyOf", {array_of(number_from_0), matrix}}};
     case Type::mask: return mask();
     case Type::vector: return array_of(number);
     case Type::positives: return array_of(number_above_0);
     case Type::bounds: return array_of(number_or_infinity());
-    case Type::counts: return array_of({{"type", "integer"}, {"minimum", 1}});
+    case Type::counts: return array_of(whole(1));
     case Type::ranges: return named({{"anyOf", {number_above_0, pair_of(number_or_infinity())}}});
     case Type::prices: return {{"anyOf", {number_above_0, named(number_above_0)}}};
     case Type::indices: return indices();
     case Type::walks: return {{"anyOf", {indices(), {{"type", "object"}, {"additionalProperties", number_above_0}}}}};
     case Type::signal:
-    case Type::entry: return {{"anyOf", {whole(0, input::most_signals - 1), {{"type", "string"}}}}};
+    case Type::entry: return {{"anyOf", {index(input::most_signals - 1), {{"type", "string"}}}}};
     case Type::poles: return array_of(pole());
     case Type::signals: return array_of(text(R"(^ *[A-Za-z][A-Za-z0-9_]* *(\[[^\[\]\\]*\] *)?$)"));
+    case Type::parameters: return parameters();
+    case Type::formulas: return array_of({{"anyOf", {{{"type", "string"}}, number}}});
+    case Type::point: return array_of({{"anyOf", {number, {{"type", "string"}}}}});
+    case Type::states: return array_of({{"type", "string"}});
     case Type::table:
     case Type::tables: break;
   }
@@ -149,7 +179,8 @@ Json key_schema(const KeyRule& rule) {
     out.update({{"type", "array"}, {"minItems", 1}, {"items", table_schema(rule.path)}});
     return out;
   }
-  out.update(is_table(rule) ? table_schema(rule.path) : value_schema(rule));
+  const bool has_rules = rule.type == Type::table;
+  out.update(has_rules ? table_schema(rule.path) : value_schema(rule));
   return out;
 }
 

@@ -13,7 +13,9 @@ std::string name_of(const KeyRule& rule) {
   return parent.empty() ? rule.path : rule.path.substr(parent.size() + 1);
 }
 
-bool is_table(const KeyRule& rule) { return rule.type == Type::table || rule.type == Type::tables; }
+bool is_table(const KeyRule& rule) {
+  return rule.type == Type::table || rule.type == Type::tables || rule.type == Type::parameters;
+}
 
 std::string header_of(const KeyRule& rule) {
   return rule.type == Type::tables ? "[[" + rule.path + "]]" : "[" + rule.path + "]";
@@ -55,9 +57,13 @@ std::string values_of(const KeyRule& rule) {
     case Type::signal:
     case Type::entry: return "name or number of a signal";
     case Type::poles: return "poles";
+    case Type::formulas: return rows + " formulas";
+    case Type::point: return rows + " numbers, formulas or `\"?\"`";
+    case Type::states: return "names of states";
     case Type::signals: return rows + " names with units";
     case Type::table:
-    case Type::tables: return "table";
+    case Type::tables:
+    case Type::parameters: return "table";
   }
   return "";
 }

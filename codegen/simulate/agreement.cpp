@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "controller/operating_point.hpp"
 #include "design/numeric/digits.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "design/rounding.hpp"
@@ -37,7 +38,8 @@ std::vector<Vector<Real>> answers_to_impulse(EmittedController<Real> emitted, In
 // The same of all outputs: a column each.
 std::vector<RealMatrix> answers_of(const Controller& physical, Index samples) {
   const unsigned digits = digits_of_agreement(physical.solution);
-  const EmittedController<Real> emitted(physical, [digits](const Real& value) { return Real(value, digits); });
+  const Controller at_zero = controller::without_point(physical);
+  const EmittedController<Real> emitted(at_zero, [digits](const Real& value) { return Real(value, digits); });
   std::vector<RealMatrix> answers(static_cast<std::size_t>(samples), RealMatrix(physical.size.nu, physical.size.ny));
   for (Index j = 0; j < physical.size.ny; ++j) {
     const std::vector<Vector<Real>> column = answers_to_impulse(emitted, j, samples);

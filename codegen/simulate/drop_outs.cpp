@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "controller/operating_point.hpp"
 #include "simulate/emitted_controller.hpp"
 #include "simulate/numbers.hpp"
 
@@ -65,9 +66,11 @@ const std::vector<int>& tried_drop_outs() {
 }
 
 void check_drop_outs(const Controller& controller, design::Findings& findings) {
-  if (controller.filter != step::Filter::plain) return;
+  // Held at one estimate an extended filter is not the one that will run.
+  if (controller.filter != step::Filter::plain || controller::is_extended(controller)) return;
+  const Controller at_zero = controller::without_point(controller);
   const int samples =
-      with_scalar_of(controller.target, [&](auto zero) { return drop_out_that_breaks<decltype(zero)>(controller); });
+      with_scalar_of(controller.target, [&](auto zero) { return drop_out_that_breaks<decltype(zero)>(at_zero); });
   if (samples < 0) return;
   const std::string advice = controller.target.is_double ? "\"ud\"" : "\"ud\", or real = \"double\"";
   if (samples == 0)

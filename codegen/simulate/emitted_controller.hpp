@@ -11,6 +11,7 @@
 #include "step/by_hand.hpp"
 #include "step/innovation.hpp"
 #include "step/loop.hpp"
+#include "step/operating_point.hpp"
 #include "step/partial_update.hpp"
 
 namespace lqg::simulate {
@@ -41,8 +42,8 @@ struct CountingListener : step::Listener {
 };
 
 // A controller that keeps x̂, or z of it. Each call is the one of that name in the header, limits, gate, faults and
-// resets
-// included, and returns the events that its status would tell. `constants` turns a number of the design into an S.
+// resets included, and returns the events that its status would tell: y, u, x and r are in the plant's own units.
+// `constants` turns a number of the design into an S.
 template <class S>
 class EmittedController {
  public:
@@ -61,13 +62,11 @@ class EmittedController {
     load();
     state_ = step::initial_state(model_);
   }
-  unsigned update(const Vector<S>& y) {
-    CountingListener listener(gated_, left_out_);
-    return end(step::update(model_, state_, y, listener), listener);
-  }
+  unsigned update(const Vector<S>& y) { return update_by(output_deviations(y)); }
   unsigned update_alone(int output, const S& y) {
     CountingListener listener(gated_, left_out_);
-    return end(step::update_alone(model_, state_, y, output, listener), listener);
+    const S deviation = step::output_deviation(model_.point, y, output, listener);
+    return end(step::update_alone(model_, state_, deviation, output, listener), listener);
   }
   // `used` has a bit for each output.
   unsigned partial_update(const Vector<S>& y, unsigned long used) {
@@ -75,19 +74,21 @@ class EmittedController {
     Vector<S> there = y;
     for (Eigen::Index i = 0; i < there.size(); ++i)
       if (!is_used(i)) there(i) = S(std::numeric_limits<double>::infinity());
+    there = output_deviations(there);
     step::Listener listener;
+    step::Model<S> as_they_are = outputs();
     const auto lost =
-        step::lost_outputs(model_, step::innovations(outputs(), state_, there, listener), there, listener);
-    const unsigned events = update(there) & ~step::all_rejections();
+        step::lost_outputs(model_, step::innovations(as_they_are, state_, there, listener), there, listener);
+    const unsigned events = update_by(there) & ~step::all_rejections();
     for (Eigen::Index i = 0; i < there.size(); ++i)
       listener.reject(static_cast<int>(i), is_used(i) && lost[static_cast<std::size_t>(i)]);
     return events | listener.events;
   }
   // The variances are empty where the header has none.
   void innovation(const Vector<S>& y, Vector<S>& nu, Vector<S>& variances) const {
-    const step::Model<S> as_they_are = outputs();
+    step::Model<S> as_they_are = outputs();
     step::Listener listener;
-    nu = step::innovations(as_they_are, state_, y, listener);
+    nu = step::innovations(as_they_are, state_, output_deviations(y), listener);
     variances.resize(controller_.has.variance ? nu.size() : 0);
     for (Eigen::Index i = 0; i < variances.size(); ++i)
       variances(i) = step::innovation_variance(as_they_are, state_, static_cast<int>(i), listener);
@@ -95,34 +96,52 @@ class EmittedController {
   // x̂
   Vector<S> estimate() const {
     step::Listener listener;
-    return step::estimate(model_, state_, listener);
+    return step::own_state(model_.point, step::estimate(model_, state_, listener), listener);
+  }
+  // The same from the operating point.
+  Vector<S> estimated_deviation() const {
+    step::Listener listener;
+    Vector<S> x = step::estimate(model_, state_, listener);
+    const Eigen::VectorXd point =
+        controller::is_extended(controller_) ? controller::stated_point(controller_).x : Eigen::VectorXd();
+    for (Eigen::Index i = 0; i < point.size(); ++i) x(i) = x(i) - S(point(i));
+    return x;
   }
   unsigned set_state(const Vector<S>& x) {
     step::Listener listener;
-    return begin_anew_unless(step::set_state(model_, state_, x, listener), listener);
+    const Vector<S> deviations = step::state_deviations(model_.point, x, listener);
+    return begin_anew_unless(step::set_state(model_, state_, deviations, listener), listener);
   }
-  // Of a regulator alone at the state that is in state().x.
   unsigned set_input(const Vector<S>& u) {
     step::Listener listener;
-    return begin_anew_unless(step::set_input(model_, state_, u, listener), listener);
+    const Vector<S> deviations = step::input_deviations(model_.point, u, listener);
+    return begin_anew_unless(step::set_input(model_, state_, deviations, listener), listener);
   }
-  // Beside a filter, or of a law without a memory: then x is what was put into state().x.
+  // Of a regulator alone at the state x.
+  unsigned set_input(const Vector<S>& x, const Vector<S>& u) {
+    step::Listener listener;
+    state_.x = step::state_deviations(model_.point, x, listener);
+    return set_input(u);
+  }
+  // Beside a filter.
   unsigned control(Vector<S>& u) {
     step::Listener listener;
-    u = step::control(model_, state_, listener);
+    u = step::own_input(model_.point, step::control(model_, state_, listener), listener);
     return listener.events;
   }
   unsigned predict(const Vector<S>& u) {
     step::Listener listener;
-    const bool within = step::predict(model_, state_, u, listener);
+    const Vector<S> deviations = step::input_deviations(model_.point, u, listener);
+    const bool within = step::predict(model_, state_, deviations, listener);
     advance_counters();
     return end(within, listener);
   }
   // A regulator alone, of the state x.
   unsigned control(const Vector<S>& x, Vector<S>& u) {
     step::Listener listener;
-    state_.x = x;
+    state_.x = step::state_deviations(model_.point, x, listener);
     const bool within = step::act(model_, state_, u, listener);
+    u = step::own_input(model_.point, u, listener);
     advance_counters();
     return end(within, listener);
   }
@@ -142,6 +161,15 @@ class EmittedController {
     step::Model<S> model = model_;
     controller::take_outputs_as_they_are(controller_, constants_, model);
     return model;
+  }
+
+  Vector<S> output_deviations(const Vector<S>& y) const {
+    step::Listener listener;
+    return step::output_deviations(model_.point, y, listener);
+  }
+  unsigned update_by(const Vector<S>& deviations) {
+    CountingListener listener(gated_, left_out_);
+    return end(step::update(model_, state_, deviations, listener), listener);
   }
 
   // The constants of this sample.

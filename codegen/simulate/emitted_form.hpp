@@ -3,6 +3,7 @@
 #pragma once
 
 #include "controller/linear_model_of.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::simulate {
 
@@ -23,23 +24,27 @@ class EmittedForm {
   // In predictor form y is not looked at.
   unsigned control(const Vector<S>& y, Vector<S>& u) {
     step::Listener listener;
-    u = step::control(model_, state_, y, listener);
+    const Vector<S> deviations = step::output_deviations(model_.point, y, listener);
+    u = step::own_input(model_.point, step::control(model_, state_, deviations, listener), listener);
     return listener.events;
   }
   // In filter form control has heard y.
   unsigned advance(const Vector<S>& y) {
     step::Listener listener;
-    const Vector<S> heard = model_.predictor_form ? step::heard_outputs(model_, state_, y, listener) : state_.y;
+    const Vector<S> deviations = step::output_deviations(model_.point, y, listener);
+    const Vector<S> heard =
+        model_.predictor_form ? step::heard_outputs(model_, state_, deviations, listener) : state_.y;
     return end(step::advance(model_, state_, heard, listener), listener);
   }
   unsigned set_state(const Vector<S>& x) {
     step::Listener listener;
-    return end(step::set_state(model_, state_, x, listener), listener);
+    const Vector<S> deviations = step::state_deviations(model_.point, x, listener);
+    return end(step::set_state(model_, state_, deviations, listener), listener);
   }
   // x̂ that u is made of, between the two.
   Vector<S> estimate() const {
     step::Listener listener;
-    return step::estimate(model_, state_, listener);
+    return step::own_state(model_.point, step::estimate(model_, state_, listener), listener);
   }
 
   const step::LinearModel<S>& model() const { return model_; }

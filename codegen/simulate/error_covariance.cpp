@@ -85,7 +85,7 @@ void ErrorCovariance::begin_anew() {
   is_settled_ = false;
 }
 
-MatrixXd ErrorCovariance::of_innovation() const { return congruence(C_, P_) + V_; }
+MatrixXd ErrorCovariance::of_innovation(const MatrixXd& C) const { return congruence(C, P_) + V_; }
 
 void ErrorCovariance::update(std::size_t gain_row, const std::vector<bool>& left_out) {
   if (gain_row != gain_row_) load_gains(gain_row);

@@ -28,7 +28,7 @@ class ErrorCovariance {
   const Eigen::MatrixXd& P() const { return P_; }
   void set(const Eigen::MatrixXd& P) { P_ = P; }
   // C P Cᵀ + V, before the update
-  Eigen::MatrixXd of_innovation() const;
+  Eigen::MatrixXd of_innovation(const Eigen::MatrixXd& C) const;
   // e ← (I − L C) e − L v with the gains of `gain_row`; an output that was left out has no gain.
   void update(std::size_t gain_row, const std::vector<bool>& left_out);
   // e ← A e + G w − M (C e + v), the same outputs.

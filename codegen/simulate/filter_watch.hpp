@@ -4,12 +4,14 @@
 
 #include <optional>
 
+#include "controller/operating_point.hpp"
 #include "controller/stage_in_force.hpp"
 #include "design/rounding.hpp"
 #include "simulate/emitted_controller.hpp"
 #include "simulate/error_covariance.hpp"
 #include "simulate/numbers.hpp"
 #include "simulate/period.hpp"
+#include "step/extended.hpp"
 
 namespace lqg::simulate {
 
@@ -49,17 +51,16 @@ class FilterWatch {
 
   template <class S>
   void before_update(const EmittedController<S>& emitted, const Eigen::VectorXd& y) {
-    const design::SampledPlant& plant = controller::plant_at(controller_, emitted.sample());
-    load(plant);
-    const Eigen::VectorXd x = as_doubles(emitted.estimate());
-    Eigen::VectorXd expected = ordered_image(C_, x);
-    if (controller_.has.feedthrough) add_product(D_, as_doubles(emitted.state().u), expected);
-    innovation_ = y - expected;
+    const Eigen::VectorXd x = as_doubles(emitted.estimated_deviation());
+    if (controller::is_extended(controller_))
+      hear_by_equations(emitted, y);
+    else
+      hear_by_matrices(emitted, x, y);
     gain_row_ = emitted.gain_row();
     if (!error_) return;
     error_->go_to(emitted.sample());
     if (carries_covariance(controller_)) error_->set(covariance_of(controller_, emitted));
-    S_ = error_->of_innovation();
+    S_ = error_->of_innovation(C_);
     if (controller_.is_predictor) keep(x);
   }
   template <class S>
@@ -73,7 +74,7 @@ class FilterWatch {
       else
         error_->update(gain_row_, emitted.left_out());
     }
-    if (!controller_.is_predictor) keep(as_doubles(emitted.estimate()));
+    if (!controller_.is_predictor) keep(as_doubles(emitted.estimated_deviation()));
   }
   // Of a sample with these events.
   void end_sample(unsigned events) {
@@ -87,10 +88,29 @@ class FilterWatch {
   bool knows_its_error() const { return error_.has_value(); }
   const Eigen::VectorXd& innovation() const { return innovation_; }
   double nis() const { return nis_; }
-  const Eigen::VectorXd& estimate() const { return estimate_; }  // that u is made of, the inputs on their way too
-  const Eigen::MatrixXd& P() const { return P_; }                // of its error
+  // That u is made of, the inputs on their way too, from the operating point.
+  const Eigen::VectorXd& estimate() const { return estimate_; }
+  const Eigen::MatrixXd& P() const { return P_; }  // of its error
 
  private:
+  // y − C x̂ − D u
+  template <class S>
+  void hear_by_matrices(const EmittedController<S>& emitted, const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+    load(controller::plant_at(controller_, emitted.sample()));
+    Eigen::VectorXd expected = ordered_image(C_, x);
+    if (controller_.has.feedthrough) add_product(D_, as_doubles(emitted.state().u), expected);
+    innovation_ = controller::as_deviations(y, controller_.point.y) - expected;
+  }
+  // y − h(x̂, u), and C, the Jacobian of h there, as the filter makes them.
+  template <class S>
+  void hear_by_equations(const EmittedController<S>& emitted, const Eigen::VectorXd& y) {
+    step::Listener listener;
+    const auto outputs = step::outputs_at_estimate(emitted.model(), emitted.state(), numbers_of<S>(y), listener);
+    innovation_ = as_doubles(outputs.innovation);
+    C_.resize(outputs.C.rows(), outputs.C.cols());
+    for (Eigen::Index i = 0; i < C_.rows(); ++i)
+      for (Eigen::Index j = 0; j < C_.cols(); ++j) C_(i, j) = as_double(outputs.C(i, j));
+  }
   void load(const design::SampledPlant& plant) {
     if (&plant == loaded_) return;
     C_ = design::to_doubles(plant.C), D_ = design::to_doubles(plant.D);

@@ -30,6 +30,7 @@ MatrixXd doubles(const design::RealMatrix& values) { return design::to_doubles(v
 template <class S>
 step::Model<S> law_of(const Controller& controller, bool is_clipped) {
   auto model = controller::model_of<S>(controller, constants_of<S>(controller.target));
+  model.point = {};  // all of it is in deviations
   if (!is_clipped) return model;
   model.u_min = model.foreseen.low.head(model.nu);
   model.u_max = model.foreseen.high.head(model.nu);

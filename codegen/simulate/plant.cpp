@@ -29,7 +29,7 @@ Plant::Stage Plant::stage_of(const Controller& controller, std::size_t from, Pla
 }
 
 Plant::Plant(const Controller& controller, const VectorXd& x, PlantNoise noise, std::uint64_t seed)
-    : noise_(seed), x_(x) {
+    : noise_(seed), point_(controller::stated_point(controller)), x_(x) {
   stages_.push_back(stage_of(controller, 0, noise));
   for (const design::StageSolution& stage : controller.solution.stages)
     stages_.push_back(stage_of(controller, static_cast<std::size_t>(stage.from), noise));
@@ -46,20 +46,24 @@ VectorXd Plant::measure(const VectorXd& u) {
   VectorXd white(now.noise_factor.rows());
   for (Index i = 0; i < white.size(); ++i) white(i) = noise_.normal();
   drawn_ = ordered_image(now.noise_factor, white);
-  return ordered_image(now.C, x_) + ordered_image(now.D, u) + drawn_.tail(now.C.rows());
+  const VectorXd acting = controller::as_deviations(u, point_.u);
+  return controller::in_own_units(ordered_image(now.C, x_) + ordered_image(now.D, acting) + drawn_.tail(now.C.rows()),
+                                  point_.y);
 }
 
 void Plant::advance(const VectorXd& u) {
   const Stage& now = stage();
-  x_ = ordered_image(now.A, x_) + ordered_image(now.B, u) + drawn_.head(now.A.rows());
+  const VectorXd acting = controller::as_deviations(u, point_.u);
+  x_ = ordered_image(now.A, x_) + ordered_image(now.B, acting) + drawn_.head(now.A.rows());
   ++sample_;
 }
 
 double Plant::cost(const VectorXd& u) const {
   const Stage& now = stage();
   if (now.Q.size() == 0) return 0;
-  return ordered_dot(x_, ordered_image(now.Q, x_) + 2 * ordered_image(now.N, u)) +
-         ordered_dot(u, ordered_image(now.R, u));
+  const VectorXd acting = controller::as_deviations(u, point_.u);
+  return ordered_dot(x_, ordered_image(now.Q, x_) + 2 * ordered_image(now.N, acting)) +
+         ordered_dot(acting, ordered_image(now.R, acting));
 }
 
 }  // namespace lqg::simulate

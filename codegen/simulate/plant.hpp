@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "controller/operating_point.hpp"
 #include "simulate/designed.hpp"
 #include "simulate/noise.hpp"
 
@@ -13,6 +14,7 @@ namespace lqg::simulate {
 // host.
 class Plant {
  public:
+  // x: from the operating point. All else is in the plant's own units.
   Plant(const Controller& controller, const Eigen::VectorXd& x, PlantNoise noise, std::uint64_t seed);
 
   // y with the u that acts while the outputs are sampled; draws the noises of this sample, the same numbers whether
@@ -20,7 +22,8 @@ class Plant {
   Eigen::VectorXd measure(const Eigen::VectorXd& u);
   // x ← A x + B u + G w
   void advance(const Eigen::VectorXd& u);
-  const Eigen::VectorXd& state() const { return x_; }
+  Eigen::VectorXd state() const { return controller::in_own_units(x_, point_.x); }
+  const Eigen::VectorXd& deviation() const { return x_; }  // from the operating point
   // xᵀQx + uᵀRu + 2xᵀNu of the sampled cost in force; 0 without one
   double cost(const Eigen::VectorXd& u) const;
 
@@ -34,6 +37,7 @@ class Plant {
   const Stage& stage() const;
 
   Noise noise_;
+  controller::Point point_;
   std::vector<Stage> stages_;
   std::size_t sample_ = 0;
   Eigen::VectorXd x_, drawn_;

@@ -55,7 +55,7 @@ void replay_sample(EmittedController<S>& emitted, FilterWatch& watch, const Cont
   run.y.col(k) = y, run.u.col(k) = u;
   if (controller.has.regulator) run.law.col(k) = as_doubles(law);
   run.innovation.col(k) = watch.innovation();
-  run.estimate.col(k) = watch.estimate().head(run.estimate.rows());
+  run.estimate.col(k) = controller::in_own_units(watch.estimate().head(run.estimate.rows()), controller.point.x);
   if (watch.knows_its_error()) {
     run.sigma.col(k) = watch.P().diagonal().head(run.sigma.rows()).cwiseMax(0).cwiseSqrt();
     run.nis(k) = watch.nis();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "controller/model_of.hpp"
+#include "controller/operating_point.hpp"
 
 namespace lqg::simulate {
 
@@ -40,19 +40,20 @@ std::vector<double> share_at_limits(const Controller& controller, const MatrixXd
   std::vector<double> out(static_cast<std::size_t>(u.rows()), 0);
   if (!controller.problem.limits || u.cols() == 0) return out;
   const design::Limits& limits = *controller.problem.limits;
-  const bool is_double = controller.target.is_double;
-  const auto target_limit = [&](const Eigen::VectorXd& from, Index i, int inward) {
-    return controller::limit_of_target(from(i), inward, is_double);
-  };
+  const Eigen::VectorXd start = controller::in_own_units(Eigen::VectorXd::Zero(u.rows()), controller.point.u);
+  const double epsilon = controller.target.is_double ? 0x1p-52 : 0x1p-23;
+  const bool is_limited = limits.u_min.size() > 0;
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(u.rows(), design::forever);
+  const Eigen::VectorXd low = is_limited ? controller::input_limits_reached(controller, +1) : Eigen::VectorXd(-none);
+  const Eigen::VectorXd high = is_limited ? controller::input_limits_reached(controller, -1) : none;
   for (Index i = 0; i < u.rows(); ++i) {
-    const double least = limits.u_min.size() ? target_limit(limits.u_min, i, +1) : -design::forever;
-    const double most = limits.u_max.size() ? target_limit(limits.u_max, i, -1) : design::forever;
     const double step =
         limits.u_rate.size() ? limits.u_rate(i) * controller.problem.plant.sample_time : design::forever;
     Index count = 0;
     for (Index k = 0; k < u.cols(); ++k) {
-      const double change = std::abs(u(i, k) - (k ? u(i, k - 1) : 0));
-      count += u(i, k) <= least || u(i, k) >= most || change >= step * (1 - 1e-6);
+      const double change = std::abs(u(i, k) - (k ? u(i, k - 1) : start(i)));
+      const double rounding = controller.point.u.size() > 0 ? 2 * epsilon * std::abs(u(i, k)) : 0;
+      count += u(i, k) <= low(i) || u(i, k) >= high(i) || change >= step * (1 - 1e-6) - rounding;
     }
     out[static_cast<std::size_t>(i)] = static_cast<double>(count) / static_cast<double>(u.cols());
   }
@@ -122,7 +123,8 @@ std::vector<StepAnswer> answers_of(const PreparedScenario& prepared, const Scena
     for (const double time : {course.at, course.until}) {
       const int begin = first_sample(time, T, samples);
       if (begin >= samples || !seen.insert({course.signal, begin}).second) continue;
-      const double from = begin ? run.r(row, begin - 1) : 0, to = run.r(row, begin);
+      const Eigen::VectorXd& start = prepared.controller.point.r;
+      const double from = begin ? run.r(row, begin - 1) : start.size() ? start(row) : 0, to = run.r(row, begin);
       if (from == to) continue;
       const int end = *events_of(prepared.scenario, course.signal, T, samples).upper_bound(begin);
       StepAnswer answer = answer_of(normalised(run, course.signal, from, to, begin, end));
@@ -137,13 +139,21 @@ std::vector<StepAnswer> answers_of(const PreparedScenario& prepared, const Scena
   return out;
 }
 
+// Of so many samples.
+MatrixXd from_point(const MatrixXd& own, const Eigen::VectorXd& point) {
+  if (point.size() == 0) return own;
+  return own.colwise() - point.head(own.rows());
+}
+
 }  // namespace
 
 void count_numbers(const PreparedScenario& prepared, ScenarioRun& run) {
   ScenarioNumbers& numbers = run.numbers;
-  numbers.rms_x = rms_of(run.x), numbers.peak_x = peak_of(run.x);
-  numbers.rms_u = rms_of(run.u), numbers.peak_u = peak_of(run.u);
-  numbers.rms_y = rms_of(run.outputs), numbers.peak_y = peak_of(run.outputs);
+  const controller::Point point = controller::stated_point(prepared.controller);
+  const MatrixXd x = from_point(run.x, point.x), u = from_point(run.u, point.u), y = from_point(run.outputs, point.y);
+  numbers.rms_x = rms_of(x), numbers.peak_x = peak_of(x);
+  numbers.rms_u = rms_of(u), numbers.peak_u = peak_of(u);
+  numbers.rms_y = rms_of(y), numbers.peak_y = peak_of(y);
   numbers.share_at_limits = share_at_limits(prepared.controller, run.u);
   numbers.answers = answers_of(prepared, run);
   for (Index i = 0; i < run.left_out.rows(); ++i)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "controller/operating_point.hpp"
 #include "simulate/filter_watch.hpp"
 #include "simulate/prepared_scenario.hpp"
 #include "simulate/scenario_numbers.hpp"
@@ -18,6 +19,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using controller::as_deviations;
+using controller::in_own_units;
 
 constexpr double far_away = 1e18;  // a plant that nobody holds is shown until it is there
 
@@ -25,22 +28,25 @@ constexpr double far_away = 1e18;  // a plant that nobody holds is shown until i
 struct ScenarioSurroundings {
   ScenarioSurroundings(const PreparedScenario& of, const TruthModel& model, const VectorXd& x0, std::uint64_t seed,
                        ScenarioRun& to)
-      : prepared(of), controller(of.controller), noise(seed), truth(model, x0, noise),
-        applied(VectorXd::Zero(of.controller.size.nu)), run(to) {
+      : prepared(of), controller(of.controller), point(controller::stated_point(of.controller)), noise(seed),
+        truth(model, x0, noise), applied(in_own_units(VectorXd::Zero(of.controller.size.nu), point.u)), run(to) {
     if (keeps_estimate(controller)) watch.emplace(controller);
   }
 
   static bool keeps_estimate(const Controller& controller) { return controller.has.filter && !controller.linear; }
 
   VectorXd measure(const VectorXd& u) {
-    if (controller.is_predictor || !controller.has.filter) truth.ask(u);
-    VectorXd y = truth.measure();
-    run.outputs.col(k) = truth.outputs();
+    if (controller.is_predictor || !controller.has.filter) ask(u);
+    VectorXd y = in_own_units(truth.measure(), point.y);
+    run.outputs.col(k) = in_own_units(truth.outputs(), point.y);
     fail(y);
     return in_target(controller.target, y);
   }
-  VectorXd given_input() const { return in_target(controller.target, prepared.courses.input.col(k)); }
-  VectorXd state() const { return truth.designed_state(); }
+  VectorXd given_input() const {
+    return in_target(controller.target, in_own_units(prepared.courses.input.col(k), point.u));
+  }
+  VectorXd state() const { return in_own_units(truth.designed_state(), point.x); }
+  void ask(const VectorXd& u) { truth.ask(as_deviations(u, point.u)); }
 
   template <class S>
   void before_update(const EmittedController<S>& emitted, const VectorXd& y) {
@@ -80,6 +86,7 @@ struct ScenarioSurroundings {
 
   const PreparedScenario& prepared;
   const Controller& controller;
+  const controller::Point point;
   Noise noise;
   Truth truth;
   VectorXd applied;
@@ -100,6 +107,7 @@ ScenarioRun empty_run(const PreparedScenario& prepared, const TruthModel& truth)
   run.y = run.outputs = MatrixXd::Zero(truth.ny, samples);
   run.u = MatrixXd::Zero(truth.nu, samples);
   run.r = prepared.courses.reference;
+  if (const VectorXd r = controller::stated_point(controller).r; r.size()) run.r.colwise() += r;
   run.events.assign(static_cast<std::size_t>(samples), 0);
   run.left_out = Eigen::ArrayXX<bool>::Constant(truth.ny, samples, false);
   if (ScenarioSurroundings::keeps_estimate(controller)) run.innovation = MatrixXd::Zero(truth.ny, samples);
@@ -140,9 +148,15 @@ void keep_instants(const ScenarioSurroundings& around, ScenarioRun& run) {
   for (const double time : model.instants) {
     ++column;
     run.fine_times(column) = run.times(around.k) + time;
-    run.fine_x.col(column) = around.truth.state_after(time);
-    run.fine_outputs.col(column) = around.truth.outputs_after(time);
+    run.fine_x.col(column) = in_own_units(around.truth.state_after(time), around.point.x);
+    run.fine_outputs.col(column) = in_own_units(around.truth.outputs_after(time), around.point.y);
   }
+}
+
+// What is shown of the sample before `k` is not all there.
+bool ends_within_sample(const ScenarioRun& run, Index k) {
+  const Index instants = run.fine_times.size() / run.times.size();
+  return k > 0 && instants > 0 && !run.fine_x.middleCols((k - 1) * instants, instants).allFinite();
 }
 
 bool is_lost(const VectorXd& x) { return !(x.cwiseAbs().maxCoeff() < far_away); }
@@ -151,13 +165,13 @@ template <class TakeSample>
 void run_samples(ScenarioSurroundings& around, ScenarioRun& run, TakeSample take_sample_of) {
   const Index samples = run.times.size();
   for (; around.k < samples; ++around.k) {
-    run.x.col(around.k) = around.truth.state();
+    run.x.col(around.k) = in_own_units(around.truth.state(), around.point.x);
     if (is_lost(around.truth.state())) {
       run.numbers.has_diverged = true;
-      return cut(run, around.k);
+      return cut(run, around.k - (ends_within_sample(run, around.k) ? 1 : 0));
     }
     const Sample sample = take_sample_of();
-    if (!around.controller.is_predictor && around.controller.has.filter) around.truth.ask(sample.u);
+    if (!around.controller.is_predictor && around.controller.has.filter) around.ask(sample.u);
     run.estimate.col(around.k) = sample.estimate;
     run.u.col(around.k) = sample.u;
     run.y.col(around.k) = sample.y;

@@ -24,8 +24,8 @@ struct StepAnswer {
 };
 
 struct ScenarioNumbers {
-  std::vector<double> rms_x, peak_x, rms_u, peak_u, rms_y,
-      peak_y;                           // of the samples; y without noise; peak: largest |·|
+  // Of the samples, from the operating point; y without noise; peak: largest |·|.
+  std::vector<double> rms_x, peak_x, rms_u, peak_u, rms_y, peak_y;
   std::vector<double> share_at_limits;  // of the samples, input by input
   std::vector<StepAnswer> answers;
   std::vector<unsigned long> left_out;  // samples in which an output was not used, output by output

@@ -18,20 +18,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd padded(const VectorXd& x, Index size) {
-  VectorXd result = VectorXd::Zero(size);
-  result.head(std::min(size, x.size())) = x.head(std::min(size, x.size()));
+// What is given, else the operating point.
+VectorXd given_or(const VectorXd& given, const VectorXd& point, Index size) {
+  VectorXd result = controller::in_own_units(VectorXd::Zero(size), point);
+  const Index count = std::min(size, given.size());
+  result.head(count) = given.head(count);
   return result;
 }
 
-// The design's own plant.
 struct Surroundings : Unwatched {
   Surroundings(const Controller& of, const SimulationOptions& how, Plant around)
-      : controller(of), options(how), plant(std::move(around)), applied(VectorXd::Zero(of.size.nu)) {}
+      : controller(of), options(how), plant(std::move(around)), point(controller::stated_point(of)),
+        applied(controller::in_own_units(VectorXd::Zero(of.size.nu), point.u)) {}
 
   const Controller& controller;
   const SimulationOptions& options;
   Plant plant;
+  controller::Point point;
   VectorXd applied;  // the last u
   int k = 0;
 
@@ -41,8 +44,9 @@ struct Surroundings : Unwatched {
     return in_target(controller.target, y);
   }
   VectorXd given_input() const {
-    return in_target(controller.target,
-                     options.input ? options.input(k) : VectorXd(VectorXd::Zero(controller.size.nu)));
+    return in_target(controller.target, options.input
+                                            ? options.input(k)
+                                            : controller::in_own_units(VectorXd::Zero(controller.size.nu), point.u));
   }
   VectorXd state() const { return plant.state(); }
 };
@@ -79,7 +83,8 @@ Trajectory run(Surroundings around, TakeSample take_sample_of) {
 template <class S>
 Trajectory run_controller(const Controller& controller, Surroundings around) {
   EmittedController<S> emitted(controller, constants_of<S>(controller.target));
-  emitted.state().r = numbers_of<S>(in_target(controller.target, padded(around.options.r, controller.size.nr)));
+  const VectorXd r = given_or(around.options.r, around.point.r, controller.size.nr);
+  emitted.state().r = numbers_of<S>(in_target(controller.target, r));
   Trajectory result = run(std::move(around), [&](Surroundings& now) {
     return controller.has.filter ? take_sample(emitted, now) : take_sample_of_state(emitted, now);
   });
@@ -100,8 +105,9 @@ Trajectory run_form(const Controller& controller, Surroundings around) {
 
 Trajectory simulate(const Controller& controller, const SimulationOptions& options) {
   const PlantNoise noise = options.noise ? PlantNoise::designed : PlantNoise::none;
-  Surroundings around(controller, options,
-                      Plant(controller, padded(options.x0, controller.size.nx), noise, options.seed));
+  const VectorXd point = controller::stated_point(controller).x;
+  const VectorXd x0 = controller::as_deviations(given_or(options.x0, point, controller.size.nx), point);
+  Surroundings around(controller, options, Plant(controller, x0, noise, options.seed));
   return with_scalar_of(controller.target, [&](auto zero) {
     using S = decltype(zero);
     return controller.linear ? run_form<S>(controller, std::move(around))

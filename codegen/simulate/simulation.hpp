@@ -15,10 +15,11 @@ namespace lqg::simulate {
 struct SimulationOptions {
   int samples = 0;
   std::uint64_t seed = 1;
-  bool noise = true;   // w and v as the design has them (none without an estimator that has noise); false: none
-  Eigen::VectorXd x0;  // of the sampled plant (nx), or of the plant without its delayed inputs; empty: 0
-  Eigen::VectorXd r;   // of the outputs named in `integral` or `track`, by rising number; empty: 0
-  std::function<Eigen::VectorXd(int)> input;  // u of sample k, nu × 1, where there is no regulator; none: 0
+  bool noise = true;  // w and v as the design has them (none without an estimator that has noise); false: none
+  // In the plant's own units; what is not given is that of the operating point, 0 without one.
+  Eigen::VectorXd x0;                         // of the sampled plant (nx), or of the plant without its delayed inputs
+  Eigen::VectorXd r;                          // of the outputs named in `integral` or `track`, by rising number
+  std::function<Eigen::VectorXd(int)> input;  // u of sample k, nu × 1, where there is no regulator
   std::function<void(int, Eigen::VectorXd&)>
       sensor;  // what the sensors make of y in sample k: drop-outs, outliers; none: y
 };

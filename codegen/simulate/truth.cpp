@@ -32,9 +32,13 @@ double sensed(const design::Sensor& sensor, double y) {
   return std::min(std::max(y, sensor.min), sensor.max);
 }
 
+// Of a point, of which nothing is there where all of it is 0.
+double entry(const VectorXd& point, int i) { return point.size() ? point(i) : 0; }
+
 }  // namespace
 
-Truth::Truth(const TruthModel& model, const VectorXd& x0, Noise& noise) : model_(model), noise_(noise) {
+Truth::Truth(const TruthModel& model, const VectorXd& x0, Noise& noise)
+    : model_(model), noise_(noise), point_(controller::stated_point(*model.controller)) {
   x0_ = VectorXd::Zero(model.nx + static_cast<Index>(model.lagged.size()));
   x0_.head(x0.size()) = x0;
   x_ = x0_;
@@ -51,14 +55,28 @@ void Truth::ask(const VectorXd& u) {
   commands_.col(place(k_)) = u;
   for (const design::Actuator& actuator : model_.scenario->actuator) {
     // What it was asked for before, without its gain.
-    const double before = k_ == 0 || actuator.gain == 0 ? 0 : asked_for(actuator.input, k_ - 1) / actuator.gain;
+    const double at_rest = entry(point_.u, actuator.input);
+    const double before = k_ == 0              ? at_rest
+                          : actuator.gain == 0 ? 0
+                                               : (at_rest + asked_for(actuator.input, k_ - 1)) / actuator.gain;
     double& command = commands_(actuator.input, place(k_));
-    command = actuator.gain * limited(actuator, before, command, model_.T);
+    command = actuator.gain * limited(actuator, before, at_rest + command, model_.T) - at_rest;
   }
+}
+
+Held Truth::held_of(int asked, int period) const {
+  Held held;
+  held.command = VectorXd(model_.nu);
+  for (Index i = 0; i < model_.nu; ++i) held.command(i) = asked_for(static_cast<int>(i), asked);
+  if (!model_.has_loads) return held;
+  held.load = model_.courses->load.col(period);
+  held.state_load = model_.courses->state_load.col(period);
+  return held;
 }
 
 // x ← x `time` s later, while the actuators do what sample `asked` wanted and the loads are those of `period`.
 void Truth::move(const TruthModel::Stage& stage, int asked, int period, double time, VectorXd& x) const {
+  if (model_.motion) return model_.motion->move(held_of(asked, period), time, x);
   const auto found = std::find_if(stage.moves.begin(), stage.moves.end(),
                                   [time](const TruthModel::Move& move) { return move.time == time; });
   VectorXd held = VectorXd::Zero(found->period.B.cols());
@@ -93,6 +111,7 @@ VectorXd Truth::outputs_of(const VectorXd& x, int asked, int period) const {
   for (std::size_t i = 0; i < model_.lagged.size(); ++i)
     acting(model_.lagged[i]) = x(model_.nx + static_cast<Index>(i));
   if (model_.has_loads) acting += model_.courses->load.col(period);
+  if (model_.motion) return model_.motion->outputs(x, acting);
   VectorXd y = ordered_image(stage.C, x.head(model_.nx));
   add_product(stage.D, acting, y);
   return y;
@@ -128,7 +147,10 @@ VectorXd Truth::measure() {
   for (Index i = 0; i < model_.ny; ++i)
     if (model_.output_delay(i) > 0) y(i) = late_output(i);
   y += drawn_.tail(model_.ny);
-  for (const design::Sensor& sensor : model_.scenario->sensor) y(sensor.output) = sensed(sensor, y(sensor.output));
+  for (const design::Sensor& sensor : model_.scenario->sensor) {
+    const double at_rest = entry(point_.y, sensor.output);
+    y(sensor.output) = sensed(sensor, at_rest + y(sensor.output)) - at_rest;
+  }
   return y;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "controller/operating_point.hpp"
 #include "simulate/noise.hpp"
 #include "simulate/truth_model.hpp"
 
@@ -33,6 +34,7 @@ class Truth {
 
  private:
   Eigen::VectorXd moved(int period, double time) const;
+  Held held_of(int asked, int period) const;
   void move(const TruthModel::Stage& stage, int asked, int period, double time, Eigen::VectorXd& x) const;
   Eigen::VectorXd outputs_in(int period, double time) const;
   Eigen::VectorXd outputs_at(int sample) const;
@@ -44,6 +46,7 @@ class Truth {
 
   const TruthModel& model_;
   Noise& noise_;
+  controller::Point point_;  // sensors and actuators are in the plant's own units
   int k_ = 0;
   bool has_asked_ = false;  // in this sample
   Eigen::VectorXd x0_, x_, drawn_, outputs_;

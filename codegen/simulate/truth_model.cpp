@@ -69,6 +69,7 @@ Whole with_lags(const TruthModel& model, const TruthModel::Stage& stage) {
 }
 
 void add_moves(const TruthModel& model, TruthModel::Stage& stage) {
+  if (model.motion) return;
   const Whole whole = with_lags(model, stage);
   stage.moves.clear();
   for (const double time : model.times)
@@ -119,6 +120,14 @@ TruthModel::Stage stage_of(const TruthModel& model, std::size_t from) {
   return stage;
 }
 
+std::shared_ptr<const Motion> motion_of(const TruthModel& model) {
+  const design::Plant& plant = model.controller->problem.plant;
+  if (!plant.equations) return nullptr;
+  std::vector<Lag> lags;
+  for (const int input : model.lagged) lags.push_back({input, actuator_of(*model.scenario, input)->time_constant});
+  return std::make_shared<const Motion>(plant, model.scenario->plant.parameters, lags);
+}
+
 }  // namespace
 
 double within_period(double time, double sample_time) {
@@ -165,6 +174,7 @@ TruthModel truth_model(const controller::Controller& controller, const Scenario&
   for (int input = 0; input < model.nu; ++input)
     if (actuator_of(scenario, input)) model.lagged.push_back(input);
   model.times = times_of(model);
+  model.motion = motion_of(model);
   model.stages.push_back(stage_of(model, 0));
   for (const design::Stage& stage : controller.problem.stages)
     model.stages.push_back(stage_of(model, static_cast<std::size_t>(stage.from)));

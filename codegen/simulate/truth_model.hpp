@@ -3,11 +3,13 @@
 // loads; continuous where the design's is, so that it is known between the samples, too.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "controller/controller.hpp"
 #include "design/scenario.hpp"
 #include "simulate/courses.hpp"
+#include "simulate/motion.hpp"
 #include "simulate/period.hpp"
 
 namespace lqg::simulate {
@@ -49,6 +51,7 @@ struct TruthModel {
   std::vector<double> times;     // s, over which the state is moved
   std::vector<int> lagged;       // inputs whose actuator has a lag
   std::vector<Stage> stages;
+  std::shared_ptr<const Motion> motion;  // of a plant of equations: what moves and is measured in place of A, B, C, D
 
   const Stage& stage_at(int sample) const;
   // The same plant with other entries.

@@ -2,7 +2,7 @@
 // How far the outputs are from what the estimate expects, for those who watch a filter.
 #pragma once
 
-#include "step/kalman_ud.hpp"
+#include "step/extended.hpp"
 
 namespace lqg::step {
 
@@ -38,9 +38,15 @@ S innovation_variance(const Model<S>& model, const State<S>& state, int i, Liste
   return variance;
 }
 
-// y_i − C_i x̂ − D_i u of each output by itself, before the update, with C, D and V of the outputs as they are.
+// y_i − C_i x̂ − D_i u of each output by itself, before the update, with C, D and V of the outputs as they are. Of an
+// extended filter y − h(x̂, u), and the model takes the Jacobian of h for its C.
 template <class S, class Listener>
-Vector<S> innovations(const Model<S>& model, const State<S>& state, const Vector<S>& y, Listener& listener) {
+Vector<S> innovations(Model<S>& model, const State<S>& state, const Vector<S>& y, Listener& listener) {
+  if (model.equations) {
+    const OutputsAtEstimate<S> outputs = outputs_at_estimate(model, state, y, listener);
+    model.C = outputs.C;
+    return outputs.innovation;
+  }
   Vector<S> innovation(model.ny);
   for (int i = 0; i < model.ny; ++i) {
     listener.section(model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂", i);

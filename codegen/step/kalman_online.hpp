@@ -2,8 +2,7 @@
 // The update of the filters that carry P, whatever form P has.
 #pragma once
 
-#include "step/kalman_plain.hpp"
-#include "step/kalman_ud.hpp"
+#include "step/extended.hpp"
 
 namespace lqg::step {
 
@@ -28,10 +27,11 @@ auto has_sound_state(const Model<S>& model, const State<S>& state, Listener& lis
   return model.filter == Filter::plain ? listener.without(Event::innovation_not_positive, within) : within;
 }
 
-// One output after the other. The condition says that x̂ is within its bounds, and that P can be a covariance.
+// One output after the other, of outputs y that are `measured` or differ from them by what the model says.
 template <class S, class Listener>
-auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
-  Vector<S> heard = measured, y = measured;
+auto update_by_outputs(const Model<S>& model, State<S>& state, const Vector<S>& outputs, const Vector<S>& measured,
+                       Listener& listener) {
+  Vector<S> heard = outputs, y = outputs;
   std::vector<decltype(is_less(S(), S()))> usable;
   for (int i = 0; i < model.ny; ++i) {
     listener.section("y ← E y, of uncorrelated noise", i);
@@ -45,13 +45,35 @@ auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& meas
   return has_sound_state(model, state, listener);
 }
 
+// The condition says that x̂ is within its bounds, and that P can be a covariance. An extended filter linearises all
+// outputs of a sample at the estimate before them.
+template <class S, class Listener>
+auto update_online(const Model<S>& model, State<S>& state, const Vector<S>& measured, Listener& listener) {
+  if (!model.equations) return update_by_outputs(model, state, measured, measured, listener);
+  const OutputsAtEstimate<S> outputs = outputs_at_estimate(model, state, measured, listener);
+  const Model<S> linear = linearised(model, state, outputs.C, listener);
+  return update_by_outputs(linear, state, outputs.innovation, measured, listener);
+}
+
+template <class S, class Listener>
+auto update_by_output(const Model<S>& model, State<S>& state, const S& y, const S& measured, int i,
+                      Listener& listener) {
+  auto usable = update_online_output(model, state, y, i, listener);
+  observe_alone(model, state, measured, usable, i, listener);
+  keep_residual_alone(model, state, y, usable, i, listener);
+  return has_sound_state(model, state, listener);
+}
+
 // The same of output i alone: as if the others were not there.
 template <class S, class Listener>
 auto update_online_alone(const Model<S>& model, State<S>& state, const S& y, int i, Listener& listener) {
-  auto usable = update_online_output(model, state, y, i, listener);
-  observe_alone(model, state, y, usable, i, listener);
-  keep_residual_alone(model, state, y, usable, i, listener);
-  return has_sound_state(model, state, listener);
+  if (!model.equations) return update_by_output(model, state, y, y, i, listener);
+  OutputsAtEstimate<S> outputs = {Vector<S>(model.ny), Matrix<S>(Matrix<S>::Constant(model.ny, model.nx, S(0)))};
+  take_output(model, state, variables(state.x), y, i, outputs, listener);
+  Model<S> linear = model;
+  linear.linearised_at = state.x;
+  linear.C = outputs.C;
+  return update_by_output(linear, state, S(outputs.innovation(i)), y, i, listener);
 }
 
 // P ← P0, x̂ stays: after an update or a prediction whose condition does not hold. The condition says that what stays

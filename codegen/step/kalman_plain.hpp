@@ -35,9 +35,7 @@ PlainCorrection<S> plain_correction(const Model<S>& model, State<S>& state, cons
   for (int k = 0; k < model.nx; ++k) variance = multiply_add(S(model.C(i, k)), S(f(k)), variance);
   listener.name(variance, "variance");
 
-  listener.section(model.D.cols() ? "innovation = y − C x̂ − D u; a gain of 0 leaves the output out"
-                                  : "innovation = y − C x̂; a gain of 0 leaves the output out",
-                   i);
+  listener.section(std::string(equation_of_innovation(model)) + "; a gain of 0 leaves the output out", i);
   S innovation = residual(model, state, y, i);
   listener.name(innovation, "raw_innovation");
   auto usable = weigh(model, state, innovation, variance, [&] { return variance; }, i, listener);

@@ -29,8 +29,7 @@ auto update_ud_output(const Model<S>& model, State<S>& state, const S& y, int i,
     f(j) = sum;
     if (!is_zero(model.gate)) listener.name(f(j), "projected", of_entry(j));
   }
-  const char* const equation = model.D.cols() ? "innovation = y − C x̂ − D u" : "innovation = y − C x̂";
-  listener.section(std::string(equation) + ", 0 if it is not used", i);
+  listener.section(std::string(equation_of_innovation(model)) + ", 0 if it is not used", i);
   S innovation = residual(model, state, y, i);
   listener.name(innovation, "raw_innovation");
   // S is V at least, and asked for only where that is not enough.

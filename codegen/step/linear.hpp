@@ -19,6 +19,7 @@ struct LinearModel {
   Matrix<S> estimate, heard;    // x̂ = `estimate` z + `heard` y; in predictor form `heard` has no columns
   Matrix<S> of_state, keep;     // z of a state x: `of_state` x + `keep` z; keep may have no columns
   Vector<S> z0;
+  OperatingPoint<S> point;  // of x, u and y, which are deviations
 };
 
 template <class S>

@@ -23,9 +23,10 @@ auto update_alone(const Model<S>& model, State<S>& state, const S& y, int i, Lis
                                         : update_online_alone(model, state, heard, i, listener);
 }
 
-// x̂ ← A x̂ + B u with the u that was applied; the condition says that the state is within its bounds.
+// x̂ ← A x̂ + B u, or f of them, with the u that was applied; the condition says that the state is within its bounds.
 template <class S, class Listener>
 auto predict(const Model<S>& model, State<S>& state, const Vector<S>& u, Listener& listener) {
+  if (model.equations) return predict_extended(model, state, u, listener);
   switch (model.filter) {
     case Filter::plain: return predict_plain(model, state, u, listener);
     case Filter::ud: return predict_ud(model, state, u, listener);

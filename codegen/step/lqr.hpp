@@ -5,19 +5,22 @@
 #include <type_traits>
 
 #include "step/mpc.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::step {
 
-// r, 0 where it is not finite.
+// r as a deviation from the operating point, 0 where it is not finite.
 template <class S, class Listener>
 Vector<S> reference(const Model<S>& model, const State<S>& state, Listener& listener) {
   if (model.nr) listener.section("the references r, 0 for one that is not finite");
   Vector<S> r(model.nr);
   for (int j = 0; j < model.nr; ++j) {
-    auto finite = is_finite(S(state.r(j)));
+    const S given = deviation_of(model.point.r, j, S(state.r(j)));
+    if (!is_at_zero(model.point.r, j)) listener.name(given, "deviation", of_reference(j, "r"));
+    auto finite = is_finite(given);
     listener.hint(finite, "finite_r", of_reference(j));
     listener.raise(Event::reference_not_finite, negation(finite));
-    r(j) = select(finite, S(state.r(j)), S(0));
+    r(j) = select(finite, given, S(0));
     listener.name(r(j), "reference", of_reference(j));
   }
   return r;
@@ -49,6 +52,9 @@ S within(const S& low, const S& value, const S& high, const char* below, const c
 
 template <class S>
 std::string equation_of_law(const Model<S>& model) {
+  if (model.equations)
+    return std::string("u = (u + K x of the operating point) − K x̂") +
+           (model.u_min.size() || model.u_step.size() ? ", within its limits" : "");
   return std::string(model.gives_change       ? "u = u[k−1] − K [x̂"
                      : model.integral.empty() ? "u = −K x̂"
                                               : "u = −K [x̂") +

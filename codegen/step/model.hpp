@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "step/equations.hpp"
 #include "step/scalar.hpp"
 
 namespace lqg::step {
@@ -28,6 +29,12 @@ struct LimitedLaw {
   Vector<S> low, high;      // rows, infinite where there is none
   Vector<S> tolerance;      // rows: a smaller violation is none
   Vector<S> u_step;         // nu, or empty
+};
+
+// What the caller's numbers are where those of the model are 0; each vector is empty where all of it is 0.
+template <class S>
+struct OperatingPoint {
+  Vector<S> x, u, y, r;  // nx, nu, ny, nr
 };
 
 // Absent parts have no rows or no columns: C without a filter, K without a regulator, D and M when they are zero.
@@ -54,13 +61,15 @@ struct Model {
   std::vector<int> x_bound;  // nx: the estimate stays below 2^x_bound, or begins anew; empty: it has to be finite
   Matrix<S> to_estimate, of_estimate;  // T, T⁻¹, nx × nx: the filter keeps z in the place of x, x̂ = T z; or empty
   Vector<S> x0;                        // nx
+  Vector<S> u0;                        // nu, or empty: the input that acts at the start, else 0
   std::vector<S> P0;                   // plain: lower triangle, row by row
   std::vector<S> U0, D0;               // ud: strict upper triangle, column by column; diagonal
   int delayed = 0;                     // the last of the nx states are this many inputs on their way, the oldest first
   Matrix<S> K;                         // nu × nz: over z = [x; ξ; u of the sample before where the law gives a change]
   Vector<S> u_min, u_max;              // nu, or empty: no limits
   bool has_finite_law = false;         // what the law asks for is known to be finite: nobody has to look
-  Vector<S> law_begun;                 // nu, or empty: the sums of the law so far as x̂, where K has no x̂ any more
+  Vector<S> law_begun;                 // nu, or empty: the sums of the law so far: as x̂, where K has no x̂ any more;
+                                       // of an extended filter u + K x of the operating point
   Vector<S> prediction_begun;          // nx, or empty: likewise A x̂, where A is 0
   // A law with a memory.
   int nr = 0;                 // references
@@ -75,6 +84,11 @@ struct Model {
   Matrix<S> H;                // nxi × nu: ξ + H (u − v) is ξ where u was applied in place of v
   Matrix<S> H_input;          // nxi × nu: ξ + H_input (u − v) makes the law give u, or nearly, where it gave v
   S T = S(0);                 // s, the sample time, of ξ⁺ = ξ + T (r − y)
+  OperatingPoint<S> point;    // of x, u and y, which are deviations; only r of the state is in the plant's own units
+  // An extended filter: A, C and what follows of them are made in each sample, of its equations. D says whether h needs
+  // an input.
+  std::shared_ptr<const Equations<S>> equations;
+  Vector<S> linearised_at;  // nx: the outputs are y − h there, and C the Jacobian; or empty: they are C x + D u
 };
 
 // No gate is wider, squared: then it lets everything in that is believable.
@@ -113,7 +127,7 @@ struct State {
   Vector<S> u;           // nu: the input that acts; kept when D ≠ 0, and where the law begins with it
   Vector<S> widening;    // ny, with a gate: its threshold is this in units of gate² S, 1 at least
   Vector<S> innovation;  // ny: what predict still needs of the last outputs; kept when M ≠ 0
-  Vector<S> r;           // nr: what the outputs should be
+  Vector<S> r;           // nr: what the outputs should be, in the plant's own units
   Vector<S> xi;          // nxi: ξ, the integral of r − y
   Vector<S> error;       // nxi: r − y of this sample, which predict adds to ξ
   Vector<S> demand;      // nu: what the law asked for; kept where there is a ξ to correct
@@ -135,9 +149,10 @@ State<S> initial_state(const Model<S>& model) {
   const auto zeros = [](Eigen::Index size) { return Vector<S>(Vector<S>::Constant(size, S(0))); };
   const auto nxi = static_cast<Eigen::Index>(model.integral.size());
   state.u = zeros(has_feedthrough(model) || continues(model) ? model.nu : 0);
+  if (state.u.size() && model.u0.size()) state.u = model.u0;
   state.widening = model.gate_start;
   state.innovation = zeros(model.M.cols());
-  state.r = zeros(model.nr);
+  state.r = model.point.r.size() ? model.point.r : zeros(model.nr);
   state.xi = state.error = zeros(nxi);
   state.demand = zeros(nxi ? model.nu : 0);
   return state;
@@ -177,7 +192,7 @@ inline Place of_state(int i, const char* of = "") { return {Place::Kind::state, 
 inline Place of_input(int i, const char* of = "") { return {Place::Kind::input, i, -1, of, -1}; }
 inline Place of_output(int i, const char* of = "") { return {Place::Kind::output, i, -1, of, -1}; }
 inline Place of_integral(int i, const char* of = "") { return {Place::Kind::integral, i, -1, of, -1}; }
-inline Place of_reference(int i) { return {Place::Kind::reference, i, -1, "", -1}; }
+inline Place of_reference(int i, const char* of = "") { return {Place::Kind::reference, i, -1, of, -1}; }
 inline Place of_entry(int i, int j = -1, const char* of = "") { return {Place::Kind::entry, i, j, of, -1}; }
 inline Place of_entry_without(int without, int i, int j) { return {Place::Kind::entry, i, j, "", without}; }
 // What a number is that is no gain.
@@ -196,7 +211,10 @@ enum class Quantity {
   gate_narrow,
   threshold,
   error_limit,
-  sample_time
+  sample_time,
+  point_x,
+  point_u,
+  point_y
 };
 // How many outputs are told apart, all from the last on together.
 inline constexpr int told_rejections = 8;

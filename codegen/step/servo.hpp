@@ -7,15 +7,15 @@
 
 namespace lqg::step {
 
-// r − y of an output if it is integrated, for predict; 0, which leaves its ξ alone, where the output was not used or r
-// − y is not believable.
+// r − y of an output if it is integrated, y a deviation from the operating point, for predict; 0, which leaves its ξ
+// alone, where the output was not used or r − y is not believable.
 template <class S, class Condition, class Listener>
 void observe_alone(const Model<S>& model, State<S>& state, const S& y, const Condition& used, int output,
                    Listener& listener) {
   for (std::size_t i = 0; i < model.integral.size(); ++i) {
     if (model.integral[i] != output) continue;
     listener.section("r − y, which predict adds to ξ; 0 if the output is not used, or it is not believable", output);
-    S error = state.r(model.wanted[i]) - y;
+    S error = deviation_of(model.point.r, model.wanted[i], S(state.r(model.wanted[i]))) - y;
     listener.name(error, "raw_error");
     error = select(both(used, is_believable(model.error_limit, static_cast<int>(i), error)), error, S(0));
     listener.name(error, "error");

@@ -6,13 +6,26 @@
 
 namespace lqg::step {
 
-// y_i − C_i x − D_i u
+// y_i − C_i x − D_i u; of linearised outputs y_i − C_i (x − where they were linearised)
 template <class S>
 S residual(const Model<S>& model, const State<S>& state, const S& y, int i) {
   S nu = y;
+  if (model.linearised_at.size()) {
+    for (int j = 0; j < model.nx; ++j)
+      nu = multiply_subtract(S(model.C(i, j)), S(state.x(j) - model.linearised_at(j)), nu);
+    return nu;
+  }
   for (int j = 0; j < model.nx; ++j) nu = multiply_subtract(S(model.C(i, j)), S(state.x(j)), nu);
   for (int j = 0; j < model.D.cols(); ++j) nu = multiply_subtract(S(model.D(i, j)), S(state.u(j)), nu);
   return nu;
+}
+
+// How `residual` is written.
+template <class S>
+const char* equation_of_innovation(const Model<S>& model) {
+  return model.linearised_at.size() ? "innovation = y − h − C (x̂ − the x̂ before all updates)"
+         : model.D.cols()           ? "innovation = y − C x̂ − D u"
+                                    : "innovation = y − C x̂";
 }
 
 // What is weighed of an output whose innovation is not as expected.

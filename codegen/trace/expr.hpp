@@ -52,7 +52,25 @@ inline Expr multiply_subtract(const Expr& a, const Expr& b, const Expr& c) {
 inline Expr select(const Condition& condition, const Expr& yes, const Expr& no) {
   return Expr::of(graph().make(Op::select, condition.node, yes.node, no.node));
 }
+inline Expr operator-(const Expr& a) { return Expr::of(graph().make(Op::negate, a.node)); }
 inline Expr absolute(const Expr& a) { return Expr::of(graph().make(Op::absolute, a.node)); }
+inline Expr abs(const Expr& a) { return absolute(a); }
+inline Expr sqrt(const Expr& a) { return Expr::of(graph().call(Op::square_root, a.node)); }
+inline Expr sin(const Expr& a) { return Expr::of(graph().call(Op::sine, a.node)); }
+inline Expr cos(const Expr& a) { return Expr::of(graph().call(Op::cosine, a.node)); }
+inline Expr tan(const Expr& a) { return Expr::of(graph().call(Op::tangent, a.node)); }
+inline Expr asin(const Expr& a) { return Expr::of(graph().call(Op::arcsine, a.node)); }
+inline Expr acos(const Expr& a) { return Expr::of(graph().call(Op::arccosine, a.node)); }
+inline Expr atan(const Expr& a) { return Expr::of(graph().call(Op::arctangent, a.node)); }
+inline Expr atan2(const Expr& y, const Expr& x) {
+  return Expr::of(graph().call(Op::arctangent_of_two, y.node, x.node));
+}
+inline Expr exp(const Expr& a) { return Expr::of(graph().call(Op::exponential, a.node)); }
+inline Expr log(const Expr& a) { return Expr::of(graph().call(Op::logarithm, a.node)); }
+inline Expr tanh(const Expr& a) { return Expr::of(graph().call(Op::hyperbolic_tangent, a.node)); }
+inline Expr wrapped(const Expr& a) { return Expr::of(graph().call(Op::wrapped, a.node)); }
+// aᵇ = e^(b ln a)
+inline Expr power(const Expr& a, const Expr& b) { return exp(b * log(a)); }
 inline Expr not_a_number(const Expr&) {
   return Expr::of(graph().flag(graph().target().is_double ? "(double)NAN" : "NAN"));
 }

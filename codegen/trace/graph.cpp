@@ -5,12 +5,15 @@
 #include <limits>
 #include <utility>
 
+#include "trace/functions.hpp"
+
 namespace lqg::trace {
 
 namespace {
 
 template <class T>
 double compute(Op op, bool fused, T a, T b, T c) {
+  if (is_function(op)) return value_of_function(op, a, b);
   switch (op) {
     case Op::add: return a + b;
     case Op::subtract: return a - b;
@@ -140,6 +143,15 @@ int Graph::make(Op op, int a, int b, int c) {
     at->second = insert(std::move(node));
   }
   return at->second;
+}
+
+int Graph::call(Op function, int a, int b) {
+  const int made = make(function, a, b);
+  if (is_constant(made) || !nodes_[made].hint.empty()) return made;
+  const Node& argument = nodes_[a];
+  const std::string of = !argument.name.empty() ? argument.name : argument.hint;
+  nodes_[made].hint = std::string(name_of_function(function)) + "_" + (of.empty() ? "value" : of);
+  return made;
 }
 
 int Graph::fold_constants(Op op, int a, int b, int c) {

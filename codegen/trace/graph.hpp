@@ -34,6 +34,19 @@ enum class Op {
   same,      // a == b, of statuses
   asked,     // a condition: a, or what a function answers where a does not hold
   resumed,   // a, or what stands in memory, at `text`, where a recovery came between
+  // Functions of lqg/functions.h.
+  square_root,
+  sine,
+  cosine,
+  tangent,
+  arcsine,
+  arccosine,
+  arctangent,
+  arctangent_of_two,  // atan2(a, b)
+  exponential,
+  logarithm,
+  hyperbolic_tangent,
+  wrapped  // a in [−π, π)
 };
 
 bool is_condition(Op op);
@@ -79,6 +92,8 @@ class Graph {
   // Printed as two statements. In either case |b| < `bound` where the answer is yes.
   int ask(int condition, const std::string& function, int b, int c, double bound);
   int make(Op op, int a, int b = -1, int c = -1);
+  // A function of lqg/functions.h; unless it gets a name it is called after its argument.
+  int call(Op function, int a, int b = -1);
 
   // From here on a recovery may have come between, once in a graph: nothing is the same as what was made before.
   void begin_rest();

@@ -3,10 +3,12 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 
 #include "trace/consequences.hpp"
+#include "trace/functions.hpp"
 #include "trace/names.hpp"
 #include "trace/wrap.hpp"
 
@@ -42,11 +44,12 @@ std::string literal(double value, bool is_double) {
 }
 
 Printer::Printer(const Graph& graph, const std::vector<int>& results, const std::vector<int>& results_of_rest)
-    : graph_(graph), uses_(graph.nodes().size(), 0), is_variable_(graph.nodes().size(), false),
-      has_variable_of_before_(graph.nodes().size(), false) {
+    : graph_(graph), uses_(graph.nodes().size(), 0), partners_(graph.nodes().size(), -1),
+      is_variable_(graph.nodes().size(), false), has_variable_of_before_(graph.nodes().size(), false) {
   std::vector<int> all = results;
   all.insert(all.end(), results_of_rest.begin(), results_of_rest.end());
   count_uses(all);
+  find_pairs();
   find_variables(results_of_rest);
   std::vector<bool> needed, declared;
   for (int node = 0; node < static_cast<int>(uses_.size()); ++node) {
@@ -70,6 +73,23 @@ void Printer::count_uses(const std::vector<int>& results) {
   }
 }
 
+// One call makes both: of a part of the graph, before a recovery or behind it.
+void Printer::find_pairs() {
+  std::map<std::pair<int, bool>, int> sines;
+  for (int node = 0; node < static_cast<int>(uses_.size()); ++node) {
+    const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+    if (needs(node) && at.op == Op::sine) sines[{at.a, node < graph_.rest()}] = node;
+  }
+  for (int node = 0; node < static_cast<int>(uses_.size()); ++node) {
+    const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
+    if (!needs(node) || at.op != Op::cosine) continue;
+    const auto sine = sines.find({at.a, node < graph_.rest()});
+    if (sine == sines.end()) continue;
+    partners_[static_cast<std::size_t>(node)] = sine->second;
+    partners_[static_cast<std::size_t>(sine->second)] = node;
+  }
+}
+
 bool Printer::is_read_late(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   return at.op == Op::resumed && needs(node) && !needs(at.a);
@@ -81,7 +101,8 @@ bool Printer::is_declared(int node) const {
   const Node& at = graph_.nodes()[static_cast<std::size_t>(node)];
   if (at.op == Op::constant || at.op == Op::flag || is_parameter(at)) return false;
   if (at.op == Op::resumed && is_lane()) return false;
-  return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1 || is_variable_[static_cast<std::size_t>(node)];
+  return !at.name.empty() || uses_[static_cast<std::size_t>(node)] > 1 ||
+         is_variable_[static_cast<std::size_t>(node)] || partners_[static_cast<std::size_t>(node)] >= 0;
 }
 
 std::string Printer::print(int node, int level) const {
@@ -164,6 +185,8 @@ std::string Printer::print_operation(int node, int level) const {
     const bool continues = graph_.nodes()[static_cast<std::size_t>(at.a)].op == at.op;
     return bracketed(print(at.a, continues ? logical : unary) + sign + print(at.b, unary), logical, level);
   };
+  if (is_function(at.op))
+    return call_of(at.op, print(at.a, any) + (at.b < 0 ? "" : ", " + print(at.b, any)), graph_.target().is_double);
   switch (at.op) {
     case Op::add: return print_sum(at, level);
     case Op::subtract: return binary(" - ", sum);
@@ -283,12 +306,28 @@ std::string Printer::declaration(int node) const {
            "    }\n";
   }
   if (graph_.nodes()[static_cast<std::size_t>(node)].op == Op::asked && !is_lane()) return question(node);
+  if (partners_[static_cast<std::size_t>(node)] >= 0) return pair_declaration(node);
   const std::string type = is_condition(graph_.nodes()[static_cast<std::size_t>(node)].op) ? "bool"
                            : is_status(node)                                               ? "lqg_status_t"
                            : graph_.target().is_double                                     ? "double"
                                                                                            : "float";
   const std::string variable = (is_variable_[static_cast<std::size_t>(node)] ? "    " : "    const ") + type;
   return wrap(variable + " " + name_of(node) + " = " + print_operation(node, any) + ";", 8) + "\n";
+}
+
+// The first of the two makes both.
+std::string Printer::pair_declaration(int node) const {
+  const int partner = partners_[static_cast<std::size_t>(node)];
+  if (partner < node) return "";
+  const bool is_sine = graph_.nodes()[static_cast<std::size_t>(node)].op == Op::sine,
+             is_double = graph_.target().is_double;
+  const std::string sine = name_of(is_sine ? node : partner), cosine = name_of(is_sine ? partner : node);
+  const std::string type = is_double ? "    double " : "    float ";
+  const std::string argument = print(graph_.nodes()[static_cast<std::size_t>(node)].a, any);
+  return type + sine + ";\n" + type + cosine + ";\n" +
+         wrap((is_double ? "    lqg_sin_cos(" : "    lqg_sin_cosf(") + argument + ", &" + sine + ", &" + cosine + ");",
+              8) +
+         "\n";
 }
 
 Operations Printer::operations() const {
@@ -310,7 +349,15 @@ Operations Printer::operations() const {
       case Op::resumed:
       case Op::flag: break;
       case Op::negate: break;  // part of the operation before or after it
-      default: ++count.selections;
+      case Op::sine:
+        count.in_functions +=
+            partners_[static_cast<std::size_t>(node)] < 0 ? multiply_adds_of(Op::sine) : multiply_adds_of(Op::sine) / 2;
+        break;
+      default:
+        if (is_function(graph_.nodes()[static_cast<std::size_t>(node)].op))
+          count.in_functions += multiply_adds_of(graph_.nodes()[static_cast<std::size_t>(node)].op);
+        else
+          ++count.selections;
     }
   }
   count.constants = static_cast<int>(constants.size());

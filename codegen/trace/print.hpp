@@ -21,8 +21,9 @@ struct Store {
 
 struct Operations {
   int additions = 0, multiplications = 0, multiply_adds = 0, divisions = 0, selections = 0;
-  int constants = 0;  // distinct ones that the code must load
-  int total() const { return additions + multiplications + multiply_adds + divisions; }
+  int in_functions = 0;  // multiply-adds in the functions that it calls, about
+  int constants = 0;     // distinct ones that the code must load
+  int total() const { return additions + multiplications + multiply_adds + divisions + in_functions; }
 };
 
 // Prints what `results` need, and nothing else; those of the rest of the graph, behind a recovery, come last.
@@ -57,12 +58,16 @@ class Printer {
   bool needs(int node) const { return uses_[static_cast<std::size_t>(node)] > 0; }
   // Whether it has a statement of its own; other operations are computed inside of the one that uses them.
   bool is_declared(int node) const;
+  // Whether a sine and a cosine of one value are both needed, which one call makes.
+  bool is_pair(int node) const { return partners_[static_cast<std::size_t>(node)] >= 0; }
   // Whether a resumed value needs no variable before the rest: it is read there first.
   bool is_read_late(int node) const;
   Operations operations() const;
 
  private:
   bool is_status(int node) const;
+  void find_pairs();
+  std::string pair_declaration(int node) const;
   const std::string& name_of(int node) const { return names_[static_cast<std::size_t>(node)]; }
   std::string print(int node, int level) const;
   int binds(int node) const;
@@ -85,6 +90,7 @@ class Printer {
 
   const Graph& graph_;
   std::vector<int> uses_;
+  std::vector<int> partners_;       // of a sine the cosine of the same value that is needed, too, and the other way
   std::vector<std::string> names_;  // of what is declared
   // A resumed value and the one before it are one variable, unless the rest reads that one, too.
   std::vector<bool> is_variable_, has_variable_of_before_;

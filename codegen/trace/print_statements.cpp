@@ -86,9 +86,11 @@ std::string Printer::printed(int from, int to, const std::vector<Store>& stores,
       loads += declaration(node);
       continue;
     }
-    if (at.section != section && !graph_.equation(at.section).empty()) blocks += heading(graph_.equation(at.section));
-    section = at.section;
-    blocks += declaration(node);
+    const std::string statement = declaration(node);
+    if (!statement.empty() && at.section != section && !graph_.equation(at.section).empty())
+      blocks += heading(graph_.equation(at.section));
+    if (!statement.empty()) section = at.section;
+    blocks += statement;
     for (auto [store, end] = ready.equal_range(node); store != end; ++store) blocks += assignment(*store->second);
   }
   std::string rest;  // a number, an input, what is there already, or an expression that needs no name

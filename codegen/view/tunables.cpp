@@ -17,7 +17,7 @@ using design::Signal;
 using input::PlacedNumber;
 
 enum class Named { nothing, states, inputs, outputs, noises, integrals };
-enum class Span { weight, largest, time, limit, rate, walk, delay, steps, gate, spike, decay };
+enum class Span { point, weight, largest, time, limit, rate, walk, delay, steps, gate, spike, decay };
 
 struct Rule {
   const char* key;
@@ -31,6 +31,8 @@ struct Rule {
 const Rule rules[] = {
     {"plant.sample_time", "Timing", Named::nothing, Span::time, "s"},
     {"plant.delay", "Timing", Named::nothing, Span::delay, "s"},
+    {"plant.operating_point.states", "Operating point", Named::states, Span::point},
+    {"plant.operating_point.inputs", "Operating point", Named::inputs, Span::point},
     {"lqr.Q", "Weights of the states", Named::states, Span::weight},
     {"lqr.Q_output", "Weights of the outputs", Named::outputs, Span::weight},
     {"lqr.R", "Weights of the inputs", Named::inputs, Span::weight},
@@ -120,6 +122,17 @@ std::optional<std::size_t> entry(const Rule& rule, const SplitKey& key, const st
   return is_beside ? std::nullopt : std::optional(key.indices[0]);
 }
 
+// The parameter whose value the number at `key` is: "parameters.R" or "parameters.R.value".
+const design::Parameter* parameter_at(const std::string& key, const input::DesignFile& file) {
+  static const std::string table = "parameters.", value = ".value";
+  if (key.rfind(table, 0) != 0) return nullptr;
+  std::string name = key.substr(table.size());
+  if (const std::size_t dot = name.find('.'); dot != name.npos && name.substr(dot) == value) name.resize(dot);
+  for (const design::Parameter& parameter : file.problem->parameters)
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
+
 std::string last_word(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 // "(rad/s)/s" of a rate, "V/√s" of a walk, "V" of a limit; nothing of a weight, whose unit nobody thinks in.
@@ -162,6 +175,12 @@ void span_delay(Tunable& tunable, const design::Plant& plant) {
   if (plant.domain == design::Domain::discrete) tunable.step = plant.sample_time;
 }
 
+// Twice the number to both sides, or 1.
+void span_both_sides(Tunable& tunable) {
+  tunable.high = tunable.value == 0 ? 1 : 2 * std::abs(tunable.value);
+  tunable.low = -tunable.high;
+}
+
 // α of a continuous cost is a rate from 0 on; of samples a factor from 1 on.
 void span_decay(Tunable& tunable, const design::Problem& problem) {
   if (problem.regulator && problem.regulator->cost == design::Cost::continuous) return span_from_zero(tunable, 1);
@@ -172,6 +191,7 @@ void span_decay(Tunable& tunable, const design::Problem& problem) {
 void set_range(Tunable& tunable, const Rule& rule, double largest, const design::Problem& problem) {
   const bool has_decades = tunable.value > 0;
   switch (rule.span) {
+    case Span::point: span_both_sides(tunable); break;
     case Span::weight: has_decades ? span_decades(tunable, 1000) : span_from_zero(tunable, largest); break;
     case Span::largest: span_decades(tunable, 30); break;
     case Span::time: span_decades(tunable, 10); break;
@@ -187,6 +207,18 @@ void set_range(Tunable& tunable, const Rule& rule, double largest, const design:
       tunable.high = tunable.value > 0 ? std::min<double>(design::most_steps, 4 * tunable.value) : 200;
       break;
   }
+}
+
+// From a tenth to ten times its value.
+Tunable tunable_parameter(const PlacedNumber& number, const design::Parameter& parameter) {
+  Tunable tunable;
+  tunable.group = "Parameters";
+  tunable.name = parameter.name;
+  tunable.unit = parameter.unit;
+  tunable.targets = {{number.key, 1}};
+  tunable.value = number.value;
+  number.value > 0 ? span_decades(tunable, 10) : span_from_zero(tunable, 1);
+  return tunable;
 }
 
 // Numbers that have a default and that a person wants to move: they are added to the file when they are written.
@@ -227,6 +259,10 @@ std::vector<Tunable> tunables(const input::DesignFile& file) {
   numbers.insert(numbers.begin(), absent.begin(), absent.end());
   std::vector<Tunable> result;
   for (const PlacedNumber& number : numbers) {
+    if (const design::Parameter* parameter = parameter_at(number.key, file)) {
+      result.push_back(tunable_parameter(number, *parameter));
+      continue;
+    }
     const SplitKey key = split(number.key);
     const Rule* const rule = rule_of(key.base);
     if (rule == nullptr || !std::isfinite(number.value)) continue;

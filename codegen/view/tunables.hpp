@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers of a design file that a person turns: weights, noises, gates, times, limits, placed poles.
+// The numbers of a design file that a person turns: parameters, weights, noises, gates, times, limits, placed poles.
 #pragma once
 
 #include <string>

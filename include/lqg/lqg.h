@@ -12,6 +12,8 @@
  * | lqg/rls.h    | recursive least squares                         | init, update                    |
  * | lqg/status.h | what happened in a sample                       | status_text                     |
  *
+ * lqg/functions.h has elementary functions, lqg_sinf … lqg_atan2f, lqg_sin … lqg_atan2, with the same bits everywhere.
+ *
  * Conventions, said once for all functions:
  *
  *   Order        f(&description, &state, y, u, the rest): always the description first, then the state, then the
@@ -93,6 +95,7 @@
 
 #include "lqg/arithmetic.h"
 #include "lqg/ekf.h"
+#include "lqg/functions.h"
 #include "lqg/kalman.h"
 #include "lqg/loop.h"
 #include "lqg/lqr.h"

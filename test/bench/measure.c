@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What the controller in HEADER costs: instructions executed by each of its functions, for the reference samples in
  * VECTORS, and the stack that step uses, with CALLS the functions that it calls. NAME and UPPER_NAME are its names,
- * REAL its scalar; ESTIMATES says that it has no input, GATED that it has a gate with its `widening`. A controller that
- * keeps z (KEEPS_Z) has control and advance, which count as control and predict; y goes to the first of them, or to the
- * second with PREDICTS. */
+ * REAL its scalar; ESTIMATES says that it has no law, HAS_INPUT that it is told or gives u, GATED that it has a gate
+ * with its `widening`. A controller that keeps z (KEEPS_Z) has control and advance, which count as control and predict;
+ * y goes to the first of them, or to the second with PREDICTS. */
 #include <math.h>
 #include <stdint.h>
 
@@ -90,9 +90,7 @@ static void run_step(unsigned left_out)
 {
     OF(t) self;
     REAL y[NY];
-#ifdef ESTIMATES
-    REAL *const u = NULL;
-#else
+#ifndef ESTIMATES
     REAL u[SIZE(NU)];
 #endif
 
@@ -103,7 +101,13 @@ static void run_step(unsigned left_out)
         for (unsigned i = 0; i < NY && left_out == NY; i++)
             self.widening[i] = 1;
 #endif
+#if !defined ESTIMATES
         measure(&records[STEP], k, (function *)OF(step), &self, y, u);
+#elif defined HAS_INPUT
+        measure(&records[STEP], k, (function *)OF(step), &self, y, (void *)(uintptr_t)u_out[k]);
+#else
+        measure(&records[STEP], k, (function *)OF(step), &self, y, NULL);
+#endif
     }
 }
 
@@ -127,7 +131,11 @@ static void run_calls(unsigned left_out)
         measure(&records[PREDICT], k, (function *)OF(advance), &self, NULL, NULL);
 #elif defined ESTIMATES
         measure(&records[UPDATE], k, (function *)OF(update), &self, y, NULL);
+#ifdef HAS_INPUT
+        measure(&records[PREDICT], k, (function *)OF(predict), &self, u_out[k], NULL);
+#else
         measure(&records[PREDICT], k, (function *)OF(predict), &self, NULL, NULL);
+#endif
 #else
         measure(&records[UPDATE], k, (function *)OF(update), &self, y, NULL);
         measure(&records[CONTROL], k, (function *)OF(control), &self, u, NULL);

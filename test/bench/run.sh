@@ -66,21 +66,20 @@ json_value() { sed -n "s/^ *\"$2\": \([0-9]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1;
 # make_controller <folder> <title> <design> <style> <real>: its header, reference samples and figures; prints what
 # add_row wants to know of it.
 make_controller() {
-  local name arithmetic has_input=yes keeps_z='' predicts=''
+  local name arithmetic has_input='' has_law='' keeps_z='' predicts=''
   name=$(design_value "$3" name)
   arithmetic=$(design_value "$3" arithmetic)
-  grep -q '^[[:space:]]*B *=' "$3" || has_input=
   "$LQGEN" "$3" -o "$1" --style "$4" --real "$5" --quiet || lqg_stop "lqgen refuses $3"
-  grep -q "^static const .* y_in\[" "$1/${name}_test.c" &&
-    { [ -z "$has_input" ] || grep -q " ${name}_control(" "$1/$name.h"; } ||
-    lqg_stop "$3: expected a filter and a regulator, or a filter and no input, found only one of them"
+  grep -q "^static const .* y_in\[" "$1/${name}_test.c" || lqg_stop "$3: expected a filter, found a regulator alone"
+  ! grep -q "^#define ${name^^}_NU " "$1/$name.h" || has_input=yes
+  ! grep -q " ${name}_control(" "$1/$name.h" || has_law=yes
   sed -n '/^static const .* \(y_in\|u_out\)\[/,/^};/p' "$1/${name}_test.c" >"$1/vectors.h"
   if grep -q "^static inline .*${name}_advance(" "$1/$name.h"; then
     keeps_z=yes
     grep -q "_control(.* y\[" "$1/$name.h" || predicts=yes
   fi
   echo "title='$2' name=$name arithmetic=${arithmetic:-plain} style=$4 real=$5" \
-    "has_input=$has_input keeps_z=$keeps_z predicts=$predicts"
+    "has_input=$has_input has_law=$has_law keeps_z=$keeps_z predicts=$predicts"
 }
 
 # start_controller <title> <design> <style> <real>: in a folder of its own; those of the tables in their order.
@@ -112,12 +111,16 @@ start_controllers_of_forms() {
   done
 }
 
+# has_style <design> <style>: the loops of compact code are of x̂, and of matrices.
+has_style() { [ "$2" = unrolled ] || ! grep -qE '^(realisation|gain *= *"extended")' "$1"; }
+
 make_controllers_of_designs() {
   local design real style
   for design in "${designs[@]}"; do
     real=$(design_value "$design" real)
     for style in unrolled compact; do
-      start_controller "$(design_value "$design" name)" "$design" $style "${real:-float}"
+      ! has_style "$design" $style ||
+        start_controller "$(design_value "$design" name)" "$design" $style "${real:-float}"
     done
   done
   wait_for_all
@@ -136,8 +139,7 @@ make_controllers() {
     for design in "$lqg_root"/codegen/designs/*.toml; do
       if [ -n "$all" ] || [ $real = float ] || [ "$(design_value "$design" real)" = double ]; then
         for style in unrolled compact; do
-          if [ $style = compact ] && grep -q '^realisation' "$design"; then continue; fi  # those loops are of x̂
-          start_controller "$(design_value "$design" name)" "$design" $style $real
+          ! has_style "$design" $style || start_controller "$(design_value "$design" name)" "$design" $style $real
         done
       fi
     done
@@ -188,7 +190,8 @@ add_row() {
   [ "$real" = float ] || variant+=(-DLQG_REAL_DOUBLE)
   [ "$arithmetic" = plain ] || variant+=(-DLQG_FUSED)
   names=("-I$1" "-DHEADER=\"$name.h\"" '-DVECTORS="vectors.h"' "-DNAME=$name" "-DUPPER_NAME=${name^^}" "-DREAL=$real")
-  [ -n "$has_input" ] || names+=(-DESTIMATES)
+  [ -n "$has_law" ] || names+=(-DESTIMATES)
+  [ -z "$has_input" ] || names+=(-DHAS_INPUT)
   [ "$style" != compact ] || names+=(-DCALLS)
   [ -z "$keeps_z" ] || names+=(-DKEEPS_Z)
   [ -z "$predicts" ] || names+=(-DPREDICTS)
@@ -218,7 +221,7 @@ heading() { echo "$("${compiler[0]}" --version | head -n 1), ${options[*]}"; }
 
 # measure_core <core>: its section of the tables.
 measure_core() {
-  local made title name arithmetic style real has_input keeps_z predicts
+  local made title name arithmetic style real has_input has_law keeps_z predicts
   select_core "$1"
   work=$folder/work/$core
   compile_once

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Every bit of 1000 samples of one controller. To be included by what describe.cmake makes of the controller's header:
- * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS, ADVANCES and REFERS the controller does, and MEMBERS, a
- * HASH_MEMBER(name) for each part of its state. FUNCTION_OF(NAME) becomes the function that runs it. Included once for
- * each controller, all of one REAL. */
+ * it says NAME and UPPER_NAME, which of UPDATES, CONTROLS, ADVANCES and REFERS the controller does, whether it
+ * HAS_INPUT, and MEMBERS, a HASH_MEMBER(name) for each part of its state. FUNCTION_OF(NAME) becomes the function that
+ * runs it. Included once for each controller, all of one REAL. */
 #include "samples.h"
 
 #define PASTE(a, b) a##_##b
@@ -21,7 +21,7 @@ static hashes_t OF(hash_state)(hashes_t hashes, const OF(t) * self)
 static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) * self, source_t *source)
 {
     lqg_status_t status = LQG_OK;
-#ifdef CONTROLS
+#if defined CONTROLS || defined HAS_INPUT
     REAL u[SIZE(NU)];
 #endif
 
@@ -47,6 +47,9 @@ static hashes_t OF(hash_sample)(hashes_t hashes, OF(t) * self, source_t *source)
     status |= OF(predict)(self, u);
 #elif defined CONTROLS
     status |= OF(control)(self, x, u);
+#elif defined HAS_INPUT
+    draw_all(source, u, SIZE(NU));
+    status |= OF(predict)(self, u);
 #else
     status |= OF(predict)(self);
 #endif

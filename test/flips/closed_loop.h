@@ -23,6 +23,15 @@ struct loop {
     real u[NU + 1]; /* that acts */
 };
 
+/* At the start, with the plant at its operating point. */
+static void begin_loop(struct loop *loop)
+{
+    memset(loop, 0, sizeof *loop);
+    OF(init)(&loop->controller);
+    for (int j = 0; j < NU; j++)
+        loop->u[j] = (real)u_point[j];
+}
+
 /* What is drawn for a sample: of G w and v, and u of an estimator alone. */
 struct drawn {
     double noise[NX + NY], u[NU + 1];
@@ -45,8 +54,8 @@ static void measure(const struct loop *loop, const struct drawn *now, real y[NY]
         for (int j = 0; j < NX; j++)
             sum += C[i * NX + j] * loop->x[j];
         for (int j = 0; j < NU; j++)
-            sum += D[i * NU + j] * (double)loop->u[j];
-        y[i] = (real)sum;
+            sum += D[i * NU + j] * ((double)loop->u[j] - u_point[j]);
+        y[i] = (real)(y_point[i] + sum);
     }
 }
 
@@ -58,7 +67,7 @@ static void advance_plant(struct loop *loop, const struct drawn *now)
         for (int j = 0; j < NX; j++)
             next[i] += A[i * NX + j] * loop->x[j];
         for (int j = 0; j < NU; j++)
-            next[i] += B[i * NU + j] * (double)loop->u[j];
+            next[i] += B[i * NU + j] * ((double)loop->u[j] - u_point[j]);
     }
     memcpy(loop->x, next, sizeof next);
 }
@@ -83,7 +92,7 @@ static lqg_status_t choose_input(struct loop *loop, const struct drawn *now)
     return OF(control)(&loop->controller, loop->u);
 #else
     for (int j = 0; j < NU; j++)
-        loop->u[j] = (real)now->u[j];
+        loop->u[j] = (real)(u_point[j] + now->u[j]);
     return LQG_OK;
 #endif
 }
@@ -164,7 +173,7 @@ static int is_beyond_u(const struct loop *loop)
                 u_re += re[i] * B[i * NU + j];
                 u_im += im[i] * B[i * NU + j];
             }
-            against += hypot(u_re, u_im) * fmax(fabs(u_min[j]), fabs(u_max[j]));
+            against += hypot(u_re, u_im) * fmax(fabs(u_min[j] - u_point[j]), fabs(u_max[j] - u_point[j]));
         }
         if ((mode_size[m] - 1) * hypot(x_re, x_im) > against)
             return 1;

@@ -153,6 +153,8 @@ def plant_text(design, limits: dict, header: str) -> str:
     for matrix in "ABCD":
         text += array(matrix, plant[matrix])
     text += array("factor", noise_factor(design, plant))
+    point = design.get("operating_point", {})
+    text += array("y_point", [point.get("outputs", [0.0] * ny)]) + array("u_point", [point.get("inputs", [0.0] * nu)])
     for which, infinite in (("u_min", -math.inf), ("u_max", math.inf)):
         text += array(which, [limits.get(which, [infinite] * nu)]).replace("inf", "(double)INFINITY")
     modes = unstable_modes(plant["A"]) if f"{name}_control(" in header else []

@@ -216,8 +216,7 @@ static enum outcome follow(const struct flip *flip, int *samples)
 static void run_twin(void)
 {
     draw_all();
-    memset(twin, 0, sizeof *twin);
-    OF(init)(&twin[0].controller);
+    begin_loop(&twin[0]);
     for (int k = 0; k < SAMPLES; k++) {
         twin[k + 1] = twin[k];
         run(&twin[k + 1], NULL, k);

@@ -151,8 +151,7 @@ static void run_lap(struct tally *tally, struct source *source, int silence, lon
     struct loop loop;
     struct drawn now;
     int is_beyond = 0, k;
-    memset(&loop, 0, sizeof loop);
-    OF(init)(&loop.controller);
+    begin_loop(&loop);
     draw_start(loop.x, source);
     for (k = 0; k < LAP && k < samples && !is_beyond; k++) {
         const int is_silent = k >= SILENT_FROM && k < SILENT_FROM + silence;

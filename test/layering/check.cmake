@@ -50,25 +50,28 @@ file(GLOB private RELATIVE "${ROOT}/src" "${ROOT}/src/*.h")
 list(TRANSFORM private REPLACE "(.*)\\.h" "^\\1\\\\.h$")
 check(src "${standard_c}" "^lqg/[a-z_]+\\.h$" ${private})
 
-set(any_room "${standard_cpp}" "${posix}" "^Eigen/" "^lqg/version\\.h$")
+set(any_room "${standard_cpp}" "${posix}" "^Eigen/" "^lqg/(version|functions)\\.h$")
 set(digits "^boost/multiprecision/" "^boost/math/" "^mpfr\\.h$")
 
 # The door of design holds what everybody may say (a problem, a solution, a finding …) and, above all floors, who
 # solves.
 set(room_folder codegen/design)
-set(design_words "^design/(problem|scenario|solution|solution_matrices|finding|real|rounding|progress)\\.hpp$")
-check_floors(design "${design_words}" "numeric;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
-             ${digits})
-check(codegen/design ${any_room} ${digits} "^design/")
+string(CONCAT design_words "^design/(problem|equations_of_motion|linearise|scenario|exact_matrix|solution|"
+                            "solution_matrices|finding|real|rounding|progress)\\.hpp$")
+check_floors(design "${design_words}" "numeric;motion;equations;order;limits;sampled;checks;loop;gains;run" ${any_room}
+             ${digits} "^expression/")
+check(codegen/design "^expression/" ${any_room} ${digits} "^design/")
 
-check(codegen/step  ${any_room} "^step/")
+check(codegen/expression ${any_room} "^expression/" "^boost/spirit/")
+check(codegen/step  ${any_room} "^step/" "^expression/")
 check(codegen/trace ${any_room} "^trace/")
-check(codegen/input ${any_room} "^input/" "^design/" "^toml\\+\\+/" "^csv\\.h$")
-check(codegen/controller ${any_room} "^controller/" "^design/" "^step/")
-check(codegen/simulate   ${any_room} "^boost/math/" "^simulate/" "^controller/" "^design/" "^step/")
+check(codegen/input ${any_room} "^input/" "^design/" "^expression/" "^toml\\+\\+/" "^csv\\.h$")
+check(codegen/controller ${any_room} "^controller/" "^design/" "^step/" "^expression/")
+check(codegen/simulate ${any_room} "^boost/math/" "^boost/numeric/odeint" "^expression/" "^simulate/" "^controller/"
+      "^design/" "^step/")
 
 set(room_folder codegen/emit)
-set(below_emit "^controller/" "^simulate/" "^design/" "^step/" "^trace/")
+set(below_emit "^expression/" "^controller/" "^simulate/" "^design/" "^step/" "^trace/")
 check_floors(emit "^emit/controller\\.hpp$" "text;page;recorded;vectors;plan;c;proof;unit_test;report"
              ${any_room} ${digits} ${below_emit} "^nlohmann/" "^mbedtls/")
 check(codegen/emit ${any_room} "^controller/" "^design/")

@@ -87,6 +87,7 @@ def main():
         shutil.copytree(root / folder, output / folder)
     variants = [[], ["-DLQG_REAL_DOUBLE", "-DLQG_FUSED"]]
     files = [(path, options) for path in sorted((output / "src").glob("*.c")) for options in variants]
+    files += [(output / "include/lqg/functions.h", [])]  # which no source includes
     files += emit(arguments.lqgen, root, output)
     found = {}
     for path, options in files:

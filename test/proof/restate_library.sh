@@ -37,3 +37,36 @@ restate_library() {
     return 1
   }
 }
+
+# restate_functions <folder>: the elementary functions into the folder, with comparisons of bits as comparisons of the
+# numbers, signs that are any, and any number of [0, 1] for the ratio of a smaller number to a larger one.
+restate_functions() {
+  local file scalar f one
+  mkdir -p "$1/lqg"
+  cp "$root"/include/lqg/functions*.h "$1/lqg"
+  sed -i 's/return .*(sign & 0x8.*/return any_int ? x : -x;/
+    s/lqg_sqrt\(f\{0,1\}([a-z]* x)\)/not_sqrt\1/' "$1/lqg/functions_bits.h"
+  for file in "$1"/lqg/functions_{float,double}.h; do
+    scalar=double f='' one=1.0
+    [[ $file != *float.h ]] || scalar=float f=f one=1.0f
+    sed -i "s/lqg_of_bits$f(a\(_bits\)\{0,1\})/(x < 0 ? -x : x)/
+      s/\<a\(_bits\)\{0,1\} > 0x4\(6\|13\)0*u/!(x >= -LQG_ANGLE_MAX${f^^} \&\& x <= LQG_ANGLE_MAX${f^^})/
+      s/\<a > 0x3f\(8\|f\)0*u) \/\* π/t > $one) \/\* π/
+      s/\<a > 0x3f\(8\|f\)0*u/!(x >= -$one \&\& x <= $one)/
+      s/\<a <= 0x3f\(1\|e2\)0*u/x >= -0.5625$f \&\& x <= 0.5625$f/
+      s/\<a > 0x7f\(8\|f\)0*u/x != x/
+      s/(bits & 0x7f*u) > 0x7f\(8\|f\)0*u/x != x/
+      s/\<a <= 0x3f\(0c*\|e19*\).u/t <= 0.5500001$f/
+      s/t = small == .*/t = any_ratio$f();/
+      s/lqg_\(reduce\|exp_within\|sqrt\)\(f\{0,1\}([a-z]* [ax][,)]\)/not_\1\2/
+      s/^        a = a [-+] quarters \* 2.*e-.*/        a = any_${scalar}_within(-3.2$f, 3.2$f);/" "$file"
+    [ "$(grep -c 'LQG_ANGLE_MAXF\{0,1\} && x' "$file") $(grep -c 'x != x' "$file")" = "5 3" ] &&
+      [ "$(grep -c "x <= $one)" "$file") $(grep -c 'x <= 0.5625' "$file")" = "2 2" ] &&
+      grep -q "t > $one)" "$file" && grep -q 't <= 0.55' "$file" && grep -q any_ratio "$file" &&
+      [ "$(grep -c "not_\|any_${scalar}_within" "$file") $(grep -c not_ "$1/lqg/functions_bits.h")" = "3 2" ] &&
+      grep -q 'any_int ? x : -x' "$1/lqg/functions_bits.h" || {
+      echo "not understood: ${file##*/} reads otherwise than it did" >&2
+      return 1
+    }
+  done
+}

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* A hash of every bit that the library computes in 1000 samples of all its filters, in the variant it is
- * compiled in. */
+ * compiled in, and of the elementary functions, which are the same in all variants. */
 #include "bits.h"
 
 #include "hash.h"
+#include "hash_functions.h"
 #include "lqg/lqg.h"
 
 enum { NX = 3, NU = 1, NY = 2 };
@@ -83,3 +84,15 @@ unsigned long long hash_of_all_filters(void)
     }
     return hash;
 }
+
+unsigned long long hash_of_all_functions(void)
+{
+    return hash_float_functions();
+}
+
+#if LQG_HAS_DOUBLE
+unsigned long long hash_of_all_double_functions(void)
+{
+    return hash_double_functions();
+}
+#endif

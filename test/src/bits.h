@@ -7,4 +7,8 @@
  * more than one rounding. */
 unsigned long long hash_of_all_filters(void);
 
+/* Of each function of lqg/functions.h for 1000 arguments, of float; of double, where the target has it. */
+unsigned long long hash_of_all_functions(void);
+unsigned long long hash_of_all_double_functions(void);
+
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Prints a hash of every bit of 1000 samples of all filters, and whether the compiler contracts a*b + c where
- * nobody tells it not to. The same text is built with contraction and without it: the first line must be the
- * same, the second must not. Nothing but the library computes here with more than one rounding. */
+/* Prints a hash of every bit of 1000 samples of all filters and of the elementary functions, and whether the compiler
+ * contracts a*b + c where nobody tells it not to. The same text is built with contraction and without it: the first
+ * line must be the same, the second must not. Nothing but the library computes here with more than one rounding. */
 #include <stdio.h>
 
 #include "bits.h"
@@ -36,7 +36,10 @@ static unsigned long long hash_of_a_pair(unsigned long long hash)
 
 int main(void)
 {
-    printf("%016llx\n", hash_of_a_pair(hash_of_all_filters()));
+    const unsigned long long filters = hash_of_all_filters();
+    const unsigned long long functions = hash_of_all_functions() ^ hash_of_all_double_functions();
+
+    printf("%016llx\n", hash_of_a_pair(filters ^ functions));
     printf("%s\n", is_contracted() ? "contracted" : "plain");
     return 0;
 }

@@ -2,7 +2,7 @@
 /* Every bit of the library, the same on every machine. The numbers are those of x86-64, gcc 12, -O2: run the
  * test to see the new ones after a change that is meant. */
 #include "bits.h"
-#include "lqg/arithmetic.h"
+#include "lqg/functions.h"
 #include "unity.h"
 
 void setUp(void) {}
@@ -26,9 +26,30 @@ static void test_1000_samples_of_all_filters_give_the_bits_of_the_pc(void)
     TEST_ASSERT_EQUAL_HEX32(EXPECTED & 0xffffffffu, hash & 0xffffffffu);
 }
 
+/* In all variants: lqg/functions.h knows none. */
+static void test_elementary_functions_give_the_bits_of_the_pc(void)
+{
+    const unsigned long long hash = hash_of_all_functions();
+    TEST_ASSERT_EQUAL_HEX32(0x50ef5698u, hash >> 32);
+    TEST_ASSERT_EQUAL_HEX32(0x571ac0fbu, hash & 0xffffffffu);
+}
+
+static void test_elementary_functions_of_double_give_the_bits_of_the_pc(void)
+{
+#if LQG_HAS_DOUBLE
+    const unsigned long long hash = hash_of_all_double_functions();
+    TEST_ASSERT_EQUAL_HEX32(0x575ba9b0u, hash >> 32);
+    TEST_ASSERT_EQUAL_HEX32(0x4961be0bu, hash & 0xffffffffu);
+#else
+    TEST_IGNORE_MESSAGE("double has 32 bits");
+#endif
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_1000_samples_of_all_filters_give_the_bits_of_the_pc);
+    RUN_TEST(test_elementary_functions_give_the_bits_of_the_pc);
+    RUN_TEST(test_elementary_functions_of_double_give_the_bits_of_the_pc);
     return UNITY_END();
 }

@@ -27,5 +27,13 @@ print("\n".join(unit for unit in units if re.search(sys.argv[2], unit)))
 END
 )
 [ -n "$units" ] || lqg_stop "no unit is called $chosen"
-echo "$units" | xargs -n 1 -P "$(getconf _NPROCESSORS_ONLN)" \
-  clang-tidy-19 --config-file="$lqg_root/.clang-tidy" -p "$folder" --quiet
+# tidy <ending> [option…]: the units that end so. The C headers are looked at as C: as C++ they would be asked for `using`.
+tidy() {
+  local ending=$1
+  shift
+  { grep "\.$ending\$" <<<"$units" || true; } | xargs -r -n 1 -P "$(getconf _NPROCESSORS_ONLN)" \
+    clang-tidy-19 --config-file="$lqg_root/.clang-tidy" -p "$folder" --quiet "$@"
+}
+tidy c
+tidy cpp --header-filter='/codegen/[^ ]*$'
+tidy cxx --header-filter='/codegen/[^ ]*$'

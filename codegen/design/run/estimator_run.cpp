@@ -139,7 +139,8 @@ void run_optimal_filter(const Problem& problem, const std::vector<SampledStage>&
   const Gain gain = problem.estimator->gain;
   result.solution.noise = stages.front().samples.noise;
   if (gain == Gain::schedule && problem.estimator->horizon > 0) return run_finite_schedule(problem, stages, result);
-  run_steady_filter(stages.back(), coarser, result);
+  // An extended filter alone is nowhere for long: it has no steady gain.
+  if (!problem.estimator->extended || problem.regulator) run_steady_filter(stages.back(), coarser, result);
   if (has_error(result.findings)) return;
   if (gain == Gain::schedule) run_schedule_to_steady(problem, stages, result);
   if (gain == Gain::online)

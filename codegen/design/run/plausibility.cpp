@@ -156,6 +156,11 @@ std::string key_of_limit(const Limits& limits, Index i) {
   return std::string(is_upper ? "limits.u_max" : "limits.u_min") + "[" + std::to_string(i) + "]";
 }
 
+// Where limits are counted from, if not from 0.
+const char* from_point(const Problem& problem) {
+  return problem.plant.operating_point ? " from the operating point" : "";
+}
+
 void note_noise_at_limits(const Problem& problem, const DesignRun& run, Findings& findings) {
   if (!run.solution.loop.rms) return;
   const std::vector<double>& rms = run.solution.loop.rms->u;
@@ -164,7 +169,7 @@ void note_noise_at_limits(const Problem& problem, const DesignRun& run, Findings
     if (rms[j] > reach_of(*problem.limits, i) / 2)
       add_note(findings, key_of_limit(*problem.limits, i),
                "the noises alone move " + name_of_input(problem, i) + " by " + short_number(rms[j]) +
-                   " rms, and it is limited to " + short_number(reach_of(*problem.limits, i)) +
+                   " rms, and it is limited to " + short_number(reach_of(*problem.limits, i)) + from_point(problem) +
                    ": the loop is at its limits without end; look at the noises, and at R");
   }
 }
@@ -197,8 +202,10 @@ void note_reference(const Problem& problem, const RealMatrix& asked, const std::
       if (!(size > reach)) continue;
       const int output = outputs[static_cast<std::size_t>(j)];
       add_note(findings, key_of_limit(*problem.limits, i),
-               "a reference of 1 for " + name_of(problem.plant.outputs, output, "y") + when + short_number(size) +
-                   " of " + name_of_input(problem, i) + ", which is limited to " + short_number(reach) + ": " + look);
+               (problem.plant.operating_point ? "a change by 1 of the reference for " : "a reference of 1 for ") +
+                   name_of(problem.plant.outputs, output, "y") + when + short_number(size) + " of " +
+                   name_of_input(problem, i) + ", which is limited to " + short_number(reach) + from_point(problem) +
+                   ": " + look);
     }
 }
 

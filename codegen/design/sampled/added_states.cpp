@@ -33,13 +33,9 @@ RealMatrix without_columns(const RealMatrix& a, Index at, Index count) {
   return beside(a.leftCols(at), a.rightCols(a.cols() - at - count));
 }
 
-using Eigen::MatrixXd;
-
-MatrixXd with_block(const MatrixXd& a, const MatrixXd& corner) {
-  MatrixXd result = MatrixXd::Zero(a.rows() + corner.rows(), a.cols() + corner.cols());
-  result.topLeftCorner(a.rows(), a.cols()) = a;
-  result.bottomRightCorner(corner.rows(), corner.cols()) = corner;
-  return result;
+// [a 0; 0 corner]
+RealMatrix with_corner(const RealMatrix& a, const RealMatrix& corner) {
+  return above(beside(a, zeros(a.rows(), corner.cols())), beside(zeros(corner.rows(), a.cols()), corner));
 }
 
 // W of a walk whose G is its size: 1 of a density; of samples what gathers to as much in a second.
@@ -50,42 +46,43 @@ double variance_of_walk(const Problem& problem) {
 }
 
 void add_to_plant(const std::vector<InputDisturbance>& disturbances, Plant& plant) {
-  const Index count = static_cast<Index>(disturbances.size()), nx = plant.A.rows();
-  MatrixXd B(nx, count), D(plant.C.rows(), count), sizes = MatrixXd::Zero(count, count);
+  const Digits scope(exact_digits);
+  const Index count = static_cast<Index>(disturbances.size());
+  const RealMatrix all_B = real(plant.B), all_D = real(plant.D);
+  RealMatrix B(all_B.rows(), count), D(all_D.rows(), count), sizes = zeros(count, count);
   for (Index i = 0; i < count; ++i) {
     const InputDisturbance& disturbance = disturbances[static_cast<std::size_t>(i)];
-    B.col(i) = plant.B.col(disturbance.input);
-    D.col(i) = plant.D.col(disturbance.input);
+    B.col(i) = all_B.col(disturbance.input);
+    D.col(i) = all_D.col(disturbance.input);
     sizes(i, i) = disturbance.size;
     const std::size_t input = static_cast<std::size_t>(disturbance.input);
     if (input < plant.inputs.size())
       plant.states.push_back({plant.inputs[input].name + "_disturbance", plant.inputs[input].unit});
   }
   const bool is_discrete = plant.domain == Domain::discrete;
-  plant.A = with_block(
-      plant.A, is_discrete ? MatrixXd(MatrixXd::Identity(count, count)) : MatrixXd(MatrixXd::Zero(count, count)));
-  plant.A.topRightCorner(nx, count) = B;
-  plant.B = with_block(plant.B, MatrixXd(count, 0));
-  plant.C = with_block(plant.C, MatrixXd(0, count));
-  plant.C.rightCols(count) = D;
-  plant.G = with_block(plant.G, sizes);
-  plant.H = with_block(plant.H, MatrixXd(0, count));
+  const RealMatrix held = is_discrete ? identity(count) : zeros(count, count);
+  plant.A = ExactMatrix::of(above(beside(real(plant.A), B), beside(zeros(count, all_B.rows()), held)));
+  plant.B = ExactMatrix::of(above(all_B, zeros(count, all_B.cols())));
+  plant.C = ExactMatrix::of(beside(real(plant.C), D));
+  plant.G = ExactMatrix::of(with_corner(real(plant.G), sizes));
+  plant.H = ExactMatrix::of(beside(real(plant.H), zeros(plant.H.rows(), count)));
 }
 
 // P0 is what a disturbance gathers in 10,000 samples: ten times its size in a sample, squared, with the default size a
 // tenth of the input.
 void add_to_estimator(const Problem& problem, Estimator& kalman) {
   constexpr double samples = 1e4, time_of_density = 0.5;  // s: a variance of 1 is a density of 1 then
+  const Digits scope(exact_digits);
   const Index count = static_cast<Index>(kalman.disturbance.size());
-  MatrixXd P0 = MatrixXd::Zero(count, count);
+  RealMatrix P0 = zeros(count, count);
   for (Index i = 0; i < count; ++i) {
     const double size = kalman.disturbance[static_cast<std::size_t>(i)].size;
     P0(i, i) = samples * problem.plant.sample_time * size * size;
   }
-  kalman.W = with_block(kalman.W, variance_of_walk(problem) * MatrixXd::Identity(count, count));
-  kalman.Swv = with_block(kalman.Swv, MatrixXd(count, 0));
-  kalman.P0 = with_block(kalman.P0, P0);
-  kalman.x0 = Eigen::VectorXd(with_block(kalman.x0, MatrixXd(count, 0)));
+  kalman.W = ExactMatrix::of(with_corner(real(kalman.W), Real(variance_of_walk(problem)) * identity(count)));
+  kalman.Swv = ExactMatrix::of(above(real(kalman.Swv), zeros(count, kalman.Swv.cols())));
+  kalman.P0 = ExactMatrix::of(with_corner(real(kalman.P0), P0));
+  kalman.x0.conservativeResizeLike(Eigen::VectorXd::Zero(kalman.x0.size() + count));
   Eigen::VectorXd& times = kalman.process_correlation_time;
   if (times.size() == 0) return;
   const Eigen::VectorXd given = times;

@@ -22,11 +22,11 @@ RealMatrix scaled(const RealVector& left, const RealMatrix& a, const RealVector&
 }
 
 // diag(√(2τ)) M diag(√(2τ)); on the diagonal 2τ itself, without the rounding of a root.
-RealMatrix density_of(const Eigen::MatrixXd& variance, const Eigen::VectorXd& correlation_time) {
+RealMatrix density_of(const ExactMatrix& variance, const Eigen::VectorXd& correlation_time) {
   const RealVector roots = roots_of(correlation_time, variance.rows());
-  RealMatrix density = scaled(roots, real(variance), roots);
-  for (Index i = 0; i < correlation_time.size(); ++i)
-    density(i, i) = 2 * Real(correlation_time(i)) * Real(variance(i, i));
+  const RealMatrix given = real(variance);
+  RealMatrix density = scaled(roots, given, roots);
+  for (Index i = 0; i < correlation_time.size(); ++i) density(i, i) = 2 * Real(correlation_time(i)) * given(i, i);
   return density;
 }
 

@@ -116,6 +116,9 @@ SampledNoise of_samples(const SampledNoise& density, const RealMatrix& W, const 
   return {W, density.V / sample_time, multiply(held_G, density.Swv) / sample_time};
 }
 
+// The discrete noise of an extended filter: what a sample adds to the states, with the file's G.
+bool comes_at_samples(const Problem& problem) { return problem.estimator && problem.estimator->extended; }
+
 // G of noise that is held over a period, or zeros where nothing needs it.
 RealMatrix held_noise_input(const Problem& problem, const SampledNoise& noise, const RealMatrix& A,
                             const RealMatrix& G) {
@@ -128,7 +131,7 @@ Samples continuous_samples(const Problem& problem, const Delay& delay) {
   const Index nx = plant.A.rows(), nu = plant.B.cols(), nw = plant.G.cols();
   const Real T = plant.sample_time;
   const SampledNoise noise = has_noise(problem.estimator) ? noise_of(problem) : SampledNoise();
-  const bool held_noise = cost_sees_held_noise(problem, noise);
+  const bool held_noise = !comes_at_samples(problem) && cost_sees_held_noise(problem, noise);
   const RealMatrix G = real(plant.G);
   Segments segments = {real(plant.A), real(plant.B), held_noise ? G : zeros(nx, 0), std::nullopt, RealMatrix()};
   if (cost_is_integral(problem)) segments.cost = weights_of(problem);
@@ -139,7 +142,7 @@ Samples continuous_samples(const Problem& problem, const Delay& delay) {
   take_moves(beside(period.A, period.B.leftCols(2 * nu)), nu, delay.samples, samples.plant);
   const RealMatrix held_G =
       held_noise ? RealMatrix(period.B.rightCols(nw)) : held_noise_input(problem, noise, segments.A, G);
-  const RealMatrix own_G = noise_is_sampled(problem) ? identity(nx) : held_G;
+  const RealMatrix own_G = noise_is_sampled(problem) ? identity(nx) : comes_at_samples(problem) ? G : held_G;
   samples.plant.G = padded(own_G, samples.plant.A.rows(), own_G.cols());
   if (noise_is_sampled(problem)) samples.noise = of_samples(noise, period.noise, held_G, T);
   if (!cost_is_integral(problem)) return samples;

@@ -7,7 +7,7 @@ namespace lqg::design {
 
 namespace {
 
-void replace(const Eigen::MatrixXd& by, Eigen::MatrixXd& matrix) {
+void replace(const ExactMatrix& by, ExactMatrix& matrix) {
   if (by.size() > 0) matrix = by;
 }
 

@@ -126,6 +126,10 @@ class Batch {
   std::string law() const {
     if (controller_.linear)
       return controller_.is_predictor ? "u = C z,  z ← A z + B y" : "u = C z + D y,  z ← A z + B y";
+    if (controller::is_extended(controller_))
+      return "an update, " +
+             std::string(controller_.has.regulator ? "u = " + equation_of_law(controller_) + ", " : "") +
+             "a prediction";
     const std::string update = controller_.has.feedthrough ? "x̂ ← x̂ + L (y − C x̂ − D u)" : "x̂ ← x̂ + L (y − C x̂)";
     const std::string act = controller_.has.regulator ? "u = " + equation_of_law(controller_) + ",  " : "";
     const std::string predict = controller_.size.nu ? "x̂ ← A x̂ + B u" : "x̂ ← A x̂";

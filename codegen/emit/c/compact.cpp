@@ -4,6 +4,7 @@
 
 #include "emit/c/compact_constants.hpp"
 #include "emit/c/function_bodies.hpp"
+#include "emit/c/operating_point.hpp"
 #include "emit/c/straight_line.hpp"
 #include "emit/c/templates.hpp"
 #include "emit/recorded/trace_listener.hpp"
@@ -59,7 +60,7 @@ Words filter_words(const Controller& controller) {
                  {"state", state_of_filter(controller, "work")},
                  {"state_without_work", state_of_filter(controller, "NULL")},
                  {"state_alone", state_of_filter(controller, is_steady ? "NULL" : "work")},
-                 {"u", controller.size.nu ? "u" : "NULL"},
+                 {"u", controller.size.nu ? deviations(controller, 'u') : "NULL"},
                  {"nw", noises(controller)}};
   if (controller.keeps.gain_row)
     words["filter_of_sample"] = lines(templates::compact_filter_of_sample, controller, words);
@@ -81,17 +82,38 @@ bool copies_memory(const Controller& controller) {
   return controller.has.filter && controller.has.servo && !controller::control_changes_state(controller);
 }
 
-// The library's state of the law over the members of NAME_t.
-std::string state_of_law(const Controller& controller, bool copies) {
+// What reads r takes a copy where it changes nothing, and where r is no deviation from the operating point yet.
+bool copies_references(const Controller& controller, bool copies) {
+  return controller.size.nr > 0 && (copies || controller.point.r.size() > 0);
+}
+
+// "{self->r[0], self->r[1] - TWO_OPERATING_Y_B}"
+std::string references(const Controller& controller) {
+  std::string out;
+  for (int i = 0; i < controller.size.nr; ++i)
+    out += (i ? ", " : "") + deviation(controller, 'r', i, element("self->r", i));
+  return "{" + out + "}";
+}
+
+// The library's state of the law over the members of NAME_t, or over copies of what is only read.
+std::string state_of_law(const Controller& controller, bool copies, bool copies_r) {
   const bool integrates = controller.size.nxi > 0;
   return std::string("{") +
          (!controller.size.nr ? "NULL"
-          : copies            ? "r"
+          : copies_r          ? "r"
                               : "self->r") +
          (integrates ? ", self->xi, self->error, self->demand, " : ", NULL, NULL, NULL, ") +
          (!controller.has.last_input ? "NULL}"
           : copies                   ? "last}"
                                      : "self->u_applied}");
+}
+
+// Of what does not read r.
+std::string state_without_references(const Controller& controller) { return state_of_law(controller, false, false); }
+
+// Of what reads all of it.
+std::string whole_state(const Controller& controller) {
+  return state_of_law(controller, false, copies_references(controller, false));
 }
 
 // The call of the law, and the state that it shares with what keeps its memory.
@@ -100,8 +122,9 @@ Words law_words(const Controller& controller) {
   Words words = common_words(controller);
   words["servo"] = has_table ? "&servo" : fill("&{NAME}_SERVO", words);
   words["lqr"] = has_table ? "&lqr" : fill("&{NAME}_LQR", words);
-  words["memory"] = state_of_law(controller, false);
-  words["x"] = controller.has.filter ? "self->x" : "x";
+  words["memory"] = state_without_references(controller);
+  const bool is_told_deviations = controller.has.filter || controller.has.foresight;
+  words["x"] = controller.has.filter ? "self->x" : is_told_deviations ? "x" : deviations(controller, 'x');
   words["law"] = fill(
       controller.has.servo ? "lqg_servo_control({servo}, &memory, {x}, u)" : "lqg_lqr_control({lqr}, {x}, u)", words);
   if (has_table) words["law_of_sample"] = law_of_sample(controller);
@@ -113,31 +136,45 @@ bool remembers(const Controller& controller) { return controller.size.nxi > 0 ||
 std::string init_body(const Controller& controller) {
   Words words = filter_words(controller);
   words.merge(law_words(controller));
+  words["references"] = references_of_point(controller);
   return write_body(templates::compact_init, controller, words);
 }
 
 std::string update_body(const Controller& controller) {
   Words words = filter_words(controller);
-  words["memory"] = state_of_law(controller, false);
-  words["y"] = controller.has.range ? "said" : "y";
-  return write_body(templates::compact_update, controller, words);
+  words["memory"] = whole_state(controller);
+  words["references"] = references(controller);
+  words["declare_deviations"] = declare_deviations(controller, 'y');
+  words["given"] = deviations(controller, 'y');
+  words["y"] = controller.has.range ? "said" : words["given"];
+  words["is_out_of_range"] = fill("({given}[i] < {NAME}_KALMAN_Y_MIN[i]) || ({NAME}_KALMAN_Y_MAX[i] < {given}[i])",
+                                  {{"given", words["given"]}, {"NAME", upper(controller.problem.name)}});
+  return write_body(templates::compact_update, controller, words,
+                    {{"copies_r", controller.size.nxi && copies_references(controller, false)}});
 }
 
 // The update by one output, and r − y of it where it is integrated.
 std::string update_alone_body(const Controller& controller, int output) {
   Words words = filter_words(controller);
   words["i"] = std::to_string(output);
-  words["given"] = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+  const std::string own = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
+  const std::string difference = deviation(controller, 'y', output, own);
+  const bool has_offset = difference != own;
+  words["deviation"] = difference;
+  words["given"] = has_offset ? "deviation" : own;
   words["y"] = controller.has.range ? "said" : words["given"];
+  words["own"] = has_offset ? own : words["y"];
   const TracedFunction observation = trace_observation(controller, output);
   words["observation"] = statements(observation);
-  return write_body(templates::compact_update_alone, controller, words, {{"observes", !observation.stores.empty()}});
+  return write_body(templates::compact_update_alone, controller, words,
+                    {{"observes", !observation.stores.empty()}, {"has_offset", has_offset}});
 }
 
 std::string predict_body(const Controller& controller) {
   Words words = filter_words(controller);
   if (controller.has.regulator) words.merge(law_words(controller));
   words["counters"] = advance_counters(controller);
+  words["declare_deviations"] = declare_deviations(controller, 'u');
   return write_body(templates::compact_predict, controller, words,
                     {{"remembers", remembers(controller)},
                      {"remembers_by_table", remembers(controller) && has_law_table(controller)}});
@@ -151,14 +188,18 @@ std::string control_body(const Controller& controller) {
     for (int i = 0; i < count; ++i) out += (i ? ", " : "") + element(array, i);
     return "{" + out + "}";
   };
-  words["memory"] = state_of_law(controller, copies);
-  words["references"] = entries("self->r", controller.size.nr);
+  words["memory"] = state_of_law(controller, copies, copies_references(controller, copies));
+  words["references"] = references(controller);
   words["last_input"] = entries("self->u_applied", controller.size.nu);
-  return write_body(
-      controller.has.foresight ? templates::compact_law : templates::compact_control, controller, words,
-      {{"copies_r", copies && controller.size.nr > 0},
-       {"copies_u", copies && controller.has.last_input},
-       {"needs_empty_line", controller.has.feedthrough || has_law_table(controller) || controller.has.servo}});
+  words["declare_deviations"] = declare_deviations(controller, 'x');
+  words["own_units"] = inputs_in_own_units(controller);
+  const bool names_status = controller.has.feedthrough || controller.point.u.size() > 0;
+  return write_body(controller.has.foresight ? templates::compact_law : templates::compact_control, controller, words,
+                    {{"copies_r", copies_references(controller, copies)},
+                     {"copies_u", copies && controller.has.last_input},
+                     {"is_told_x", !controller.has.filter && controller.point.x.size() > 0},
+                     {"names_status", names_status},
+                     {"needs_empty_line", names_status || has_law_table(controller) || controller.has.servo}});
 }
 
 // a b added to y[i], in C.
@@ -171,13 +212,20 @@ std::string add_product(const Controller& controller, const std::string& a, cons
 std::string act_body(const Controller& controller, std::string& constants) {
   Words words = law_words(controller);
   words["counters"] = advance_counters(controller);
-  Conditions conditions = {{"remembers", remembers(controller)}, {"resets", needs_reset(controller)}, {"has_D", false}};
+  words["memory"] = whole_state(controller);
+  words["references"] = references(controller);
+  words["declare_deviations"] = declare_deviations(controller, 'x');
+  words["own_units"] = inputs_in_own_units(controller);
+  Conditions conditions = {{"remembers", remembers(controller)},
+                           {"resets", needs_reset(controller)},
+                           {"has_D", false},
+                           {"copies_r", copies_references(controller, false)}};
   if (controller.size.nxi) {
     Tables tables(controller, "PLANT");
     const design::SampledPlant& plant = controller.solution.plant;
     const std::string C = tables.add("C", plant.C), D = tables.add_unless_zero("D", plant.D);
     words["rows"] = std::to_string(plant.C.rows());
-    words["add_Cx"] = add_product(controller, C + "[(i * " + words["NAME"] + "_NX) + j]", "x[j]");
+    words["add_Cx"] = add_product(controller, C + "[(i * " + words["NAME"] + "_NX) + j]", words["x"] + "[j]");
     words["add_Du"] = add_product(controller, D + "[(i * " + words["NAME"] + "_NU) + j]", "u[j]");
     conditions["has_D"] = D != "NULL";
     constants += tables.text;

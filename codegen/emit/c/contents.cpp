@@ -77,8 +77,9 @@ void add_transfers(const Controller& controller, std::vector<Entry>& out) {
   const bool has_filter = controller.has.filter;
   if (controller.linear)
     out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "between control and advance"});
-  if (controller.modal)
-    out.push_back({"to read the estimate", "{name}_estimate(&loop, x)", "x̂ of the z that the filter keeps"});
+  else if (has_estimate(controller))
+    out.push_back({"to read the estimate", "{name}_estimate(&loop, x)",
+                   controller.modal ? "x̂ of the z that the filter keeps" : "x̂ in the plant's own units"});
   if (has_filter && controller.has.regulator && !controller.linear)
     out.push_back({"in manual mode", "{name}_predict(&loop, u)", "after update, with the manual u; no control"});
   if (has_filter)

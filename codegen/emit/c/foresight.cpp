@@ -5,6 +5,7 @@
 
 #include "controller/model_of.hpp"
 #include "emit/c/compact_constants.hpp"
+#include "emit/c/operating_point.hpp"
 #include "emit/c/templates.hpp"
 #include "emit/recorded/constants.hpp"
 #include "emit/recorded/trace_listener.hpp"
@@ -89,17 +90,22 @@ std::string constants_of_limits(const Controller& controller) {
        {"u_step", u_step}});
 }
 
+// x̂, or the state as a deviation from the operating point.
+std::string state_of_law_ahead(const Controller& controller) {
+  return controller.has.filter ? "self->x" : deviations(controller, 'x');
+}
+
 // What F multiplies, entry by entry; empty where it is x̂ alone.
 std::string extended_state(const Controller& controller) {
   const int last = controller.has.input_change ? controller.size.nu : 0;
   if (last + controller.size.nr == 0) return "";
   std::string out;
-  const std::string x = controller.has.filter ? "self->x" : "x";
+  const std::string x = state_of_law_ahead(controller);
   for (int i = 0; i < controller.size.nx; ++i) out += (i ? ", " : "") + element(x, i);
   for (int i = 0; i < last; ++i) out += ", " + element("self->u_applied", i);
   const std::string zero = trace::literal(0, controller.target.is_double);
   for (int i = 0; i < controller.size.nr; ++i) {
-    const std::string r = element("self->r", i);
+    const std::string r = deviation(controller, 'r', i, element("self->r", i));
     out += ", ((" + r + " - " + r + ") == " + zero + ") ? " + r + " : " + zero;
   }
   return "{" + out + "}";
@@ -135,16 +141,20 @@ std::string law_function(const Controller& controller, const std::string& body) 
 
 std::string foreseeing_control_body(const Controller& controller) {
   const std::string state = extended_state(controller);
-  const std::string x = controller.has.filter ? "self->x" : "x";
+  const std::string x = state_of_law_ahead(controller);
   return write_body(templates::foreseeing_control, controller,
-                    {{"applied", controller.has.rate_limit ? "self->u_applied" : "NULL"},
+                    {{"declare_deviations", declare_deviations(controller, 'x')},
+                     {"own_units", inputs_in_own_units(controller)},
+                     {"applied", controller.has.rate_limit ? "self->u_applied" : "NULL"},
                      {"arguments", controller.has.filter  ? "self, u"
-                                   : controller.keeps.any ? "self, x, u"
-                                                          : "x, u"},
+                                   : controller.keeps.any ? "self, " + x + ", u"
+                                                          : x + ", u"},
                      {"state", state},
                      {"ns", std::to_string(controller.solution.foreseen->F.cols())},
                      {"s", state.empty() ? x : "s"}},
-                    {{"is_extended", !state.empty()}, {"keeps_input", keeps_input_in_control(controller)}});
+                    {{"is_extended", !state.empty()},
+                     {"is_told_x", !controller.has.filter && controller.point.x.size() > 0},
+                     {"keeps_input", keeps_input_in_control(controller)}});
 }
 
 }  // namespace lqg::emit

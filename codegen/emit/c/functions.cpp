@@ -24,8 +24,9 @@ std::string init_function(const Controller& controller, const FunctionBodies& bo
     if (is_kept) begin += (begin.empty() ? "" : ", ") + std::string(what);
   };
   add(controller.size.nxi > 0, "ξ = 0");
-  add(controller.size.nr > 0, "r = 0");
-  add(controller.keeps.input, "last input = 0");
+  add(controller.size.nr > 0, controller.point.r.size() ? "r = the outputs of the operating point" : "r = 0");
+  add(controller.keeps.input,
+      controller.point.u.size() ? "last input = that of the operating point" : "last input = 0");
   add(controller.keeps.sample, "sample 0");
   add(controller.has.filter, "counters = 0");
   return write_function(templates::init, controller, {{"begin", begin}, {"body", bodies.init}});
@@ -82,14 +83,24 @@ std::string unusable(const Controller& controller) {
                               : " or so large that x̂ could leave its bounds");
 }
 
+// What an output is compared with.
+std::string expected_output(const Controller& controller) {
+  const bool hears_input = controller.has.feedthrough;
+  if (controller::is_extended(controller)) return hears_input ? "h(x̂, u)" : "h(x̂)";
+  return hears_input ? "C x̂ − D u" : "C x̂";
+}
+
 Words update_words(const Controller& controller) {
-  const std::string rest_of_law = controller.has.feedthrough ? " − D u), u: the input that acts" : ")";
+  const bool is_extended = controller::is_extended(controller);
+  const std::string rest_of_law = controller.has.feedthrough ? "), u: the input that acts" : ")";
   return {{"unusable", unusable(controller)},
           {"left_out", is_steady(controller) ? "counts as equal to its expected value: its innovation is 0"
                                              : "is not used in this sample"},
           {"statuses", statuses_of_update(controller)},
-          {"gain", is_steady(controller) ? "" : ",  L = P Cᵀ S⁻¹,  P ← P − L C P"},
-          {"law", "x̂ ← x̂ + L (y − C x̂" + rest_of_law}};
+          {"gain", is_steady(controller) ? ""
+                   : is_extended         ? ",\n * L = P Cᵀ S⁻¹,  P ← P − L C P,  C: the Jacobian of h at x̂"
+                                         : ",  L = P Cᵀ S⁻¹,  P ← P − L C P"},
+          {"law", "x̂ ← x̂ + L (y − " + expected_output(controller) + rest_of_law}};
 }
 
 std::string update_function(const Controller& controller, const FunctionBodies& bodies) {
@@ -127,7 +138,7 @@ std::string innovation_function(const Controller& controller) {
   const std::string variance =
       is_steady(controller) ? " and their variances in the steady state" : " and their variances C P Cᵀ + V";
   return write_function(templates::innovation, controller,
-                        {{"law", controller.has.feedthrough ? "y − C x̂ − D u" : "y − C x̂"},
+                        {{"law", "y − " + expected_output(controller)},
                          {"variance", controller.has.variance ? variance : ""},
                          {"body", body(controller, trace_innovation(controller), {"self", "y"})}});
 }
@@ -150,10 +161,17 @@ std::string partial_update_function(const Controller& controller) {
   return write_function(templates::partial_update, controller, words);
 }
 
+std::string predicted_state(const Controller& controller) {
+  if (!controller::is_extended(controller)) return controller.size.nu ? "A x̂ + B u" : "A x̂";
+  const std::string f = controller.size.nu ? "f(x̂, u)" : "f(x̂)", jacobian = ", A: the Jacobian of that";
+  if (controller.problem.plant.domain == design::Domain::discrete) return f + jacobian;
+  return "x̂ + ∫ " + f + " dt over a period" + jacobian;
+}
+
 std::string predict_function(const Controller& controller, const FunctionBodies& bodies) {
   return write_function(
       templates::predict, controller,
-      {{"input", controller.size.nu ? " + B u" : ""},
+      {{"state", predicted_state(controller)},
        {"covariance", is_steady(controller) ? "" : ",  P ← A P Aᵀ + G W Gᵀ"},
        {"covariance_reset", covariance_status(controller)},
        {"integral", controller.size.nxi ? ",\n *                              ξ ← ξ + H (u − demand) + T (r − y)" : ""},
@@ -163,6 +181,8 @@ std::string predict_function(const Controller& controller, const FunctionBodies&
 std::string control_function(const Controller& controller, const FunctionBodies& bodies) {
   const bool has_filter = controller.has.filter, writes = control_changes_state(controller);
   const bool limits = controller.problem.limits.has_value(), foresees = controller.has.foresight;
+  const Words common = common_words(controller);
+  const std::string u_at_rest = common.at("u_at_rest"), r_at_rest = common.at("r_at_rest");
   return (foresees ? law_function(controller, bodies.control) : "") +
          write_function(
              templates::control, controller,
@@ -172,12 +192,14 @@ std::string control_function(const Controller& controller, const FunctionBodies&
                                          : ""},
               {"delayed", controller.size.delayed ? "; after them the delayed inputs, the oldest first" : ""},
               {"limits", limits ? " and within the limits" : ""},
-              {"reference", controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as 0), " : ""},
-              {"limited",
-               foresees ? " (a limit holds an input, or it was not finite and set to 0), LQG_NOT_OPTIMAL (the limits "
-                          "contradict each other or took too many changes: the law is clipped)"
-               : limits ? " (at a limit, or not finite and set to 0)"
-                        : " (not finite and set to 0)"},
+              {"reference",
+               controller.size.nr ? "LQG_REFERENCE_NOT_FINITE (such an r counts as " + r_at_rest + "), " : ""},
+              {"limited", foresees
+                              ? " (a limit holds an input, or it was not finite and set to " + u_at_rest +
+                                    "), LQG_NOT_OPTIMAL (the limits contradict each other or took too many changes: "
+                                    "the law is clipped)"
+                          : limits ? " (at a limit, or not finite and set to " + u_at_rest + ")"
+                                   : " (not finite and set to " + u_at_rest + ")"},
               {"reset", !has_filter && controller.has.servo && !foresees ? ", LQG_STATE_RESET" : ""},
               {"body", foresees ? foreseeing_control_body(controller) : bodies.control}},
              {{"writes_beside_filter", has_filter && writes},
@@ -212,11 +234,15 @@ std::string covariance_function(const Controller& controller) {
   return write_function(templates::covariance, controller, words);
 }
 
-// Only a filter that keeps z has something to compute for it.
+// Only where what the filter keeps is not x̂ there is something to compute.
 std::string estimate_function(const Controller& controller) {
-  if (!controller.modal) return "";
+  if (!has_estimate(controller)) return "";
+  const char* const kept = controller.modal ? " z is what the filter keeps; only\n * who asks for x̂ pays for it."
+                                            : "\n * The filter keeps its deviation from the operating point.";
   return write_function(templates::estimate, controller,
-                        {{"body", body(controller, trace_estimate_of_modes(controller), {"self"})}});
+                        {{"what", controller.modal ? "x̂ = T z" : "x̂ in the plant's own units"},
+                         {"kept", kept},
+                         {"body", body(controller, trace_estimate_in_own_units(controller), {"self"})}});
 }
 
 std::string set_state_function(const Controller& controller) {

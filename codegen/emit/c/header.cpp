@@ -134,6 +134,8 @@ std::string recovery(const Controller& controller) {
     out = fill(
         "#define {NAME}_RECOVERY_SAMPLES {samples}  /* samples after a fault until its effect is below the noise */\n",
         {{"NAME", upper(controller.problem.name)}, {"samples", std::to_string(recovery.samples)}});
+  else if (controller::is_extended(controller))
+    out = "/* No number of samples until recovery can be stated: it depends on where the estimate is. */\n";
   else if (controller.has.filter)
     out = "/* No number of samples until recovery can be stated: not every error decays. */\n";
   if (!lasting.empty())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "emit/c/linear_functions.hpp"
 
+#include "emit/c/operating_point.hpp"
 #include "emit/c/straight_line.hpp"
 #include "emit/c/templates.hpp"
 #include "emit/recorded/linear_traced.hpp"
@@ -51,6 +52,9 @@ std::string functions_of_predictor_form(const Controller& controller, const Trac
   words["advance"] = body(controller, traced.advance, {"self", "y"});
   words["step"] = body(controller, traced.step, {"self"});
   words["hear"] = body(controller, traced.hear, {"self"});
+  words["declare_deviations"] = declare_deviations(controller, 'y');
+  words["given"] = deviations(controller, 'y');
+  words["less_point"] = controller.point.y.size() ? " as deviations from the operating point" : "";
   return write_function(templates::linear_predictor_form, controller, words);
 }
 

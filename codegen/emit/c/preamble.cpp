@@ -3,7 +3,9 @@
 
 #include "emit/c/contents.hpp"
 #include "emit/text/description.hpp"
+#include "emit/text/equations.hpp"
 #include "emit/text/order_description.hpp"
+#include "emit/text/parameter_description.hpp"
 #include "emit/text/wording.hpp"
 
 namespace lqg::emit {
@@ -27,10 +29,11 @@ std::string preamble(const Controller& controller, const std::string& functions)
   const design::Problem& problem = controller.problem;
   return "/* " + problem.name + (problem.brief.empty() ? "" : ": " + problem.brief) + "\n *\n" +
          provenance(controller) + " *\n" + table_of_contents(controller, functions) +
-         comment_lines(describe_plant(controller) + describe_regulator(controller) + describe_estimator(controller) +
-                       describe_linear_form(controller) + describe_compensator(controller) +
-                       describe_white(controller) + describe_modes(controller) + describe_loop(controller) +
-                       describe_forms(controller) + describe_cost(controller)) +
+         comment_lines(describe_parameters(controller) + describe_expressions(controller) + describe_plant(controller) +
+                       describe_equations(controller) + describe_regulator(controller) +
+                       describe_estimator(controller) + describe_linear_form(controller) +
+                       describe_compensator(controller) + describe_white(controller) + describe_modes(controller) +
+                       describe_loop(controller) + describe_forms(controller) + describe_cost(controller)) +
          " */\n";
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "emit/c/function_bodies.hpp"
+#include "emit/c/operating_point.hpp"
 #include "emit/c/straight_line.hpp"
 #include "emit/c/templates.hpp"
 #include "emit/recorded/steady_products.hpp"
@@ -100,7 +101,9 @@ std::string prediction_body(const Controller& controller, const SteadyProducts& 
   const std::string advance = advance_counters(controller);
   const TracedFunction traced = trace_steady_predict(controller, products);
   const std::string added =
-      add_product(controller, products.A, "self->x", "sums") + add_product(controller, products.B, "u", "sums");
+      (is_in_loop(products.B) && controller.point.u.size() ? declare_deviations(controller, 'u') + "\n" : "") +
+      add_product(controller, products.A, "self->x", "sums") +
+      add_product(controller, products.B, deviations(controller, 'u'), "sums");
   // What only the loops read is used, too.
   const std::string text = controller.size.nu && !is_in_loop(products.B)
                                ? body(controller, traced, {"self", "u"}, advance)
@@ -110,10 +113,13 @@ std::string prediction_body(const Controller& controller, const SteadyProducts& 
 
 std::string steady_update_body(const Controller& controller, const SteadyProducts& products) {
   return write_body(templates::products_update, controller,
-                    {{"add_C", add_product(controller, products.C, "self->x", "innovation")},
+                    {{"declare_deviations", declare_deviations(controller, 'y')},
+                     {"given", deviations(controller, 'y')},
+                     {"add_C", add_product(controller, products.C, "self->x", "innovation")},
                      {"add_L", add_product(controller, products.L, "innovation", "self->x")},
                      {"end", end_of_body(controller, trace_end_of_steady_update(controller, products))}},
-                    {{"adds_C", is_in_loop(products.C)}});
+                    {{"adds_C", is_in_loop(products.C)},
+                     {"tells_deviations", is_in_loop(products.C) && controller.point.y.size() > 0}});
 }
 
 std::string products_helpers(const Controller& controller, const SteadyProducts& products) {

@@ -280,9 +280,10 @@ bool keeps_order(const Controller& controller) {
 
 FunctionBodies straight_line_bodies(const Controller& controller) {
   FunctionBodies bodies;
-  bodies.includes =
-      std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
-      "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
+  bodies.includes = std::string(controller.target.is_fused || controller.has.filter ? "#include <math.h>\n" : "") +
+                    "#include <stdbool.h>\n\n#include \"lqg/arithmetic.h\"\n" +
+                    (controller::is_extended(controller) ? "#include \"lqg/functions.h\"\n" : "") +
+                    "#include \"lqg/status.h\"\n#include \"lqg/version.h\"\n";
   bodies.options =
       keeps_order(controller)
           ? R"(#if defined __GNUC__ && !defined __clang__  /* keeps the order of statements: less register pressure */

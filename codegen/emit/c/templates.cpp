@@ -26,7 +26,11 @@ Conditions common_conditions(const Controller& controller) {
           {"is_of_given_order", controller.solution.compensator.has_value()},
           {"carries_covariance", carries_covariance(controller)},
           {"is_steady", controller.filter == step::Filter::steady},
-          {"has_law_table", has_law_table(controller)}};
+          {"has_law_table", has_law_table(controller)},
+          {"point.x", controller.point.x.size() > 0},
+          {"point.u", controller.point.u.size() > 0},
+          {"point.y", controller.point.y.size() > 0},
+          {"point.r", controller.point.r.size() > 0}};
 }
 
 }  // namespace

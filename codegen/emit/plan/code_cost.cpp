@@ -7,6 +7,7 @@
 #include "controller/gains.hpp"
 #include "controller/model_of.hpp"
 #include "controller/state_fields.hpp"
+#include "emit/plan/function_cost.hpp"
 #include "emit/plan/instructions.hpp"
 #include "emit/plan/library_cost.hpp"
 #include "emit/plan/sizes.hpp"
@@ -239,6 +240,12 @@ CodeCost cost_of_unrolled(const Controller& controller) {
   cost.flash = with_margin(controller, cost.flash + aside.flash + counters) + beginning.flash +
                bytes_of_real(controller) * tables +
                bytes_of_software_floats(controller, carries_covariance(controller));
+  if (!controller::is_extended(controller)) return cost;
+  const CostOfFunctions called =
+      cost_of_functions({&traced.update, &traced.predict, &traced.step}, controller.target.is_double);
+  cost.flash += called.flash;
+  cost.stack += called.stack;
+  cost.instructions.clear();  // what is known of them was not measured with calls of functions
   return cost;
 }
 

@@ -97,6 +97,24 @@ long constants_of(const Controller& controller) {
 bool is_watched(const Controller& controller) { return controller.size.nxi > 0; }
 bool remembers(const Controller& controller) { return controller.size.nxi > 0 || controller.has.last_input; }
 
+// Between the plant's own units and deviations: numbers of the operating point, where they are added or subtracted.
+long conversions_of(const Controller& controller) {
+  const controller::Point& point = controller.point;
+  const auto count = [](const Eigen::VectorXd& part) { return static_cast<long>((part.array() != 0).count()); };
+  const long inputs = (controller.has.filter ? 1 : 0) + (controller.has.regulator ? 1 : 0);
+  const long references = (controller.has.regulator ? 1 : 0) + (controller.size.nxi > 0 ? 1 : 0);
+  return count(point.y) + inputs * count(point.u) + references * count(point.r) +
+         (controller.has.filter ? 0 : count(point.x));
+}
+
+// What is converted before a function of the library is called.
+long bytes_of_deviations(const Controller& controller) {
+  const long numbers = (controller.point.y.size() > 0 ? controller.size.ny : 0) +
+                       (controller.point.r.size() > 0 ? controller.size.nr : 0) +
+                       (!controller.has.filter && controller.point.x.size() > 0 ? controller.size.nx : 0);
+  return aligned(bytes_of_real(controller) * numbers);
+}
+
 // The functions in the header.
 long calls_of(const Controller& controller) {
   const long covariance = carries_covariance(controller) ? 1 : 0, ny = controller.has.gate ? controller.size.ny : 0;
@@ -113,7 +131,8 @@ long calls_of(const Controller& controller) {
   if (controller.has.regulator)
     bytes += 16 + 36 * servo + 60 * laws + (controller.has.feedthrough ? 40 : 0) +
              (controller.has.filter ? 0 : 120 + 80 * servo);
-  return bytes + (controller.target.is_double ? 24 : 0);
+  constexpr long bytes_of_conversion = 18;
+  return bytes + (controller.target.is_double ? 24 : 0) + bytes_of_conversion * conversions_of(controller);
 }
 
 long flash_of_library(const Controller& controller) {
@@ -149,7 +168,7 @@ long stack_of_loops(const Controller& controller) {
   const long tables =
       (controller.keeps.gain_row ? 56 : 0) + (has_law_table(controller) ? (controller.has.servo ? 64 : 24) : 0);
   if (!controller.has.filter)
-    return law + tables + 24 +
+    return law + tables + 24 + bytes_of_deviations(controller) +
            aligned(bytes_of_real(controller) * static_cast<long>(controller.solution.plant.C.rows()));
   const FilterFigures& figures = figures_of(controller.filter);
   const long ny = controller.size.ny, covariance = carries_covariance(controller) ? 8 : 0,
@@ -158,9 +177,12 @@ long stack_of_loops(const Controller& controller) {
   const long update = work + (is_watched(controller) ? 76 : 40) + covariance + tables +
                       (controller.size.nxi ? aligned(real * ny) + aligned(ny) + 8 : 0) +
                       (controller.has.range ? aligned(real * ny) : 0);
-  const long predict = work + 16 + covariance + (remembers(controller) ? 8 : 0) + tables;
+  const long deviations = bytes_of_deviations(controller);
+  const long predict = (controller.point.u.size() > 0 ? aligned(real * controller.size.nu) : 0) + work + 16 +
+                       covariance + (remembers(controller) ? 8 : 0) + tables;
   const long whole = is_watched(controller) ? 0 : figures.whole - 8;
-  return std::max({law, update + whole + figures.update.of(controller), predict + figures.predict.of(controller)});
+  return std::max({law + deviations, update + deviations + whole + figures.update.of(controller),
+                   predict + figures.predict.of(controller)});
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ std::vector<Way> ways_of(const Controller& controller) {
   const design::Style asked = controller.problem.code.style;
   const bool is_steady = controller.filter == step::Filter::steady && controller.size.nx >= least_in_loops;
   std::vector<Way> ways;
-  if (controller.modal) return {{design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)}};
+  if (controller.modal || controller::is_extended(controller))
+    return {{design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)}};
   if (asked == design::Style::unrolled || (asked == design::Style::automatic && !controller.has.stages && !is_steady))
     ways.push_back({design::Style::unrolled, controller::Sharing::nothing, cost_of_unrolled(controller)});
   if (asked != design::Style::unrolled && is_steady && !controller.has.stages) ways = steady_ways(controller);

@@ -58,6 +58,7 @@ Realisation cheapest(const FormChoice& among) {
 std::string obstacle_of_modes(const Controller& controller) {
   if (controller.problem.code.style == design::Style::compact)
     return "the library's loops, style = \"compact\", are of x̂";
+  if (controller::is_extended(controller)) return "the states are those of plant.f";
   return design::no_modal_plant(controller.problem);
 }
 

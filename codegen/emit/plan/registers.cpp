@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include "trace/functions.hpp"
+
 namespace lqg::emit {
 
 namespace {
@@ -113,6 +115,8 @@ class Order {
   }
 
   void count(int i, bool is_one) {
+    constexpr long instructions_of_call = 3;
+    if (trace::is_function(node(i).op)) traffic_.operations += instructions_of_call;
     switch (node(i).op) {
       case Op::multiply_add:
       case Op::multiply_subtract: traffic_.operations += is_one ? 1 : 2, traffic_.fused += is_one; break;

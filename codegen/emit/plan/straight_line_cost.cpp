@@ -28,10 +28,14 @@ bool has_full_rows(const Listing& listing, const Traffic& count) {
   return listing.is_fused && weighs_only(count) && count.questions > 1 && 5 * count.operations > 9 * gains;
 }
 
+// Of what a sensor can say: two comparisons each, beside the two of a question and the one of the bounds.
+long ranges_of(const Traffic& count) { return std::max(0L, count.comparisons - 2 * count.questions - 1) / 2; }
+
 // Comparisons, branches, calls and what belongs to them besides.
 long control_flow_in_float(const Listing& listing, const Traffic& count) {
   if (listing.answers) return 36 * count.selections - 8 - (listing.is_alone ? 40 : 0);
-  if (listing.asks) return 20 + 66 * count.questions + 14 * std::max(0L, count.selections - count.questions);
+  if (listing.asks)
+    return 20 + 66 * count.questions + 14 * std::max(0L, count.selections - count.questions) + 36 * ranges_of(count);
   if (count.status_selections > 0)
     return (count.selections > 4   ? 80
             : count.selections > 3 ? 36

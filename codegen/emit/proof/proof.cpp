@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "controller/operating_point.hpp"
 #include "controller/state_fields.hpp"
 #include "emit/c/header.hpp"
 #include "emit/text/wording.hpp"
@@ -47,7 +48,8 @@ std::string words_of(const Controller& controller) {
   if (!fields.empty()) out += define("HAS_LOOP");
   for (const Field& field : fields) out += define("KEEPS_" + field.name);
   if (const auto& given = controller.problem.limits; given && given->u_min.size())
-    out += limits("U_MIN", given->u_min) + limits("U_MAX", given->u_max);
+    out += limits("U_MIN", controller::own_input_limits(controller, +1)) +
+           limits("U_MAX", controller::own_input_limits(controller, -1));
   return out + last_rows(controller);
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "controller/model_of.hpp"
+#include "controller/operating_point.hpp"
 #include "emit/recorded/symbols.hpp"
 #include "emit/text/wording.hpp"
 #include "step/state.hpp"
@@ -34,18 +35,23 @@ const char* word_of(Quantity quantity) {
     case Quantity::gate_narrow: return "GATE_NARROW";
     case Quantity::threshold: return "THRESHOLD";
     case Quantity::error_limit: return "ERROR_LIMIT";
+    case Quantity::point_x: return "OPERATING_X";
+    case Quantity::point_u: return "OPERATING_U";
+    case Quantity::point_y: return "OPERATING_Y";
     default: return "SAMPLE_TIME";
   }
 }
 
 bool is_of_input(Quantity quantity) {
-  return quantity == Quantity::u_min || quantity == Quantity::u_max || quantity == Quantity::u_step;
+  return quantity == Quantity::u_min || quantity == Quantity::u_max || quantity == Quantity::u_step ||
+         quantity == Quantity::point_u;
 }
 
-const design::Signal& signal_of(const Controller& controller, Quantity quantity, int i) {
+design::Signal signal_of(const Controller& controller, Quantity quantity, int i) {
   const design::Plant& plant = controller.problem.plant;
   const auto at = static_cast<std::size_t>(i);
   if (is_of_input(quantity)) return plant.inputs[at];
+  if (quantity == Quantity::point_x) return state_signals(controller)[at];
   return plant.outputs[quantity == Quantity::error_limit ? static_cast<std::size_t>(controller.integrated[at]) : at];
 }
 
@@ -57,11 +63,22 @@ std::vector<trace::Expr> possible_variances(const Controller& controller, const 
   return {trace::Expr::of(graph.input("S", "S")), model.V(i)};
 }
 
+std::map<std::string, double> values_named_in(const trace::Graph& graph) {
+  std::map<std::string, double> values;
+  for (const auto& [name, node] : graph.named_constants())
+    values[name] = graph.nodes()[static_cast<std::size_t>(node)].value;
+  return values;
+}
+
 // The names and values of all that is no power of two, as the code has them.
 std::map<std::string, double> values_of(const Controller& controller) {
-  if (controller.linear) return {};
+  if (controller.linear && !has_point(controller)) return {};
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
+  if (controller.linear) {
+    (void)symbolic_point(controller);
+    return values_named_in(*function.graph);
+  }
   const SymbolicModel model = symbolic_model(controller);
   for (int i = 0; i < controller.size.ny && controller.has.gate; ++i) {  // thresholds are made in the step
     TraceListener listener(controller, function);
@@ -72,10 +89,7 @@ std::map<std::string, double> values_of(const Controller& controller) {
     for (const trace::Expr& variance : possible_variances(controller, model, *function.graph, i))
       step::weigh(model, state, innovation, variance, [&] { return variance; }, i, listener);
   }
-  std::map<std::string, double> values;
-  for (const auto& [name, node] : function.graph->named_constants())
-    values[name] = function.graph->nodes()[static_cast<std::size_t>(node)].value;
-  return values;
+  return values_named_in(*function.graph);
 }
 
 bool is_of_name(char c) {
@@ -98,6 +112,22 @@ std::string limit(const std::string& key, double given, double value) {
   return given == value || std::isinf(given) ? text : text + ", rounded inwards";
 }
 
+// Likewise, where the code has it as a deviation from the operating point.
+std::string limit(const Controller& controller, const std::string& key, const Eigen::VectorXd& given, Quantity of_point,
+                  const Eigen::VectorXd& point, int i, double value) {
+  if (point.size() == 0 || point(i) == 0 || std::isinf(given(i))) return limit(key, given(i), value);
+  return key + " = " + trace::literal(given(i), true) + " less " + constant_name(controller, of_point, i);
+}
+
+std::string point_key(const char* list, int i) {
+  return std::string("plant.operating_point.") + list + "[" + std::to_string(i) + "]";
+}
+
+// Of states that are not the plant's, too.
+std::string origin_of_state(const Controller& controller, int i) {
+  return i < controller.problem.plant.A.rows() ? point_key("states", i) : "plant.operating_point";
+}
+
 std::string threshold(const Controller& controller, int i) {
   const double limit = controller.bounds.innovation(i);
   return "min(" + decimal(controller.gate.sigma) + (controller.solution.online ? "² V, " : "² S, ") +
@@ -108,13 +138,24 @@ std::string origin(const Controller& controller, Quantity quantity, int i, doubl
   const auto& limits = controller.problem.limits;
   const auto& estimator = controller.problem.estimator;
   switch (quantity) {
-    case Quantity::u_min: return limit("limits.u_min", limits->u_min(i), value);
-    case Quantity::u_max: return limit("limits.u_max", limits->u_max(i), value);
+    case Quantity::u_min:
+      return limit(controller, "limits.u_min", controller::own_input_limits(controller, +1), Quantity::point_u,
+                   controller.point.u, i, value);
+    case Quantity::u_max:
+      return limit(controller, "limits.u_max", controller::own_input_limits(controller, -1), Quantity::point_u,
+                   controller.point.u, i, value);
     case Quantity::u_step:
       if (std::isinf(limits->u_rate(i))) return "no limit: the largest number";
       return "limits.u_rate = " + trace::literal(limits->u_rate(i), true) + " times sample_time, rounded down";
-    case Quantity::y_min: return limit("kalman.output_min", estimator->output_min(i), value);
-    case Quantity::y_max: return limit("kalman.output_max", estimator->output_max(i), value);
+    case Quantity::y_min:
+      return limit(controller, "kalman.output_min", controller::own_output_range(controller, +1), Quantity::point_y,
+                   controller.point.y, i, value);
+    case Quantity::y_max:
+      return limit(controller, "kalman.output_max", controller::own_output_range(controller, -1), Quantity::point_y,
+                   controller.point.y, i, value);
+    case Quantity::point_x: return origin_of_state(controller, i);
+    case Quantity::point_u: return point_key("inputs", i);
+    case Quantity::point_y: return point_key("outputs", i);
     case Quantity::innovation_limit: return power(value) + ": |innovation| is below it, or rejected";
     case Quantity::innovation_limit_squared: return power(value) + ": the innovation limit squared";
     case Quantity::innovation_variance: return "S = C P Cᵀ + V, steady";
@@ -132,7 +173,7 @@ std::string origin(const Controller& controller, Quantity quantity, int i, doubl
 // A square of the signal's unit for variances and thresholds, none for factors.
 std::string unit_of(const Controller& controller, Quantity quantity, int i) {
   if (i < 0 || quantity == Quantity::gate_widen || quantity == Quantity::gate_narrow) return "";
-  const std::string& unit = signal_of(controller, quantity, i).unit;
+  const std::string unit = signal_of(controller, quantity, i).unit;
   const bool is_squared = quantity == Quantity::innovation_limit_squared || quantity == Quantity::threshold ||
                           quantity == Quantity::innovation_variance;
   if (unit.empty()) return "";
@@ -200,6 +241,9 @@ std::vector<Constant> constants_of(const Controller& controller, const std::stri
   for (int i = 0; i < controller.size.ny; ++i)
     for (const Quantity quantity : {Quantity::y_min, Quantity::y_max}) add(quantity, i);
   for (int i = 0; i < controller.size.nxi; ++i) add(Quantity::error_limit, i);
+  for (int i = 0; i < controller.size.nx; ++i) add(Quantity::point_x, i);
+  for (int i = 0; i < controller.size.nu; ++i) add(Quantity::point_u, i);
+  for (int i = 0; i < controller.problem.plant.C.rows(); ++i) add(Quantity::point_y, i);
   add(Quantity::gate, -1);
   add(Quantity::gate_squared, -1);
   add(Quantity::innovation_limit, -1);

@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "controller/linear_model_of.hpp"
-#include "emit/recorded/trace_listener.hpp"
+#include "emit/recorded/symbols.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::emit {
 
@@ -24,9 +25,10 @@ template <class Step>
 TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
   TracedFunction function = new_function(controller);
   const trace::Recording recording(*function.graph);
-  const Model model = controller::linear_model_of<Expr>(controller, [&](const design::Real& value) {
+  Model model = controller::linear_model_of<Expr>(controller, [&](const design::Real& value) {
     return Expr(rounded_to_target(value, controller.target.is_double));
   });
+  model.point = symbolic_point(controller);
   State state{load(controller, "self->z", "z", controller.size.nz, at_entry),
               load(controller, "self->y", "y", hears ? controller.size.ny : 0, at_output)};
   TraceListener listener(controller, function);
@@ -37,14 +39,17 @@ TracedFunction trace_step(const Controller& controller, bool hears, Step step) {
 // In filter form control keeps y for advance.
 bool keeps_outputs(const Controller& controller) { return !controller.is_predictor; }
 
-Symbols load_outputs(const Controller& controller) { return load(controller, "y", "y", controller.size.ny, at_output); }
+// y of the caller as a deviation from the operating point.
+Symbols load_outputs(const Controller& controller, const Model& model, TraceListener& listener) {
+  return step::output_deviations(model.point, load(controller, "y", "y", controller.size.ny, at_output), listener);
+}
 
 TracedFunction trace_control(const Controller& controller) {
   const auto step = [&](Function& into, const Model& model, State& state, TraceListener& listener) {
-    const Symbols y = controller.is_predictor ? Symbols() : load_outputs(controller);
+    const Symbols y = controller.is_predictor ? Symbols() : load_outputs(controller, model, listener);
     Symbols u;
     into.finite = step::control_expected(model, state, y, u, listener).node;
-    store_all(into, "u", u);
+    store_all(into, "u", step::own_input(model.point, u, listener));
     store_all(into, "self->y", state.y);
   };
   TracedFunction function = trace_step(controller, false, step);
@@ -57,14 +62,16 @@ TracedFunction trace_control_fault(const Controller& controller) {
                     [](Function& into, const Model& model, State& state, TraceListener& listener) {
                       const Symbols u = step::control(model, state, state.y, listener);
                       store_all(into, "self->y", state.y);
-                      store_all(into, "u", u);
+                      store_all(into, "u", step::own_input(model.point, u, listener));
                     });
 }
 
 TracedFunction trace_advance(const Controller& controller) {
   return trace_step(controller, keeps_outputs(controller),
                     [&](Function& into, const Model& model, State& state, TraceListener& listener) {
-                      const Symbols y = controller.is_predictor ? load_outputs(controller) : state.y;
+                      // NAME_move is called with deviations.
+                      const Symbols y =
+                          controller.is_predictor ? load(controller, "y", "y", controller.size.ny, at_output) : state.y;
                       into.finite = step::advance(model, state, y, listener).node;
                       store_all(into, "self->z", state.z);
                     });
@@ -75,8 +82,9 @@ TracedFunction trace_linear_sample(const Controller& controller) {
   TracedFunction function =
       trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
         Symbols u;
-        into.finite = step::sample_expected(model, state, load_outputs(controller), u, listener).node;
-        store_all(into, "u", u);
+        const Symbols y = load_outputs(controller, model, listener);
+        into.finite = step::sample_expected(model, state, y, u, listener).node;
+        store_all(into, "u", step::own_input(model.point, u, listener));
         store_all(into, "self->y", state.y);
         std::vector<trace::Store> stores = std::move(into.stores);
         into.stores.clear();
@@ -90,7 +98,8 @@ TracedFunction trace_linear_sample(const Controller& controller) {
 
 TracedFunction trace_hear(const Controller& controller) {
   return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
-    store_all(into, "heard", step::heard_outputs(model, state, load_outputs(controller), listener));
+    const Symbols y = load_outputs(controller, model, listener);
+    store_all(into, "heard", step::heard_outputs(model, state, y, listener));
   });
 }
 
@@ -98,13 +107,15 @@ TracedFunction trace_estimate(const Controller& controller) {
   return trace_step(controller, keeps_outputs(controller),
                     [](Function& into, const Model& model, State& state, TraceListener& listener) {
                       into.is_void = true;
-                      store_all(into, "x", step::estimate(model, state, listener));
+                      const Symbols x = step::estimate(model, state, listener);
+                      store_all(into, "x", step::own_state(model.point, x, listener));
                     });
 }
 
 TracedFunction trace_set_z(const Controller& controller) {
   return trace_step(controller, false, [&](Function& into, const Model& model, State& state, TraceListener& listener) {
-    const Symbols x = load(controller, "x", "x", controller.size.nx, at_state);
+    const Symbols x =
+        step::state_deviations(model.point, load(controller, "x", "x", controller.size.nx, at_state), listener);
     into.finite = step::set_state(model, state, x, listener).node;
     store_all(into, "self->z", state.z);
   });

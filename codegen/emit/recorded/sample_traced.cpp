@@ -3,6 +3,7 @@
 #include "controller/bounds.hpp"
 #include "emit/recorded/symbols.hpp"
 #include "step/loop.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::emit {
 
@@ -22,7 +23,7 @@ class Sample {
     const trace::Recording recording(*function_.graph);
     Model model = symbolic_model(controller_);
     State state = load_state(controller_, model, pattern_);
-    const Symbols y = load(controller_, "y", "y", model.ny, at_output);
+    const Symbols y = step::output_deviations(model.point, load(controller_, "y", "y", model.ny, at_output), listener_);
     const bool acts = controller_.has.regulator;
     Symbols u;
     if (acts && controller_.is_predictor) u = control(model, state);
@@ -36,6 +37,7 @@ class Sample {
       u = control(model, state);
     }
     if (!acts) u = load(controller_, "u", "u", model.nu, at_input);
+    u = step::input_deviations(model.point, u, listener_);
     function_.finite = step::predict(model, state, u, listener_).node;
     function_.checks_covariance = !pattern_.empty();
     store_state(controller_, function_, state, pattern_);
@@ -44,7 +46,7 @@ class Sample {
 
  private:
   Symbols control(const Model& model, State& state) {
-    const Symbols u = step::control(model, state, listener_);
+    const Symbols u = step::own_input(model.point, step::control(model, state, listener_), listener_);
     for (int i = 0; i < model.nu; ++i) store(function_, element("u", i), u(i));
     return u;
   }

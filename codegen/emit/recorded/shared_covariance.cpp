@@ -5,6 +5,7 @@
 
 #include "emit/recorded/symbols.hpp"
 #include "step/loop.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::emit {
 
@@ -40,7 +41,7 @@ Symbols load_covariance(const Controller& controller, int nx) { return load(cont
 
 bool can_share_covariance(const Controller& controller) {
   return controller.filter == step::Filter::plain && !controller.has.stages && !controller.keeps.innovation &&
-         controller.solution.online->E.isIdentity(0);
+         controller.solution.online->E.isIdentity(0) && !controller::is_extended(controller);
 }
 
 std::vector<std::pair<int, int>> blocks_of_rows(const Controller& controller) {
@@ -101,7 +102,9 @@ TracedFunction trace_use(const Controller& controller, int output) {
   return trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener,
                                     TracedFunction& function) {
     const std::string parameter = "y_" + controller.problem.plant.outputs[static_cast<std::size_t>(output)].name;
-    const Expr y = step::in_range_or_nan(model, Expr::of(trace::graph().input(parameter, parameter)), output, listener);
+    const Expr given =
+        step::output_deviation(model.point, Expr::of(trace::graph().input(parameter, parameter)), output, listener);
+    const Expr y = step::in_range_or_nan(model, given, output, listener);
     const bool is_there = is_projected(controller, output) || is_column(controller, output);
     const Symbols f =
         is_there ? load_covariance(controller, model.nx) : step::covariance_with_output(model, state, output, listener);
@@ -159,8 +162,8 @@ TracedFunction trace_rows(const Controller& controller, int first, int end) {
 TracedFunction trace_end_of_predict(const Controller& controller) {
   return trace_part(controller, [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener,
                                     TracedFunction& function) {
-    function.finite =
-        step::predict_plain_state(model, state, load(controller, "u", "u", model.nu, at_input), listener).node;
+    const Symbols u = step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
+    function.finite = step::predict_plain_state(model, state, u, listener).node;
     function.checks_covariance = true;
     store_rest(controller, function, state);
   });

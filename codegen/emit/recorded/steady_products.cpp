@@ -6,6 +6,7 @@
 #include "controller/gains.hpp"
 #include "emit/recorded/symbols.hpp"
 #include "step/loop.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::emit {
 
@@ -96,7 +97,9 @@ TracedFunction trace_innovate(const Controller& controller, const SteadyProducts
       [&](const SymbolicModel& model, SymbolicState& state, TraceListener& listener, TracedFunction& function) {
         const bool is_begun = is_in_loop(products.C), has_range = model.y_min.size() > 0;
         const Symbols begun = load(controller, "innovation", "begun", is_begun ? model.ny : 0, at_output);
-        const Symbols y = step::in_range_or_nan(model, load(controller, "y", "y", model.ny, at_output), listener);
+        const Symbols given =
+            step::output_deviations(model.point, load(controller, "y", "y", model.ny, at_output), listener);
+        const Symbols y = step::in_range_or_nan(model, given, listener);
         Symbols innovation(model.ny);
         std::vector<trace::Condition> used;
         for (int i = 0; i < model.ny; ++i) {
@@ -129,7 +132,7 @@ TracedFunction trace_law(const Controller& controller, const SteadyProducts& pro
       controller, products,
       [&](SymbolicModel model, SymbolicState& state, TraceListener& listener, TracedFunction& function) {
         if (is_in_loop(products.K)) model.law_begun = load(controller, "sums", "begun", model.nu, at_input);
-        const Symbols u = step::control(model, state, listener);
+        const Symbols u = step::own_input(model.point, step::control(model, state, listener), listener);
         for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
         store_state(controller, function, state, {});
       });
@@ -140,7 +143,7 @@ TracedFunction trace_steady_predict(const Controller& controller, const SteadyPr
       controller, products,
       [&](SymbolicModel model, SymbolicState& state, TraceListener& listener, TracedFunction& function) {
         if (is_in_loop(products.A)) model.prediction_begun = load(controller, "sums", "begun", model.nx, at_state);
-        const Symbols u = load(controller, "u", "u", model.nu, at_input);
+        const Symbols u = step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
         function.finite = step::predict(model, state, u, listener).node;
         store_state(controller, function, state, {});
       });

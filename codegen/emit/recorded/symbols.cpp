@@ -5,6 +5,7 @@
 #include "controller/model_of_outputs.hpp"
 #include "design/numeric/linear_algebra.hpp"
 #include "emit/text/wording.hpp"
+#include "step/operating_point.hpp"
 
 namespace lqg::emit {
 
@@ -83,9 +84,31 @@ void name_constants(const Controller& controller, SymbolicModel& model) {
   name_factors(model.gate_narrow, controller.gate.narrow, step::Quantity::gate_narrow);
   if (controller.has.gate) model.gate = named(controller, model.gate, step::Quantity::gate);
   model.T = named(controller, model.T, step::Quantity::sample_time);
+  model.point = symbolic_point(controller);
 }
 
 }  // namespace
+
+bool has_point(const Controller& controller) {
+  const controller::Point& point = controller.point;
+  return point.x.size() + point.u.size() + point.y.size() + point.r.size() > 0;
+}
+
+step::OperatingPoint<Expr> symbolic_point(const Controller& controller) {
+  step::OperatingPoint<Expr> point = controller::convert_point<Expr>(controller.point);
+  const auto name = [&](step::Vector<Expr>& values, step::Quantity quantity) {
+    for (int i = 0; i < values.size(); ++i)
+      if (!step::is_at_zero(values, i)) values(i) = named(controller, values(i), quantity, i);
+  };
+  name(point.x, step::Quantity::point_x);
+  name(point.u, step::Quantity::point_u);
+  name(point.y, step::Quantity::point_y);
+  for (int i = 0; i < point.r.size(); ++i)
+    if (!step::is_at_zero(point.r, i))
+      point.r(i) =
+          named(controller, point.r(i), step::Quantity::point_y, controller.references[static_cast<std::size_t>(i)]);
+  return point;
+}
 
 SymbolicModel symbolic_model(const Controller& controller) {
   const bool is_double = controller.target.is_double;

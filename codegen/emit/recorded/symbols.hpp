@@ -9,6 +9,12 @@ namespace lqg::emit {
 using SymbolicModel = step::Model<trace::Expr>;
 using SymbolicState = step::State<trace::Expr>;
 
+// Something of the operating point is not 0.
+bool has_point(const Controller& controller);
+
+// The operating point in the graph in force, its numbers with names.
+step::OperatingPoint<trace::Expr> symbolic_point(const Controller& controller);
+
 // In the graph in force. Gains that change from sample to sample are inputs, the rest are numbers.
 SymbolicModel symbolic_model(const Controller& controller);
 

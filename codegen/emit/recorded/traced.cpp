@@ -7,6 +7,7 @@
 #include "step/covariance.hpp"
 #include "step/innovation.hpp"
 #include "step/loop.hpp"
+#include "step/operating_point.hpp"
 #include "step/partial_update.hpp"
 
 namespace lqg::emit {
@@ -16,6 +17,14 @@ namespace {
 using trace::Expr;
 using Model = SymbolicModel;
 using State = SymbolicState;
+
+// y, u and x that are handed over, as deviations from the operating point.
+Symbols load_outputs(const Controller& controller, const Model& model, const char* array, TraceListener& listener) {
+  return step::output_deviations(model.point, load(controller, array, "y", model.ny, at_output), listener);
+}
+Symbols load_input(const Controller& controller, const Model& model, TraceListener& listener) {
+  return step::input_deviations(model.point, load(controller, "u", "u", model.nu, at_input), listener);
+}
 
 // Runs `step(model, state, listener)` on a fresh graph; what it returns is the condition that the state is finite.
 template <class Step>
@@ -33,7 +42,7 @@ TracedFunction trace_step(const Controller& controller, const std::vector<bool>&
 
 TracedFunction trace_update(const Controller& controller, const std::vector<bool>& pattern) {
   return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
-    return step::update(model, state, load(controller, "y", "y", model.ny, at_output), listener);
+    return step::update(model, state, load_outputs(controller, model, "y", listener), listener);
   });
 }
 
@@ -54,13 +63,14 @@ Expr load_output(const Controller& controller, int output) {
 
 TracedFunction trace_update_alone(const Controller& controller, const std::vector<bool>& pattern, int output) {
   return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
-    return step::update_alone(model, state, load_output(controller, output), output, listener);
+    const Expr y = step::output_deviation(model.point, load_output(controller, output), output, listener);
+    return step::update_alone(model, state, y, output, listener);
   });
 }
 
 TracedFunction trace_predict(const Controller& controller, const std::vector<bool>& pattern) {
   return trace_step(controller, pattern, [&](const Model& model, State& state, TraceListener& listener) {
-    return step::predict(model, state, load(controller, "u", "u", model.nu, at_input), listener);
+    return step::predict(model, state, load_input(controller, model, listener), listener);
   });
 }
 
@@ -72,6 +82,9 @@ TracedFunction trace_regulator(const Controller& controller) {
   const Model model = symbolic_model(controller);
   State state = load_state(controller, model, {});
   TraceListener listener(controller, function);
+  // The law within limits that are foreseen is called with deviations, and what it gives is one.
+  const bool converts = !controller.has.foresight;
+  if (!controller.has.filter && converts) state.x = step::state_deviations(model.point, state.x, listener);
   Symbols u;
   if (controller.has.foresight)
     u = step::clipped_law(model, state, step::reference(model, state, listener), listener);
@@ -79,6 +92,7 @@ TracedFunction trace_regulator(const Controller& controller) {
     u = step::control(model, state, listener);
   else
     function.finite = step::act(model, state, u, listener).node;
+  if (converts) u = step::own_input(model.point, u, listener);
   for (int i = 0; i < model.nu; ++i) store(function, element("u", i), u(i));
   state.x.resize(0);  // it is only read
   if (!controller.has.foresight) store_state(controller, function, state, {});
@@ -144,11 +158,10 @@ TracedFunction trace_innovation(const Controller& controller) {
   TracedFunction function = new_function(controller);
   function.is_void = true;
   const trace::Recording recording(*function.graph);
-  const Model model = model_of_outputs(controller);
+  Model model = model_of_outputs(controller);
   const State state = load_state(controller, model, covariance_pattern(controller));
   TraceListener listener(controller, function);
-  const Symbols innovations =
-      step::innovations(model, state, load(controller, "y", "y", model.ny, at_output), listener);
+  const Symbols innovations = step::innovations(model, state, load_outputs(controller, model, "y", listener), listener);
   for (int i = 0; i < model.ny; ++i) store(function, element("innovation", i), innovations(i));
   if (!controller.has.variance) return function;
   for (int i = 0; i < model.ny; ++i) {
@@ -165,27 +178,29 @@ TracedFunction trace_set_state(const Controller& controller) {
   State state;  // without an x̂: it is not read
   load_memory(controller, model, state);
   TraceListener listener(controller, function);
-  function.finite = step::set_state(model, state, load_state_by_hand(controller), listener).node;
+  const Symbols x = step::state_deviations(model.point, load_state_by_hand(controller), listener);
+  function.finite = step::set_state(model, state, x, listener).node;
   store_state(controller, function, state, {});
   return function;
 }
 
 TracedFunction trace_set_input(const Controller& controller) {
   return trace_step(controller, {}, [&](const Model& model, State& state, TraceListener& listener) {
-    const trace::Condition within =
-        step::set_input(model, state, load(controller, "u", "u", model.nu, at_input), listener);
+    if (!controller.has.filter) state.x = step::state_deviations(model.point, state.x, listener);
+    const trace::Condition within = step::set_input(model, state, load_input(controller, model, listener), listener);
     if (!controller.has.filter) state.x.resize(0);  // it is only read
     return within;
   });
 }
 
-TracedFunction trace_estimate_of_modes(const Controller& controller) {
+TracedFunction trace_estimate_in_own_units(const Controller& controller) {
   TracedFunction function = new_function(controller);
   function.is_void = true;
   const trace::Recording recording(*function.graph);
   const Model model = symbolic_model(controller);
   TraceListener listener(controller, function);
-  const Symbols x = step::estimate(model, load_state(controller, model, {}), listener);
+  const Symbols x =
+      step::own_state(model.point, step::estimate(model, load_state(controller, model, {}), listener), listener);
   for (int i = 0; i < model.nx; ++i) store(function, element("x", i), x(i));
   return function;
 }
@@ -215,8 +230,9 @@ TracedFunction trace_observation(const Controller& controller, int output) {
   const Model model = symbolic_model(controller);
   State state = load_state(controller, model, {});
   TraceListener listener(controller, function);
-  step::observe_alone(model, state, Expr::of(trace::graph().input("heard", "heard")), trace::is_less(Expr(0), Expr(1)),
-                      output, listener);
+  const Expr y =
+      step::output_deviation(model.point, Expr::of(trace::graph().input("heard", "heard")), output, listener);
+  step::observe_alone(model, state, y, trace::is_less(Expr(0), Expr(1)), output, listener);
   store_state(controller, function, state, {});
   return function;
 }
@@ -228,7 +244,7 @@ TracedFunction trace_lost_outputs(const Controller& controller) {
   TraceListener listener(controller, function);
   for (const trace::Condition& lost :
        step::lost_outputs(model, load(controller, "innovation", "innovation", model.ny, at_output),
-                          load(controller, "there", "y", model.ny, at_output), listener))
+                          load_outputs(controller, model, "there", listener), listener))
     function.lost.push_back(lost.node);
   return function;
 }

@@ -76,8 +76,8 @@ TracedFunction trace_innovation(const Controller& controller);
 TracedFunction trace_set_state(const Controller& controller);
 TracedFunction trace_set_input(const Controller& controller);
 
-// x[] of self->z.
-TracedFunction trace_estimate_of_modes(const Controller& controller);
+// x[] of self->z, or of self->x about the operating point.
+TracedFunction trace_estimate_in_own_units(const Controller& controller);
 
 // P[] of x̂: of U and d, or of what the filter keeps of z.
 TracedFunction trace_covariance(const Controller& controller);

@@ -2,6 +2,7 @@
 // What limits that are foreseen are worth: one start with both laws, and the sum of many.
 #include <cmath>
 
+#include "controller/operating_point.hpp"
 #include "emit/report/sections.hpp"
 #include "emit/text/wording.hpp"
 
@@ -47,6 +48,21 @@ void add_guides(double low, double high, const char* words, Chart& out) {
     if (std::isfinite(at)) out.guides.push_back({Guide::Axis::y, at, words});
 }
 
+// Of deviations of signal i.
+Quantity in_own_units(Quantity of, const Eigen::VectorXd& point, Eigen::Index i) {
+  if (point.size() == 0) return of;
+  of.clipped.array() += point(i), of.optimal.array() += point(i);
+  return of;
+}
+
+design::Limits own_limits(const Controller& controller) {
+  design::Limits limits = *controller.problem.limits;
+  limits.u_min = controller::own_input_limits(controller, +1),
+  limits.u_max = controller::own_input_limits(controller, -1);
+  limits.states = controller::own_state_limits(controller), limits.outputs = controller::own_output_limits(controller);
+  return limits;
+}
+
 // From one sample to the next, a second; of the first from `before`.
 Eigen::RowVectorXd rate_of(const Eigen::RowVectorXd& values, double before, double T) {
   Eigen::RowVectorXd out = values;
@@ -73,7 +89,8 @@ bool is_limited(const design::SoftLimits& limits, Eigen::Index i) {
 class RunCharts {
  public:
   explicit RunCharts(const Controller& controller)
-      : plant_(controller.problem.plant), limits_(*controller.problem.limits), run_(controller.worth->shown) {
+      : plant_(controller.problem.plant), point_(controller::stated_point(controller)), limits_(own_limits(controller)),
+        run_(controller.worth->shown) {
     add_inputs();
     add_states();
     add_outputs(in_double(controller.solution.plant.C), in_double(controller.solution.plant.D));
@@ -96,7 +113,7 @@ class RunCharts {
     for (Eigen::Index i = 0; i < run_.clipped_u.rows(); ++i) {
       const Quantity u = {plant_.inputs[static_cast<std::size_t>(i)], "u" + std::to_string(i), Mark::steps,
                           run_.clipped_u.row(i), run_.optimal_u.row(i)};
-      add(u, limits_.u_min(i), limits_.u_max(i), "limit");
+      add(in_own_units(u, point_.u, i), limits_.u_min(i), limits_.u_max(i), "limit");
       if (limits_.u_rate.size() && std::isfinite(limits_.u_rate(i)))
         add(rate_of(u, true, plant_.sample_time), -limits_.u_rate(i), limits_.u_rate(i), "limit");
     }
@@ -105,9 +122,9 @@ class RunCharts {
   void add_states() {
     for (std::size_t i = 0; i < plant_.states.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      add_soft(
-          {plant_.states[i], "x" + std::to_string(i), Mark::line, run_.clipped_x.row(row), run_.optimal_x.row(row)},
-          limits_.states, row);
+      const Quantity x = {plant_.states[i], "x" + std::to_string(i), Mark::line, run_.clipped_x.row(row),
+                          run_.optimal_x.row(row)};
+      add_soft(in_own_units(x, point_.x, row), limits_.states, row);
     }
   }
 
@@ -119,14 +136,15 @@ class RunCharts {
       };
       const Quantity output = {plant_.outputs[i], "y" + std::to_string(i), Mark::line,
                                y(run_.clipped_x, run_.clipped_u), y(run_.optimal_x, run_.optimal_u)};
-      if (is_limited(limits_.outputs, row)) add_soft(output, limits_.outputs, row);
+      if (is_limited(limits_.outputs, row)) add_soft(in_own_units(output, point_.y, row), limits_.outputs, row);
       if (is_limited(limits_.output_rates, row))
         add_soft(rate_of(output, false, plant_.sample_time), limits_.output_rates, row);
     }
   }
 
   const design::Plant& plant_;
-  const design::Limits& limits_;
+  const controller::Point point_;
+  const design::Limits limits_;
   const controller::WorthOfRun& run_;
 };
 

@@ -42,6 +42,26 @@ Json names(const std::vector<design::Signal>& signals) {
   return out;
 }
 
+Json rows_of_doubles(const Eigen::MatrixXd& matrix) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const Eigen::VectorXd row = matrix.row(i);
+    out.push_back(numbers(row));
+  }
+  return out;
+}
+
+// The equations as they are written, and their linearisation before it is sampled.
+void add_equations(const design::Plant& plant, Json& out) {
+  out["f"] = plant.equations->f_text;
+  out["h"] = plant.equations->h_text;
+  if (plant.domain != design::Domain::continuous || !plant.operating_point) return;
+  out["continuous"] = {{"A", rows_of_doubles(plant.A)},
+                       {"B", rows_of_doubles(plant.B)},
+                       {"C", rows_of_doubles(plant.C)},
+                       {"D", rows_of_doubles(plant.D)}};
+}
+
 Json plant(const Controller& controller) {
   const design::SampledPlant& sampled = controller.solution.plant;
   const design::Plant& stated = controller.problem.plant;
@@ -55,10 +75,33 @@ Json plant(const Controller& controller) {
               {"states", names(stated.states)},
               {"inputs", names(stated.inputs)},
               {"outputs", names(stated.outputs)}};
+  if (stated.equations) add_equations(stated, out);
   if (!design::has_added_states(controller.problem)) return out;
   const std::vector<design::Signal> all = state_signals(controller);
   const auto first = all.begin() + stated.A.rows();
   out["added_states"] = names({first, first + design::added_states(controller.problem)});
+  return out;
+}
+
+Json operating_point(const design::OperatingPoint& point) {
+  return {{"states", numbers(point.x)}, {"inputs", numbers(point.u)}, {"outputs", numbers(point.y)}};
+}
+
+Json parameters(const std::vector<design::Parameter>& all) {
+  Json out = Json::object();
+  for (const design::Parameter& parameter : all) {
+    Json& one = out[parameter.name] = {{"value", parameter.value}};
+    if (!parameter.unit.empty()) one["unit"] = parameter.unit;
+    if (!parameter.formula.empty()) one["expression"] = parameter.formula;
+    if (parameter.is_set) one["is_set"] = true;
+  }
+  return out;
+}
+
+Json expressions(const std::vector<design::Formula>& all) {
+  Json out = Json::object();
+  for (const design::Formula& formula : all)
+    out[formula.key] = {{"value", formula.value}, {"expression", formula.text}};
   return out;
 }
 
@@ -167,9 +210,22 @@ Json observer(const Controller& controller) {
           {"D", rows(design::beside(design::zeros(nx, nu), told))}};
 }
 
+// Over the equations of the plant.
+Json extended(const Controller& controller) {
+  const design::Plant& plant = controller.problem.plant;
+  const design::Extended& filter = *controller.problem.estimator->extended;
+  Json wraps = Json::array();
+  for (const int output : filter.wraps) wraps.push_back(plant.outputs[static_cast<std::size_t>(output)].name);
+  Json out = {{"wraps", wraps}};
+  if (plant.domain == design::Domain::continuous)
+    out["integrator"] = filter.integrator == design::Integrator::euler ? "euler" : "rk4";
+  return out;
+}
+
 // A filter that never becomes steady has its form alone.
 Json kalman(const Controller& controller) {
   Json out = {{"form", controller.is_predictor ? "predictor" : "filter"}};
+  if (controller::is_extended(controller)) out["extended"] = extended(controller);
   if (!controller.solution.estimator || controller.solution.compensator) return out;
   const design::EstimatorSolution& estimator = *controller.solution.estimator;
   out["L"] = rows(estimator.L);
@@ -355,6 +411,9 @@ std::string json(const Controller& controller) {
               {"lqgen", version()},
               {"design_file", {{"name", controller.source.file}, {"sha256", controller.source.sha256}}},
               {"plant", plant(controller)}};
+  if (const auto& point = controller.problem.plant.operating_point) out["operating_point"] = operating_point(*point);
+  if (!controller.problem.parameters.empty()) out["parameters"] = parameters(controller.problem.parameters);
+  if (!controller.problem.formulas.empty()) out["expressions"] = expressions(controller.problem.formulas);
   if (solution.estimator && solution.estimator->noise.V.size() > 0)
     out["noise"] = noise(solution.estimator->noise);
   else if (solution.noise)
@@ -377,7 +436,7 @@ std::string json(const Controller& controller) {
   out["loop"] = loop(solution.loop, controller.problem.plant.sample_time);
   out["numerics"] = {{"digits", solution.numerics.digits}, {"condition", solution.numerics.condition}};
   if (!controller.bounds.x.empty()) out["numerics"]["bounds"] = bounds(controller);
-  if (controller.has.filter) out["recovery"] = recovery(controller.recovery);
+  if (controller.has.filter && !controller::is_extended(controller)) out["recovery"] = recovery(controller.recovery);
   out["code"] = code(controller);
   return out.dump(2) + "\n";
 }

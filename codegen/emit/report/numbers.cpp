@@ -125,6 +125,20 @@ class Matrices {
   std::vector<PageMatrix> all_;
 };
 
+// Empty without one.
+std::vector<PageTable> point_tables(const Controller& controller) {
+  const auto& point = controller.problem.plant.operating_point;
+  if (!point) return {};
+  PageTable table = {"Operating point, from which x, u and y of the matrices are deviations", {"", "at"}, {}};
+  const design::Plant& plant = controller.problem.plant;
+  for (const auto& [signals, values] :
+       {std::pair(&plant.states, &point->x), {&plant.inputs, &point->u}, {&plant.outputs, &point->y}})
+    for (std::size_t i = 0; i < signals->size(); ++i)
+      table.rows.push_back(
+          {name_with_unit((*signals)[i]), number(design::Real((*values)(static_cast<Eigen::Index>(i))), true)});
+  return {table};
+}
+
 }  // namespace
 
 PageSection number_section(const Controller& controller) {
@@ -139,6 +153,7 @@ PageSection number_section(const Controller& controller) {
     if (controller.solution.estimator) matrices.add_estimator(*controller.solution.estimator);
   }
   PageView view;
+  view.tables = point_tables(controller);
   view.matrices = matrices.all();
   return {"numbers", "Numbers", {view}};
 }

@@ -25,10 +25,11 @@ PageData page_data(const Controller& controller, const design::Findings& finding
   PageData page;
   add_head(controller, findings, page);
   const Runs runs = runs_to_show(controller);
-  for (PageSection& section : std::vector<PageSection>{
-           at_work(controller, runs), foresight_section(controller), far_from_trouble(controller),
-           recovery_section(controller), order_section(controller), pole_section(controller),
-           estimator_section(controller, runs), target_section(controller), number_section(controller)})
+  for (PageSection& section :
+       std::vector<PageSection>{at_work(controller, runs), foresight_section(controller), far_from_trouble(controller),
+                                recovery_section(controller), order_section(controller), pole_section(controller),
+                                estimator_section(controller, runs), target_section(controller),
+                                parameter_section(controller), number_section(controller)})
     if (!section.views.empty()) page.sections.push_back(std::move(section));
   page.footer = drawn_by();
   shorten(page);

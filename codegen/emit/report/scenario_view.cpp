@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/operating_point.hpp"
 #include "emit/report/sections.hpp"
 #include "emit/text/wording.hpp"
 #include "simulate/courses.hpp"
@@ -104,7 +105,7 @@ class ScenarioCharts {
       if (run_.left_out(row, k))
         out.events.push_back({run_.times(k), is_gated(run_, k, static_cast<int>(i)) ? "gated" : "left out"});
     add_sensor_limits(i, out);
-    if (controller_.has.foresight) add_soft_limits(controller_.problem.limits->outputs, row, out);
+    if (controller_.has.foresight) add_soft_limits(controller::own_output_limits(controller_), row, out);
     // An outlier does not make the rest small.
     if (!scenario_.outlier.empty()) look_at_truth(out);
     return out;
@@ -115,8 +116,8 @@ class ScenarioCharts {
       if (std::isfinite(at)) out.guides.push_back({Guide::Axis::y, at, "limit of the sensor"});
     };
     if (const auto& estimator = controller_.problem.estimator; estimator && estimator->output_min.size() > 0) {
-      add(estimator->output_min(static_cast<Index>(i)));
-      add(estimator->output_max(static_cast<Index>(i)));
+      add(controller::own_output_range(controller_, +1)(static_cast<Index>(i)));
+      add(controller::own_output_range(controller_, -1)(static_cast<Index>(i)));
     }
     for (const design::Sensor& sensor : scenario_.sensor)
       if (sensor.output == static_cast<int>(i)) add(sensor.min), add(sensor.max);
@@ -138,7 +139,8 @@ class ScenarioCharts {
     out.curves = {{"u", Mark::steps, 3, times_, values_of(run_.u, row)}};
     const auto& limits = controller_.problem.limits;
     if (!limits || limits->u_min.size() == 0) return out;
-    const double low = limits->u_min(row), high = limits->u_max(row);
+    const double low = controller::own_input_limits(controller_, +1)(row),
+                 high = controller::own_input_limits(controller_, -1)(row);
     if (std::isfinite(low) && std::isfinite(high) && !times_.empty())
       out.bands.push_back({"within limits", 3, {times_.front(), times_.back()}, {low, low}, {high, high}});
     for (const double at : {low, high})
@@ -166,7 +168,7 @@ class ScenarioCharts {
     const auto row = static_cast<Index>(i);
     Chart out = chart(controller_.problem.plant.states[i], "x", i);
     out.curves = {true_curve(controller_.has.filter ? "true" : "x", run_.fine_x, run_.x, row)};
-    if (controller_.has.foresight) add_soft_limits(controller_.problem.limits->states, row, out);
+    if (controller_.has.foresight) add_soft_limits(controller::own_state_limits(controller_), row, out);
     if (!controller_.has.filter) return out;
     out.curves.push_back({"estimate", Mark::dashes, 1, times_, values_of(run_.estimate, row)});
     if (run_.sigma.rows() <= row) return out;

@@ -21,6 +21,7 @@ PageSection order_section(const Controller& controller);                        
 PageSection pole_section(const Controller& controller);                         // how fast, how damped?
 PageSection estimator_section(const Controller& controller, const Runs& runs);  // does it know what it knows?
 PageSection target_section(const Controller& controller);                       // what does it cost?
+PageSection parameter_section(const Controller& controller);                    // what hangs on what?
 PageSection number_section(const Controller& controller);
 
 // Of a controller with foresight: one or two sentences.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the controller costs, and what rounding to the target's numbers does.
 #include "emit/report/sections.hpp"
+#include "emit/text/equations.hpp"
 #include "emit/text/wording.hpp"
 
 namespace lqg::emit {
@@ -45,6 +46,16 @@ PageTable what_it_is(const Controller& controller) {
                                                                        : "filter"},
                                     {"Digits of the design", std::to_string(controller.solution.numerics.digits)},
                                     {"Condition", decimal(controller.solution.numerics.condition)}});
+}
+
+PageTable equations_of_motion(const Controller& controller) {
+  PageTable table = {
+      "The plant's equations; curves over time are of these, those of the loop are of their "
+      "linearisation",
+      {},
+      {}};
+  for (const EquationLine& line : equation_lines(controller)) table.rows.push_back({line.left, line.right});
+  return table;
 }
 
 PageTable what_it_costs(const Controller& controller) {
@@ -131,8 +142,8 @@ PageTable root_mean_squares(const Controller& controller) {
 
 PageSection target_section(const Controller& controller) {
   PageView view;
-  view.tables = {what_it_is(controller), what_it_costs(controller), what_a_sample_takes(controller),
-                 what_rounding_does(controller), root_mean_squares(controller)};
+  view.tables = {what_it_is(controller),          equations_of_motion(controller), what_it_costs(controller),
+                 what_a_sample_takes(controller), what_rounding_does(controller),  root_mean_squares(controller)};
   return {"target", "On the target", {view}};
 }
 

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "controller/operating_point.hpp"
 #include "emit/text/continuous_pole.hpp"
+#include "emit/text/extended_description.hpp"
 #include "emit/text/wording.hpp"
 #include "trace/print.hpp"
 #include "trace/wrap.hpp"
@@ -53,9 +55,11 @@ std::string poles_line(const std::string& matrix, const design::Poles& of) {
 }  // namespace
 
 std::string describe_plant(const Controller& controller) {
+  if (controller::is_extended(controller)) return describe_extended_plant(controller);
   const design::SampledPlant& plant = controller.solution.plant;
   const bool is_double = controller.target.is_double;
-  std::string out = "\nPlant, sampled every " + number(design::Real(controller.problem.plant.sample_time), true) +
+  std::string out = describe_point(controller) + "\nPlant, sampled every " +
+                    number(design::Real(controller.problem.plant.sample_time), true) +
                     " s:  x⁺ = A x + B u + G w,  y = C x + D u + v\n\n";
   out += indented(signals("states   ", "x", state_signals(controller)));
   out += indented(signals("inputs   ", "u", controller.problem.plant.inputs));
@@ -107,7 +111,8 @@ std::string foreseen_limits(const Controller& controller) {
   if (!controller.has.foresight) return "";
   const design::Limits& limits = *controller.problem.limits;
   const design::Plant& plant = controller.problem.plant;
-  return soft_limits(limits.states, plant.states, "") + soft_limits(limits.outputs, plant.outputs, "") +
+  return soft_limits(controller::own_state_limits(controller), plant.states, "") +
+         soft_limits(controller::own_output_limits(controller), plant.outputs, "") +
          soft_limits(limits.output_rates, plant.outputs, " per second") + "  foreseen for " +
          std::to_string(limits.horizon) + " samples: " + std::to_string(controller.solution.foreseen->G.rows()) +
          " limited quantities, at most " + std::to_string(controller.iterations.most) +
@@ -121,7 +126,8 @@ std::string limits(const Controller& controller) {
   for (int i = 0; i < controller.size.nu; ++i) {
     const std::string u = "u[" + std::to_string(i) + "]";
     if (limits.u_min.size())
-      out += "  " + limit(limits.u_min(i), " ≤ ", true) + u + limit(limits.u_max(i), " ≤ ", false) + "\n";
+      out += "  " + limit(controller::own_input_limits(controller, +1)(i), " ≤ ", true) + u +
+             limit(controller::own_input_limits(controller, -1)(i), " ≤ ", false) + "\n";
     if (controller.has.rate_limit && std::isfinite(limits.u_rate(i)))
       out += "  |change of " + u + "| ≤ " + trace::literal(limits.u_rate(i), true) + " per second\n";
   }
@@ -203,6 +209,7 @@ std::string bounds(const Controller& controller) {
 
 std::string describe_estimator(const Controller& controller) {
   if (!controller.has.filter || controller.solution.compensator) return "";
+  if (controller::is_extended(controller)) return describe_extended_filter(controller) + bounds(controller);
   const bool is_double = controller.target.is_double, is_observer = controller.problem.estimator->poles.has_value();
   std::string out = is_observer ? "\nObserver, " : "\nKalman filter, ";
   out += controller.is_predictor ? "predictor form (u[k] depends on the outputs up to y[k−1])"

@@ -9,6 +9,7 @@
 
 namespace lqg::emit {
 
+std::string describe_point(const Controller& controller);  // the operating point; describe_plant has it, too
 std::string describe_plant(const Controller& controller);
 std::string describe_regulator(const Controller& controller);
 std::string describe_estimator(const Controller& controller);  // describe_gains among it

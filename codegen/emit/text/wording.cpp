@@ -67,6 +67,7 @@ std::string name_with_unit(const design::Signal& signal) {
 }
 
 std::string equation_of_law(const Controller& controller) {
+  if (controller::is_extended(controller)) return "(u + K x of the operating point) − K x̂";
   const std::string x = controller.has.filter ? "x̂" : "x", xi = controller.size.nxi ? "; ξ" : "";
   const std::string last = controller.has.input_change ? "; u[k−1]" : "";
   return (controller.has.input_change ? "u[k−1] − K " : "−K ") + (xi + last == "" ? x : "[" + x + xi + last + "]") +
@@ -105,6 +106,8 @@ Words common_words(const Controller& controller) {
           {"nr", std::to_string(controller.size.nr)},
           {"nz", std::to_string(controller.size.nz)},
           {"file", controller.source.file},
+          {"u_at_rest", controller.point.u.size() ? "that of the operating point" : "0"},
+          {"r_at_rest", controller.point.r.size() ? "that of the operating point" : "0"},
           {"filter", filter_name(controller.filter)},
           {"law_row", row("self->sample", controller.laws.size(), upper(name) + "_LAST_LAW_ROW")},
           {"filter_row", row("self->gain_row", controller.filters.size(), upper(name) + "_LAST_GAIN_ROW")}};

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "controller/operating_point.hpp"
+#include "emit/c/operating_point.hpp"
 #include "emit/text/columns.hpp"
 #include "emit/text/wording.hpp"
 #include "emit/unit_test/calls_test.hpp"
@@ -112,6 +114,19 @@ bool is_told_what_acts(const Controller& controller) {
   return controller.is_predictor && controller.has.feedthrough && controller.has.regulator;
 }
 
+// What the controller keeps of the recorded input: its deviation from the operating point.
+std::string set_applied(const Controller& controller, const std::string& blanks, const std::string& comment) {
+  if (controller.point.u.size() == 0)
+    return blanks + "memcpy(self.u_applied, u_out[k], sizeof self.u_applied);" + comment + "\n";
+  std::string out;
+  for (int i = 0; i < controller.size.nu; ++i) {
+    const std::string entry = "[" + std::to_string(i) + "]";
+    out += blanks + "self.u_applied" + entry + " = " + deviation(controller, 'u', i, "u_out[k]" + entry) + ";" +
+           comment + "\n";
+  }
+  return out;
+}
+
 // The calls of one sample in the order of the form; {after_update} and {after_control} are what a test looks at.
 std::string sample(const Controller& controller, const std::string& after_update, const std::string& after_control,
                    bool counts_limited = false) {
@@ -133,9 +148,7 @@ std::string sample(const Controller& controller, const std::string& after_update
                                   ? "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self, u_out[k]));\n"
                                   : "        TEST_ASSERT_EQUAL_HEX(LQG_OK, {name}_predict(&self));\n";
   const std::string recorded =
-      is_told_what_acts(controller)
-          ? "        memcpy(self.u_applied, u_out[k], sizeof self.u_applied);  /* what acts on these outputs */\n"
-          : "";
+      is_told_what_acts(controller) ? set_applied(controller, "        ", "  /* what acts on these outputs */") : "";
   return reference + (controller.is_predictor ? control + recorded + update : update + control) + after_update +
          after_control + predict;
 }
@@ -148,8 +161,8 @@ std::string begin(const Controller& controller) {
 
 std::string reference_test(const Controller& controller) {
   const std::string update =
-      controller.linear  ? linear_estimate_check()
-      : controller.modal ? linear_estimate_check() + covariance_check(controller)
+      controller.linear          ? linear_estimate_check()
+      : has_estimate(controller) ? linear_estimate_check() + covariance_check(controller)
       : controller.has.filter
           ? "        assert_near(x_tolerance, x_out[k], self.x, {NAME}_NX);\n" + covariance_check(controller)
           : "";
@@ -181,8 +194,7 @@ std::string hostile_sample(const Controller& controller) {
                     TEST_ASSERT_TRUE(u[i] - u[i] == {zero}{within});
 )"
                                                    : "";
-  const std::string recorded =
-      is_told_what_acts(controller) ? "                memcpy(self.u_applied, u_out[k], sizeof self.u_applied);\n" : "";
+  const std::string recorded = is_told_what_acts(controller) ? set_applied(controller, "                ", "") : "";
   const std::string update = R"(                status = {name}_update(&self, y);
                 if (k % 3 == 1 && what < 5)
                     TEST_ASSERT_TRUE(status & LQG_OUTPUT_REJECTED);
@@ -320,8 +332,8 @@ Words test_words(const Controller& controller, const Vectors& vectors) {
   words["tiny"] = controller.target.is_double ? "5e-324" : "1e-45f";
   words["within"] = "";
   if (const auto& limits = controller.problem.limits; limits && limits->u_min.size() && controller.size.nu == 1)
-    words["within"] =
-        bound(" && u[i] >= ", limits->u_min(0), controller) + bound(" && u[i] <= ", limits->u_max(0), controller);
+    words["within"] = bound(" && u[i] >= ", controller::own_input_limits(controller, +1)(0), controller) +
+                      bound(" && u[i] <= ", controller::own_input_limits(controller, -1)(0), controller);
   // A fused multiply-add is the same everywhere if it is one instruction, or a library's that rounds correctly.
   words["bits"] =
       "    RUN_TEST(test_{name}_has_every_bit_of_the_host);\n"

@@ -385,7 +385,7 @@ bool has_call(const Controller& controller, Call call) {
     case Call::step: return filter;
     case Call::control: return controller.has.regulator;
     case Call::set_state: return filter;
-    case Call::estimate: return linear || controller.modal;
+    case Call::estimate: return has_estimate(controller);
     case Call::advance:
     case Call::write_z: return linear;
     case Call::update:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/operating_point.hpp"
 #include "design/numeric/digits.hpp"
 #include "emit/vectors/comparison.hpp"
 #include "simulate/emitted_controller.hpp"
@@ -34,7 +35,7 @@ template <class S, class Measure>
 Vector<S> physical_sample(EmittedController<S>& emitted, Sample& sample, Measure measure) {
   Vector<S> u;
   const auto act = [&] {
-    sample.x = list_of(emitted.state().x);
+    sample.x = list_of(emitted.estimate());
     emitted.control(u);
   };
   const bool predicts = emitted.model().predictor_form;
@@ -80,7 +81,8 @@ std::size_t samples_of(const Controller& controller) {
 template <class S, template <class> class Emitted>
 Run<S> closed_loop(const Controller& controller, Emitted<S> emitted) {
   simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
-  Eigen::VectorXd applied = Eigen::VectorXd::Zero(controller.size.nu);
+  Eigen::VectorXd applied =
+      controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller::stated_point(controller).u);
   Run<S> run;
   const std::size_t count = samples_of(controller);
   while (run.samples.size() < count) {

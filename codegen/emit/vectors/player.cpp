@@ -72,8 +72,8 @@ class PhysicalPlayer : public Player {
       case Call::predict: return emitted_.predict(given_input(turn));
       case Call::set_state: return emitted_.set_state(given(turn, states()));
       case Call::set_input:
-        if (!controller_.has.filter) emitted_.state().x = numbers_of<S>(samples_[turn.row].y);
-        return emitted_.set_input(given_input(turn));
+        return controller_.has.filter ? emitted_.set_input(given_input(turn))
+                                      : emitted_.set_input(numbers_of<S>(samples_[turn.row].y), given_input(turn));
       default: return look_or_write(turn, answer), 0;
     }
   }
@@ -122,7 +122,8 @@ class PhysicalPlayer : public Player {
     const Vector<S> most = foresees ? Vector<S>(model.foreseen.high.head(u.size())) : model.u_max;
     const Vector<S>& steps = foresees ? model.foreseen.u_step : model.u_step;
     for (Eigen::Index i = 0; i < u.size(); ++i) {
-      const auto is = [&](const Vector<S>& values, const S& value) {
+      const auto is = [&](const Vector<S>& values, const S& deviation) {
+        const S value = step::in_own_units(model.point.u, static_cast<int>(i), deviation);
         return values.size() && step::is_zero(S(u(i) - value));
       };
       const S step = steps.size() ? S(steps(i)) : S(0);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/operating_point.hpp"
 #include "design/numeric/digits.hpp"
 #include "emit/vectors/comparison.hpp"
+#include "emit/vectors/extended_plant.hpp"
 #include "emit/vectors/linear_vectors.hpp"
 #include "simulate/emitted_controller.hpp"
 #include "simulate/plant.hpp"
@@ -55,7 +57,10 @@ void replay(EmittedController<S>& emitted, const std::vector<Sample>& inputs, He
     unsigned events = 0;
     if (model.predictor_form) events = act(emitted, u);
     // These outputs are those of the recorded u. With a D they would drive away an estimate that thinks of its own.
-    if (model.predictor_form && step::has_feedthrough(model)) state.u = numbers_of<S>(input.u);
+    if (model.predictor_form && step::has_feedthrough(model)) {
+      step::Listener listener;
+      state.u = step::input_deviations(model.point, numbers_of<S>(input.u), listener);
+    }
     emitted.update(numbers_of<S>(input.y));
     if (!model.predictor_form) events = act(emitted, u);
     hear(emitted, u, events);
@@ -69,7 +74,7 @@ std::vector<double> references(const Controller& controller, std::size_t sample)
   Noise noise(seed + 2 + sample / samples_between_jumps);
   Eigen::VectorXd r(controller.size.nr);
   for (double& each : r) each = 2 * noise.uniform();
-  return list_of(in_target(controller.target, r));
+  return list_of(in_target(controller.target, controller::in_own_units(r, controller.point.r)));
 }
 
 // Now and then something far off, for the gate.
@@ -80,9 +85,8 @@ void add_outlier(std::size_t sample, std::vector<double>& y) {
 
 // What sensors with ranges would deliver. Without a range the limits of an output are empty.
 void keep_in_range(const Controller& controller, std::vector<double>& y) {
-  const design::Estimator& estimator = *controller.problem.estimator;
-  const Eigen::VectorXd least = in_target(controller.target, estimator.output_min),
-                        most = in_target(controller.target, estimator.output_max);
+  const Eigen::VectorXd least = in_target(controller.target, controller::own_output_range(controller, +1)),
+                        most = in_target(controller.target, controller::own_output_range(controller, -1));
   for (Eigen::Index i = 0; i < least.size(); ++i) {
     double& each = y[static_cast<std::size_t>(i)];
     each = std::clamp(each, least(i), most(i));
@@ -100,18 +104,20 @@ bool is_near(const Controller& controller, const Eigen::VectorXd& x) {
 }
 
 // The closed loop of simulated plant and reference: fills in y and the applied u, as numbers of the target.
-template <class S>
-std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted) {
-  simulate::Plant plant(controller, controller.x0, simulate::PlantNoise::assumed, seed);
+template <class S, class AnyPlant>
+std::vector<Sample> closed_loop(const Controller& controller, EmittedController<S> emitted, AnyPlant plant) {
   Noise excitation(seed + 1);
-  Eigen::VectorXd applied = Eigen::VectorXd::Zero(controller.size.nu);
+  const Eigen::VectorXd at_rest =
+      controller::in_own_units(Eigen::VectorXd::Zero(controller.size.nu), controller.point.u);
+  Eigen::VectorXd applied = at_rest;
   std::vector<Sample> samples;
-  while (samples.size() < sample_count && is_near(controller, plant.state())) {
+  while (samples.size() < sample_count && is_near(controller, plant.deviation())) {
     Sample& sample = samples.emplace_back();
     sample.r = references(controller, samples.size() - 1);
     emitted.state().r = numbers_of<S>(sample.r);
     const auto apply = [&] {
-      for (double& each : applied) each = excitation.uniform();
+      applied = at_rest;
+      for (double& each : applied) each += excitation.uniform();
       Vector<S> u;
       act(emitted, u);
       if (u.size()) applied = simulate::as_doubles(u);
@@ -128,6 +134,13 @@ std::vector<Sample> closed_loop(const Controller& controller, EmittedController<
     plant.advance(applied);
   }
   return samples;
+}
+
+template <class S>
+std::vector<Sample> samples_of_filter(const Controller& controller, const EmittedController<S>& emitted) {
+  if (controller::is_extended(controller)) return closed_loop(controller, emitted, ExtendedPlant(controller, seed));
+  return closed_loop(controller, emitted,
+                     simulate::Plant(controller, controller.x0, simulate::PlantNoise::assumed, seed));
 }
 
 template <class S>
@@ -183,7 +196,7 @@ std::vector<Sample> random_states(const Controller& controller) {
     samples[k].r = references(controller, k);
     Eigen::VectorXd x(controller.size.nx);
     for (double& each : x) each = noise.normal();
-    samples[k].y = list_of(in_target(controller.target, x));
+    samples[k].y = list_of(in_target(controller.target, controller::in_own_units(x, controller.point.x)));
   }
   return samples;
 }
@@ -197,7 +210,7 @@ struct Recorded {
 template <class Reference>
 Recorded recorded_by(const Controller& controller, const EmittedController<Reference>& reference) {
   Recorded recorded;
-  recorded.samples = controller.has.filter ? closed_loop(controller, reference) : random_states(controller);
+  recorded.samples = controller.has.filter ? samples_of_filter(controller, reference) : random_states(controller);
   record_reference(reference, recorded.samples, recorded.u);
   return recorded;
 }

@@ -8,7 +8,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 here=$(dirname "${BASH_SOURCE[0]}")
 
 # In the order in which they need each other.
-public=(arithmetic status version kalman lqr mpc loop ekf rls servo lqg check)
+public=(arithmetic status version functions_bits functions_polynomials functions_float functions_double functions kalman
+        lqr mpc loop ekf rls servo lqg check)
 private=(kernel bounds_check covariance factors gate plant)
 
 check_names() {

@@ -5,12 +5,16 @@
 
 cmsis_version=1.10.3
 
-fetch_peers() {
+fetch_cmsis() {
   cmsis=$folder/cmsis
   if [ ! -e "$cmsis/Include" ]; then
     mkdir -p "$cmsis"
     "$lqg_root/test/sdist.sh" setuptools.build_meta cmsisdsp $cmsis_version "$peers/cmsisdsp.txt" "$cmsis" 1
   fi
+}
+
+# SymForce and what measures.
+fetch_python() {
   python=$folder/venv/bin/python
   if ! cmp -s "$peers/requirements.txt" "$folder/venv/requirements.txt"; then
     python3 -m venv --clear "$folder/venv"
@@ -107,6 +111,12 @@ select_target() {
   cxx=("${compiler[0]/gcc/g++}" "${compiler[@]:1}" -std=c++17 -DNDEBUG -fno-exceptions -fno-rtti
        -fno-threadsafe-statics -fno-math-errno)
   work=$folder/cores/$core
+}
+
+# print_sections <what> <pattern> <program>
+print_sections() {
+  "$size" -A "$3" | awk -v what="$1" -v pattern="^\\\\.($2)" \
+    '$1 ~ pattern { sum += $2 } END { print what "=" sum + 0 }'
 }
 
 # The library in both arithmetics, and what measures.

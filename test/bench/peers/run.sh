@@ -76,12 +76,6 @@ each_model() {
 
 # ---- the measurement ---------------------------------------------------------------------------------------------
 
-# print_sections <what> <pattern> <program>
-print_sections() {
-  "$size" -A "$3" | awk -v what="$1" -v pattern="^\\\\.($2)" \
-    '$1 ~ pattern { sum += $2 } END { print what "=" sum + 0 }'
-}
-
 # measure_on_core <contestant>: its results as assignments.
 measure_on_core() {
   local flags results error instructions traced off
@@ -226,7 +220,8 @@ select_core cortex-m4f
 absent=$(missing_tools)
 [ -z "$absent" ] || lqg_stop "Not found:$absent"
 lqg_find_lqgen
-fetch_peers
+fetch_cmsis
+fetch_python
 measure
 "$python" "$peers/tables.py" "$folder/results.txt" >"$folder/tables.md"
 if [ -n "$update" ]; then

@@ -30,7 +30,7 @@ std::vector<BadDesign> wrong_keys() {
       {"name left out", {{1, ""}}, {"1:1: name: missing"}},
       {"plant left out", {{4, "", 14}}, {"1:1: plant: missing"}},
       {"sample time left out", {{6, ""}}, {"4:1: plant.sample_time: missing"}},
-      {"A left out", {{7, ""}}, {"4:1: plant.A: missing"}},
+      {"A left out", {{7, ""}}, {"4:1: plant.A: missing: expected A or f"}},
       {"Q and R left out",
        {{17, "", 18}},
        {"16:1: lqr.Q: missing: expected Q, Q_output or bryson", "16:1: lqr.R: missing"}},

@@ -29,7 +29,7 @@ std::vector<BadDesign> not_toml() {
       {"MATLAB's row", {{17, "Q = [1 0 1 0]"}}, {"17:…: not TOML: …found MATLAB's notation"}},
       {"fraction",
        {{6, "sample_time = 1/200"}},
-       {"6:…: not TOML: expected numbers, found arithmetic: write its result"}},
+       {"6:…: not TOML: expected numbers, found arithmetic: it stands in quotes, \"2*pi*50\""}},
       {"number with a unit", {{6, "sample_time = 5 ms"}}, {"6:…: not TOML: expected a number without a unit; …"}},
       {"header without a name", {{4, "[]"}}, {"4:2: not TOML: table header: …"}},
       {"header that is not closed", {{4, "[plant"}}, {"4:7: not TOML: table header: …"}},

@@ -115,6 +115,68 @@ void test_new_refuses_what_no_header_can_be_called() {
                  {"new", "while", "--from", "servo"});
 }
 
+const char* const with_parameters = R"(name = "p"
+[parameters]
+m = { value = 2, unit = "kg" }
+k = "4*m"
+[plant]
+domain = "continuous"
+sample_time = 0.01
+A = [[0, 1], ["-k/m", 0]]
+B = [[0], ["1/m"]]
+[lqr]
+Q = [1, 1]
+R = [1]
+)";
+
+void test_set_replaces_the_value_of_a_parameter_and_says_so() {
+  write_file(folder / "p.toml", with_parameters);
+  TEST_ASSERT_EQUAL_INT(written, run_lqgen({"--set", "m=3", "p.toml", "--set", "k=m/2", "--quiet"}).status);
+  const std::string json = read_file(folder / "p.json"), header = read_file(folder / "p.h");
+  TEST_ASSERT_TRUE(json.find(R"("m": {
+      "value": 3.0,
+      "unit": "kg",
+      "is_set": true
+    })") != json.npos);
+  TEST_ASSERT_TRUE(json.find(R"("k": {
+      "value": 1.5,
+      "expression": "m/2",
+      "is_set": true
+    })") != json.npos);
+  TEST_ASSERT_TRUE(json.find(R"("plant.A[1][0]": {
+      "value": -0.5,
+      "expression": "-k/m"
+    })") != json.npos);
+  TEST_ASSERT_TRUE_MESSAGE(header.find(" *   m  3.0 kg  set on the command line\n"
+                                       " *   k  1.5     set on the command line, = m/2\n") != header.npos,
+                           header.substr(0, 1500).c_str());
+  for (const char* command : {"check", "simulate"})
+    TEST_ASSERT_EQUAL_INT(written, run_lqgen({command, "p.toml", "--set", "m=3", "--quiet"}).status);
+}
+
+void test_long_expression_is_cut_in_the_header_alone() {
+  std::string sum = "1";
+  for (int i = 0; i < 200; ++i) sum += "+0*m";
+  std::string text = with_parameters;
+  text.replace(text.find("4*m"), 3, sum);
+  write_file(folder / "p.toml", text);
+  TEST_ASSERT_EQUAL_INT(written, run_lqgen({"p.toml", "--quiet"}).status);
+  TEST_ASSERT_TRUE(read_file(folder / "p.json").find(sum) != std::string::npos);
+  std::istringstream header(read_file(folder / "p.h"));
+  for (std::string line; std::getline(header, line);) TEST_ASSERT_TRUE_MESSAGE(line.size() < 200, line.c_str());
+}
+
+void test_setting_that_is_wrong_is_refused() {
+  write_file(folder / "p.toml", with_parameters);
+  expect_refusal(wrong, "p.toml:2:1: parameters: --set: expected the name of a parameter, found \"mm\"",
+                 {"p.toml", "--set", "mm=3"});
+  expect_refusal(wrong, "p.toml:3:15: parameters.m: --set: 1/0 is no finite number",
+                 {"check", "p.toml", "--set", "m=1/0"});
+  const Outcome outcome = run_lqgen({"p.toml", "--set", "m"});
+  TEST_ASSERT_EQUAL_INT(wrong, outcome.status);
+  TEST_ASSERT_TRUE(outcome.err.find("--set: expected NAME=VALUE, found \"m\"") != std::string::npos);
+}
+
 void test_new_says_which_starter_may_be_meant() {
   expect_refusal(wrong, "lqgen new: unknown starter `srevo`, did you mean `servo`?", {"new", "a", "--from", "srevo"});
   expect_refusal(wrong, "lqgen new: unknown starter `xyz`; lqgen new lists them", {"new", "a", "--from", "xyz"});
@@ -225,6 +287,9 @@ int main(int, char** arguments) {
   RUN_TEST(test_new_where_nothing_can_be_written);
   RUN_TEST(test_new_refuses_what_no_header_can_be_called);
   RUN_TEST(test_new_says_which_starter_may_be_meant);
+  RUN_TEST(test_set_replaces_the_value_of_a_parameter_and_says_so);
+  RUN_TEST(test_setting_that_is_wrong_is_refused);
+  RUN_TEST(test_long_expression_is_cut_in_the_header_alone);
   RUN_TEST(test_misspelt_options_of_a_command_are_explained);
   RUN_TEST(test_check_says_what_lqgen_says_and_writes_nothing);
   RUN_TEST(test_check_refuses_what_lqgen_refuses);

@@ -29,18 +29,13 @@ void expect_to_pass(const lqg::emit::Controller& controller, Language language, 
   expect_success(run(program), what);
 }
 
-struct Way {
-  lqg::design::Style style;
-  lqg::controller::Sharing sharing;
-  const char* suffix;
-};
+}  // namespace
 
-// All in which the controller can be emitted.
 std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
   using lqg::controller::Sharing;
   using lqg::design::Style;
   std::vector<Way> ways = {{Style::unrolled, Sharing::nothing, "_unrolled"}};
-  const bool has_loops = !controller.linear && !controller.modal;
+  const bool has_loops = !controller.linear && !controller.modal && !lqg::controller::is_extended(controller);
   if (has_loops) ways.push_back({Style::compact, Sharing::nothing, "_compact"});  // those loops are of x̂
   if (has_loops && lqg::emit::can_share_covariance(controller)) {
     ways.push_back({Style::unrolled, Sharing::outputs, "_outputs"});
@@ -50,12 +45,10 @@ std::vector<Way> ways_of(const lqg::emit::Controller& controller) {
   return ways;
 }
 
-}  // namespace
-
 std::string options(const lqg::emit::Controller& controller, const fs::path& folder) {
   std::string out =
       " -I" + folder.string() + " -I" LQG_INCLUDE_FOLDER " -isystem " LQG_UNITY_FOLDER " -DUNITY_INCLUDE_DOUBLE";
-  if (controller.style == lqg::design::Style::unrolled) return out;
+  if (controller.style == lqg::design::Style::unrolled && !controller.has.foresight) return out;
   return out + (controller.target.is_double ? " -DLQG_REAL_DOUBLE" : "") +
          (controller.target.is_fused ? " -DLQG_FUSED" : "");
 }
@@ -79,8 +72,14 @@ void expect_emitted_to_pass(lqg::emit::Controller controller, const std::vector<
 }
 
 std::string run_with_header(const lqg::emit::Controller& controller, const std::string& text) {
+  return run_with_headers({controller}, text);
+}
+
+std::string run_with_headers(const std::vector<lqg::emit::Controller>& controllers, const std::string& text) {
   const fs::path folder = empty_folder("with_header");
-  write(folder / (controller.problem.name + ".h"), lqg::emit::header(controller));
+  for (const lqg::emit::Controller& controller : controllers)
+    write(folder / (controller.problem.name + ".h"), lqg::emit::header(controller));
+  const lqg::emit::Controller& controller = controllers.front();
   write(folder / "program.c", text);
   const std::string program = (folder / "program").string();
   expect_success(

@@ -115,6 +115,21 @@ bool is_usable(const Counted& innovation, const Counted& variance) {
 Counted absolute(const Counted& a) { return counted(std::abs(a.value)); }
 bool is_zero(const Counted& a) { return a.value == 0; }
 bool is_less(const Counted& a, const Counted& b) { return a.value < b.value; }
+// What formulas of an extended filter would ask for.
+Counted sqrt(const Counted& a) { return counted(std::sqrt(a.value)); }
+Counted sin(const Counted& a) { return counted(std::sin(a.value)); }
+Counted cos(const Counted& a) { return counted(std::cos(a.value)); }
+Counted tan(const Counted& a) { return counted(std::tan(a.value)); }
+Counted asin(const Counted& a) { return counted(std::asin(a.value)); }
+Counted acos(const Counted& a) { return counted(std::acos(a.value)); }
+Counted atan(const Counted& a) { return counted(std::atan(a.value)); }
+Counted exp(const Counted& a) { return counted(std::exp(a.value)); }
+Counted log(const Counted& a) { return counted(std::log(a.value)); }
+Counted tanh(const Counted& a) { return counted(std::tanh(a.value)); }
+Counted floor(const Counted& a) { return counted(std::floor(a.value)); }
+Counted atan2(const Counted& y, const Counted& x) { return counted(std::atan2(y.value, x.value)); }
+Counted pow(const Counted& a, const Counted& b) { return counted(std::pow(a.value, b.value)); }
+Counted abs(const Counted& a) { return counted(std::abs(a.value)); }
 
 long operations_of_a_sample(const Controller& controller) {
   using namespace lqg::step;

@@ -302,7 +302,7 @@ void test_regulator_alone_says_what_it_does_not_use() {
 }
 
 void test_covariance_of_a_steady_gain_is_said_to_be_unused() {
-  expect_lines("d.toml:9:14: note: kalman.covariance: not used without gain = \"online\"\n",
+  expect_lines("d.toml:9:14: note: kalman.covariance: not used without gain = \"online\" or \"extended\"\n",
                least + lqr + kalman + "covariance = \"plain\"\n");
 }
 

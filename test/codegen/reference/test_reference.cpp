@@ -25,7 +25,8 @@ void test_every_key_has_a_text_of_whole_sentences() {
 void test_every_key_is_on_the_page_in_the_schema_and_in_the_manual() {
   const std::string page = reference::page(), schema = reference::schema(), manual = reference::manual();
   for (const input::KeyRule& rule : input::key_rules()) {
-    const bool is_table = rule.type == input::Type::table || rule.type == input::Type::tables;
+    const bool is_table =
+        rule.type == input::Type::table || rule.type == input::Type::tables || rule.type == input::Type::parameters;
     const std::string heading = "[" + rule.path + "]", name = last_word(rule.path);
     TEST_ASSERT_TRUE_MESSAGE(has(page, is_table ? heading : "\n| `" + name + "` | "), rule.path.c_str());
     TEST_ASSERT_TRUE_MESSAGE(has(schema, "\"" + name + "\": {"), rule.path.c_str());

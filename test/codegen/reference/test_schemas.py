@@ -31,12 +31,14 @@ ERRORS = {
     "a missing noise": ('process_noise = [0.01]', ''),
     "a word that is none of the list": ('cost = "sampled"', 'cost = "sample"'),
     "a word in capitals": ('real = "float"', 'real = "Float"'),
-    "a number as text": ('sample_time = 0.5', 'sample_time = "0.5"'),
+    "a number as text": ('sample_time = 0.5', 'sample_time = "½"'),
     "a sample time of 0": ('sample_time = 0.5', 'sample_time = 0'),
     "a number for an array": ('R = [16]', 'R = 16'),
     "an array for a matrix": ('B = [[0], [1], [0], [0]]', 'B = [0, 1, 0, 0]'),
-    "text in a matrix": ('B = [[0], [1]', 'B = [[0], ["1"]'),
-    "an infinite entry": ('B = [[0], [1]', 'B = [[0], ["inf"]'),
+    "text in a matrix": ('B = [[0], [1]', 'B = [[0], ["1;"]'),
+    "an infinite entry": ('B = [[0], [1]', 'B = [[0], ["∞"]'),
+    "a parameter that no name has": ('[plant]', '[parameters]\n"m 1" = 2\n[plant]'),
+    "a unit alone": ('[plant]', '[parameters]\nm = { unit = "kg" }\n[plant]'),
     "a negative weight": ('R = [16]', 'R = [-16]'),
     "a negative variance": ('process_noise = [0.01]', 'process_noise = [-0.01]'),
     "a name in capitals": ('name = "base"', 'name = "Base"'),
@@ -59,6 +61,9 @@ ERRORS = {
 
 # What looks wrong and is right.
 GOOD = {
+    "an expression": ('sample_time = 0.5', 'sample_time = "1/2"'),
+    "an expression in a matrix": ('B = [[0], [1]', 'B = [[0], ["cos(0)"]'),
+    "parameters": ('[plant]', '[parameters]\nk = "2*m"\nm = { value = 2, unit = "kg" }\n[plant]'),
     "no limit": ('u_max = [1]', 'u_max = [inf]'),
     "no gate": ('gain = "steady"', 'spike = inf'),
     "an output by name": ('R = [16]', 'R = [16]\ntrack = ["y1"]'),

@@ -41,6 +41,15 @@ void test_a_key_that_one_file_lacks_is_a_difference() {
   expect(found, 1, "s[0].f", "–", "3");
 }
 
+void test_parameters_differ_by_their_values_and_expressions() {
+  const std::string head = "[parameters]\nR = { value = ",
+                    tail = ", unit = \"ohm\" }\nL = \"R/2\"\n[plant]\nA = [[\"R\"]]\n";
+  const auto found = differences({head + "2" + tail, head + "2.5" + tail, head + "\"2*L\"" + tail});
+  TEST_ASSERT_EQUAL_UINT(1, found.size());
+  expect(found, 0, "parameters.R.value", "2", "2.5");
+  TEST_ASSERT_EQUAL_STRING("\"2*L\"", found[0].values[2].c_str());
+}
+
 void test_many_differences_of_a_matrix_are_one_line() {
   const auto found = differences({"A = [[1, 2, 3, 4], [5, 6, 7, 8], [1, 2, 3, 4], [5, 6, 7, 8]]\n",
                                   "A = [[1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 8]]\n"});
@@ -62,6 +71,7 @@ int main() {
   RUN_TEST(test_comments_layout_order_and_spelling_are_no_difference);
   RUN_TEST(test_values_stand_as_they_are_written);
   RUN_TEST(test_a_key_that_one_file_lacks_is_a_difference);
+  RUN_TEST(test_parameters_differ_by_their_values_and_expressions);
   RUN_TEST(test_many_differences_of_a_matrix_are_one_line);
   RUN_TEST(test_the_third_file_alone_can_differ);
   return UNITY_END();

@@ -49,6 +49,29 @@ const Tunable& at(const std::vector<Tunable>& all, const std::string& key) {
   return *found;
 }
 
+void test_parameters_that_are_numbers_have_sliders() {
+  const std::string text =
+      plant +
+      "[lqr]\nQ = [\"R\", 1]\nR = [1]\n[parameters]\nR = { unit = \"ohm\", value = 2.5 }\nb = 0\nk = "
+      "-3.0  # stays\nL = \"R/2\"\nJ = { value = \"R/3\" }\n";
+  const auto all = of(text);
+  const Tunable& R = at(all, "parameters.R.value");
+  TEST_ASSERT_EQUAL_STRING("Parameters", R.group.c_str());
+  TEST_ASSERT_EQUAL_STRING("R", R.name.c_str());
+  TEST_ASSERT_EQUAL_STRING("ohm", R.unit.c_str());
+  TEST_ASSERT_TRUE(R.scale == Scale::logarithmic && R.low == 0.25 && R.high == 25);
+  TEST_ASSERT_TRUE(at(all, "parameters.b").low == 0 && at(all, "parameters.b").high > 0);
+  TEST_ASSERT_TRUE(at(all, "parameters.k").low == -12 && at(all, "parameters.k").high == 0);
+  for (const char* expression : {"parameters.L", "parameters.J", "parameters.J.value", "lqr.Q[0]"})
+    TEST_ASSERT_NULL_MESSAGE(find(all, expression), expression);
+  const auto changed = input::set_numbers(text, {{"parameters.R.value", 3}, {"parameters.k", -4}});
+  std::string wanted = text;
+  wanted.replace(wanted.find("2.5"), 3, "3.0").replace(wanted.find("-3.0"), 4, "-4.0");
+  TEST_ASSERT_EQUAL_STRING(wanted.c_str(), std::get<std::string>(changed).c_str());
+  const input::DesignFile file = input::parse_design(std::get<std::string>(changed));
+  TEST_ASSERT_TRUE(file.problem->regulator->Q(0, 0) == 3);
+}
+
 void test_weights_and_noises_have_names_and_decades() {
   const auto all = of(plant +
                       "[lqr]\nQ = [4, 0]\nR = [[0.1]]\n[kalman]\nprocess_noise = [[1e-3, 0], [0, 2]]\n"
@@ -180,6 +203,7 @@ void test_every_slider_of_every_design_sets_its_number() {
 int main(int argc, char** argv) {
   design_files.assign(argv + 1, argv + argc);
   UNITY_BEGIN();
+  RUN_TEST(test_parameters_that_are_numbers_have_sliders);
   RUN_TEST(test_weights_and_noises_have_names_and_decades);
   RUN_TEST(test_acceptable_values_and_limits_have_the_units_of_their_signals);
   RUN_TEST(test_sizes_of_disturbances_have_the_names_of_their_inputs);

@@ -109,6 +109,32 @@ class Values(InFolder):
         self.assertEqual(mass.replace(rho=0.5).tables["lqr"]["R"], [[0.5]])
         self.assertEqual(mass.replace({"name": "other"}).name, "other")
 
+    def test_parameters_and_expressions_are_those_of_the_file(self):
+        motor = {
+            "parameters": {"R": {"value": 2, "unit": "ohm"}, "Kt": 0.5, "J": 0.25, "T": "1/100"},
+            "A": [[0, 1], [0, "-Kt^2/(R*J)"]],
+            "B": [[0], ["Kt/(R*J)"]],
+            "domain": "continuous",
+            "sample_time": "T",
+            "Q": [1, 1],
+            "R": "R/2",
+            "limits": {"u_max": ["6*R"], "u_min": [-12]},
+        }
+        design = tinylqg.Design(**motor)
+        numbers = dict(motor, A=[[0, 1], [0, -0.5]], B=[[0], [1]], sample_time=0.01, R=1)
+        numbers["limits"] = {"u_max": [12], "u_min": [-12]}
+        numpy.testing.assert_array_equal(design.K, tinylqg.Design(**numbers).K)
+        result = design.solve()
+        self.assertEqual(result.parameters["R"], {"value": 2, "unit": "ohm"})
+        self.assertEqual(result.expressions["plant.A[1][1]"], {"value": -0.5, "expression": "-Kt^2/(R*J)"})
+        stronger = design.replace({"parameters.R": 4})
+        self.assertEqual(stronger.tables["parameters"]["R"], {"value": 4, "unit": "ohm"})
+        self.assertEqual(stronger.solve().expressions["plant.A[1][1]"].value, -0.25)
+        self.assertEqual(design.replace(rho=3).solve().expressions["lqr.R[0][0]"].value, 3)
+        design.plot("response")
+        with self.refused("plant.A", "Ktt", "did you mean `Kt`?"):
+            design.replace(A=[[0, 1], [0, "Ktt"]]).solve()
+
     def test_every_design_of_the_tree_is_replaced_by_itself(self):
         for file in DESIGNS:
             design = tinylqg.Design.load(file)

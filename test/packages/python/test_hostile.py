@@ -194,7 +194,6 @@ class Texts(InFolder):
             with self.refused(section):
                 tinylqg.design_text(([[1]], [[1]]), domain="discrete", sample_time=1, name="x", **{section: value})
         for key, value in (
-            ("sample_time", "soon"),
             ("sample_time", [1, 2]),
             ("sample_time", 10**400),
             ("domain", [1]),

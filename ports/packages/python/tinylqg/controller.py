@@ -65,7 +65,8 @@ class Controller:
 
         y : the ny outputs, a number where there is one; NaN or None is one that is missing. A design without a filter
             measures its states: then it is x, of nx numbers, inputs on their way included.
-        r : the references, in the order of the outputs in `track` or `integral`. None: as before, at first 0.
+        r : the references, in the order of the outputs in `track` or `integral`. None: as before, at first 0
+            or what the outputs are at the operating point.
         u : of an estimator alone, the inputs that act from now on. It gives back x̂.
 
         In filter form u depends on this y; in predictor form on those before, and u could be applied before y is there.
@@ -86,7 +87,7 @@ class Controller:
         return self.x if kind.is_estimator else array(made)
 
     def reset(self):
-        """All as at the start: x̂ = x0, r = 0."""
+        """All as at the start: x̂ = x0, r = 0 or that of the operating point."""
         self.engine.reset()
         self.forget()
 

@@ -56,6 +56,8 @@ class Design:
     Q : nx × nx.  R : nu × nu.  N : nx × nu.  The cost Σ xᵀQx + uᵀRu + 2xᵀNu, of a continuous plant ∫ … dt.
     W : nw × nw.  V : ny × ny.  Swv : nw × ny.  Of a continuous plant densities, unless kalman={"noise": "discrete"}.
         Q, R, W and V may be the list of their diagonal, and where 1 × 1 a number.
+    parameters : names for numbers, {"m": 2, "k": {"value": 8, "unit": "N/m"}, "w": "sqrt(k/m)"}. Over them every number
+        may be an expression: A=[[0, 1], ["-k/m", 0]].
     lqr, pole_placement, kalman, observer, compensator, limits, require, code : dictionaries with the keys of these
         sections of the design file: lqr={"track": ["angle"]}.
     uncertain, stage, scenario : a list of such dictionaries; one of uncertain or scenario may be a dictionary alone.
@@ -90,6 +92,7 @@ class Design:
         W: Matrix = None,
         V: Matrix = None,
         Swv: Matrix = None,
+        parameters: Optional[Words] = None,
         lqr: Optional[Words] = None,
         pole_placement: Optional[Words] = None,
         kalman: Optional[Words] = None,
@@ -129,6 +132,7 @@ class Design:
                 W=W,
                 V=V,
                 Swv=Swv,
+                parameters=parameters,
                 lqr=lqr,
                 pole_placement=pole_placement,
                 kalman=kalman,
@@ -207,7 +211,7 @@ class Design:
 
         design.replace(Q=[1, 2], rho=0.1), design.replace({"lqr.Q[1]": 3, "kalman.form": "predictor"}). A letter of the
         constructor or a key that only one section has needs no section; `rho` is the factor of R, or that of Bryson's
-        rule. None takes a key away. Comments of a design file are not kept.
+        rule. "parameters.m" keeps the parameter's unit. None takes a key away. Comments of a design file are not kept.
         """
         tables = with_values(self.tables, {**(values or {}), **more})
         return Design.from_text(toml.whole_document(tables), folder=self.folder)

@@ -10,6 +10,7 @@ from .plant import plant_table, two_dimensional
 from .words import unknown
 
 SECTIONS = (
+    "parameters",
     *("lqr", "pole_placement", "kalman", "observer", "compensator", "uncertain"),
     *("limits", "stage", "require", "code", "scenario"),
 )
@@ -48,7 +49,8 @@ def design_text(
 
     `sample_time` … `outputs` are keys of [plant]; Q, R and N those of [lqr]; W, V and Swv are process_noise,
     measurement_noise and cross_noise of [kalman]. Every other key is given in its section, as
-    `kalman={"gain": "online"}` or `stage=[{"from": 20, "R": [2]}]`. A number in place of a matrix is one of 1 × 1.
+    `kalman={"gain": "online"}` or `stage=[{"from": 20, "R": [2]}]`. A number in place of a matrix is one of 1 × 1. A
+    text in place of a number is an expression over `parameters`: `parameters={"m": 2}, B=[[0], ["1/m"]]`.
     lqgen checks the whole.
     """
     for word in sections:
@@ -65,7 +67,7 @@ def design_text(
         "inputs": inputs,
         "outputs": outputs,
     }
-    tables = {"plant": plant_table(plant, given)}
+    tables = {"parameters": sections.get("parameters"), "plant": plant_table(plant, given)}
     tables["lqr"] = merged("lqr", sections, {"Q": Q, "R": R, "N": N})
     tables["kalman"] = merged("kalman", sections, {"process_noise": W, "measurement_noise": V, "cross_noise": Swv})
     for section in SECTIONS:

@@ -96,7 +96,7 @@ def with_time(path, plant, Ts):
     if Ts is None:
         return plant
     period = scalar("sample_time", shaped("Ts", Ts))
-    if period < 0:
+    if isinstance(period, str) or period < 0:
         raise expected(path, "Ts = 0 (continuous) or the sample time in s", period)
     timed_plant = timed({}, period)
     for key, value in timed_plant.items():

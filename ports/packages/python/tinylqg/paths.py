@@ -52,6 +52,8 @@ def set_rho(tables, rho):
 
 
 def scaled(value, factor):
+    if isinstance(value, str):
+        return f"({value})*{factor!r}"
     return [scaled(item, factor) for item in value] if isinstance(value, list) else value * factor
 
 
@@ -68,6 +70,8 @@ def set_value(tables, path, value):
         entry(place, steps[-1], path)
     elif not isinstance(place, dict):
         raise expected(path, "a place in a table or a list", "one in a number or a text")
+    elif steps[0] == "parameters" and isinstance(place.get(steps[-1]), dict) and not isinstance(value, dict):
+        place, steps = place[steps[-1]], [*steps, "value"]  # the unit stays
     place[steps[-1]] = value
 
 
@@ -135,4 +139,9 @@ def sections():
 
     tables = json.loads(run_lqgen("--schema")[0])["properties"]
     keys = {name: table.get("properties") or table.get("items", {}).get("properties") for name, table in tables.items()}
-    return {name: tuple(table) for name, table in keys.items() if table}
+    return {name: tuple(keys[name] or ()) for name, table in tables.items() if keys[name] or is_open(table)}
+
+
+def is_open(table):
+    """[parameters], whose keys are anybody's."""
+    return "additionalProperties" in table and table["additionalProperties"] is not False

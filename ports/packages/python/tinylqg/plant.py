@@ -10,7 +10,7 @@ from .transfer import state_space
 
 NO_SAMPLE_TIME = "the plant is continuous: expected sample_time=…, the loop's period in s"
 
-SCALARS = {"domain": str, "sample_time": (int, float)}
+SCALARS = {"domain": str, "sample_time": (int, float, str)}  # a text for a time is an expression
 
 
 def plant_table(system, given):
@@ -70,6 +70,8 @@ def timed(matrices, dt):
     if dt is True:
         raise expected("plant.dt", "the sample time in s", "True, a discrete plant of unknown sample time")
     dt = scalar("sample_time", dt)
+    if isinstance(dt, str):
+        raise expected("plant.sample_time", "a number", repr(dt))
     if dt == 0:
         return {"domain": "continuous", **matrices}
     if not dt > 0:
@@ -89,10 +91,10 @@ def of_matrices(system, domain):
 
 
 def two_dimensional(matrix):
-    """A matrix as it is, a number as 1 × 1, that of NumPy, too."""
+    """A matrix as it is, a number or an expression as 1 × 1, a number of NumPy, too."""
     if getattr(matrix, "ndim", None) == 0:
         matrix = matrix.item()
-    return [[matrix]] if isinstance(matrix, (int, float)) and not isinstance(matrix, bool) else matrix
+    return [[matrix]] if isinstance(matrix, (int, float, str)) and not isinstance(matrix, bool) else matrix
 
 
 def is_of_scipy(system):

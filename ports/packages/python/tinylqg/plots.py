@@ -60,13 +60,20 @@ def draw_outputs(axes, run, design):
     axes.set_ylabel("outputs")
 
 
+def number_at(design, key, value):
+    """A number of the design file, or what the expression that stands there gives."""
+    return design.solve().expressions[key].value if isinstance(value, str) else value
+
+
 def draw_inputs(axes, run, design):
     limits = design.tables.get("limits", {})
     for i, name in enumerate(run.names.inputs):
         (line,) = axes.step(run.t, run.u[:, i], where="post", label=name)
         for key in ("u_min", "u_max"):
-            if i < len(limits.get(key, [])) and abs(limits[key][i]) < float("inf"):
-                axes.axhline(limits[key][i], linestyle=":", color=line.get_color())
+            if i < len(limits.get(key, [])):
+                limit = number_at(design, f"limits.{key}[{i}]", limits[key][i])
+                if abs(limit) < float("inf"):
+                    axes.axhline(limit, linestyle=":", color=line.get_color())
     axes.set_ylabel("inputs")
 
 

@@ -39,7 +39,8 @@ class Result(Table):
         computes while no limit acts, with r = 0 or, with `references`, with r as further inputs. "sensed": from u to y,
         the plant as the controller sees it; with the controller it closes the loop that has design.loop.poles. It is
         the plant, but without a filter y is the state, and in the filter form y is taken while the last u acts: where D
-        ≠ 0, that u is a state. With stages, controller and plant are the last ones here.
+        ≠ 0, that u is a state. With stages, controller and plant are the last ones here. All of them are of deviations
+        from `plant.operating_point`, where the design has one.
         """
         if part == "plant":
             return loop.plant(self)

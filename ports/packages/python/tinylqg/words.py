@@ -55,7 +55,22 @@ HOMES = {
 
 KNOWN = (
     *("name", "brief", "A", "B", "C", "D", "G", "H", "sample_time", "domain", "delay", "states", "inputs", "outputs"),
-    *("Q", "R", "N", "W", "V", "Swv", "lqr", "pole_placement", "kalman", "observer", "limits", "stage", "require"),
+    *(
+        "Q",
+        "R",
+        "N",
+        "W",
+        "V",
+        "Swv",
+        "parameters",
+        "lqr",
+        "pole_placement",
+        "kalman",
+        "observer",
+        "limits",
+        "stage",
+        "require",
+    ),
     *("code", "scenario"),
 )
 
