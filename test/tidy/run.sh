@@ -27,7 +27,8 @@ print("\n".join(unit for unit in units if re.search(sys.argv[2], unit)))
 END
 )
 [ -n "$units" ] || lqg_stop "no unit is called $chosen"
-# tidy <ending> [option…]: the units that end so. The C headers are looked at as C: as C++ they would be asked for `using`.
+# tidy <ending> [option…]: the units that end so. The C headers are looked at as C: as C++ they would be asked for
+# `using`.
 tidy() {
   local ending=$1
   shift
