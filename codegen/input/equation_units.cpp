@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "input/equation_units.hpp"
 
-#include <optional>
 #include <variant>
+
+#include "input/unit_check.hpp"
 
 namespace lqg::input {
 
@@ -13,13 +14,14 @@ bool EquationUnits::check() const {
   const auto key = [](const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; };
   bool good = true;
   for (std::size_t i = 0; i < values_.equations->f.size(); ++i) {
-    Measure wanted = unit_of("plant.states", i);
+    Measure wanted = measure_of_signal(values_, "plant.states", i);
     if (is_continuous) wanted.unit = wanted.unit / *expression::parse_unit("s");
     good = check_formula(key("plant.f", i), f_->items[i], *values_.equations->f[i], wanted) && good;
   }
   for (std::size_t i = 0; i < values_.equations->h.size(); ++i)
-    good =
-        check_formula(key("plant.h", i), h_->items[i], *values_.equations->h[i], unit_of("plant.outputs", i)) && good;
+    good = check_formula(key("plant.h", i), h_->items[i], *values_.equations->h[i],
+                         measure_of_signal(values_, "plant.outputs", i)) &&
+           good;
   return good;
 }
 
@@ -29,7 +31,8 @@ bool EquationUnits::check_formula(const std::string& key, const Node& text, cons
   const auto found = expression::measure_of(tree, [&](const expression::Node& node) {
     if (node.kind != expression::Node::Kind::variable) return of_parameters_(node);
     const std::size_t at = static_cast<std::size_t>(node.index);
-    return at < nx ? unit_of("plant.states", at) : unit_of("plant.inputs", at - nx);
+    return at < nx ? measure_of_signal(values_, "plant.states", at)
+                   : measure_of_signal(values_, "plant.inputs", at - nx);
   });
   if (const auto* fault = std::get_if<expression::Fault>(&found)) {
     report_.error(key, places_.of(text, fault->at), fault->message);
@@ -41,14 +44,6 @@ bool EquationUnits::check_formula(const std::string& key, const Node& text, cons
   report_.error(key, text.where,
                 "expected a formula in " + in_words(wanted.unit) + ", found one in " + in_words(measure.unit));
   return false;
-}
-
-// As it is written behind the name of a signal.
-Measure EquationUnits::unit_of(const std::string& key, std::size_t i) const {
-  const auto found = values_.signals.find(key);
-  if (found == values_.signals.end() || i >= found->second.size() || found->second[i].unit.empty()) return {};
-  const std::optional<expression::Unit> unit = expression::parse_unit(found->second[i].unit);
-  return unit ? Measure{Measure::Kind::known, *unit} : Measure{};
 }
 
 }  // namespace lqg::input

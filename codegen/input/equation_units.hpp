@@ -25,7 +25,6 @@ class EquationUnits {
  private:
   bool check_formula(const std::string& key, const Node& text, const expression::Node& tree,
                      const expression::Measure& wanted) const;
-  expression::Measure unit_of(const std::string& key, std::size_t i) const;
 
   const Node *f_, *h_;
   expression::MeasureOf of_parameters_;

@@ -93,9 +93,7 @@ EntryOfKey entry_behind(const std::string& key, const Place& place) {
 
 // The unit of a signal of the file.
 OptionalUnit unit_of_signal(const Values& values, const char* key, std::size_t index) {
-  const auto found = values.signals.find(key);
-  if (found == values.signals.end() || index >= found->second.size()) return std::nullopt;
-  const Measure measure = measure_of_unit(found->second[index].unit);
+  const Measure measure = measure_of_signal(values, key, index);
   return measure.kind == Measure::Kind::known ? OptionalUnit(measure.unit) : std::nullopt;
 }
 
@@ -146,6 +144,12 @@ Measure measure_of_unit(const std::string& unit) {
   if (unit.empty()) return {};
   const OptionalUnit parsed = expression::parse_unit(unit);
   return parsed ? Measure{Measure::Kind::known, *parsed} : Measure();
+}
+
+Measure measure_of_signal(const Values& values, const std::string& key, std::size_t index) {
+  const auto found = values.signals.find(key);
+  if (found == values.signals.end() || index >= found->second.size()) return {};
+  return measure_of_unit(found->second[index].unit);
 }
 
 void check_units(const Formulas& formulas, const Parameters& parameters, const Values& values,

@@ -15,5 +15,7 @@ void check_units(const Formulas& formulas, const Parameters& parameters, const V
 
 // The unit of a signal as it is written; unknown where there is none or a strange one.
 expression::Measure measure_of_unit(const std::string& unit);
+// That of signal `index` of "plant.states" and their like.
+expression::Measure measure_of_signal(const Values& values, const std::string& key, std::size_t index);
 
 }  // namespace lqg::input
